@@ -411,3 +411,60 @@ fn a_saved_run_knows_its_force_and_its_pieces() {
     let turned = split::turned::Halves::default();
     assert!(Integrator::resume(&turned, Strang, run.checkpoint()).is_err());
 }
+
+hamiltonian! {
+    /// A damping for each site.
+    pub struct Rubbed { n: usize, m: usize, gamma: [n][m] }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) { (p[i][j]^2 + u[i][j]^2)/2 };
+    force(u[i][j]; p[i][j]) = -gamma[i][j]*p[i][j] + i - 2*j
+}
+
+hamiltonian! {
+    /// Columns that are written out.
+    pub struct Columns { n: usize }
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/2 };
+    force(q[i][j]; p[i][j]) = -[2, 3, 5][j]*p[i][j] + i*q[i][j]
+}
+
+hamiltonian! {
+    /// Two names on three axes: a force is a vector.
+    pub struct Stacked { n: usize, m: usize, k: usize }
+    H(u[n][m][k]; p[n][m][k]) = sum(i in 0..n, j in 0..m, l in 0..k) { p[i][j][l]^2/2 };
+    force(u[i][j]; p[i][j]) = -(i + 1)*p[i][j] + j*u[i][j]
+}
+
+#[test]
+fn a_force_is_written_for_an_element() {
+    let value =
+        |[i, j, l]: [usize; 3], salt: usize| ((7 * i + 5 * j + 3 * l + 11 * salt) as f64).sin();
+    let nested = |n, m, salt| -> Vec<Vec<f64>> {
+        let row = |i| (0..m).map(|j| value([i, j, 0], salt)).collect();
+        (0..n).map(row).collect()
+    };
+    let places = |n, m| (0..n).flat_map(move |i| (0..m).map(move |j: usize| (i, j)));
+    let rubbed = Rubbed::new(3, 6, nested(3, 6, 2)).unwrap();
+    let force = rubbed.force(&State::new(nested(3, 6, 0), nested(3, 6, 1)));
+    for (i, j) in places(3, 6) {
+        let due = -nested(3, 6, 2)[i][j] * nested(3, 6, 1)[i][j] + i as f64 - 2.0 * j as f64;
+        assert!((force[[i, j]] - due).abs() < 1e-14, "[{i}][{j}]");
+    }
+    let array = |salt| [0, 1, 2, 3].map(|i| [0, 1, 2].map(|j| value([i, j, 0], salt)));
+    let columns = Columns::new(4).unwrap();
+    let force = columns.force(&State::new(array(0).to_vec(), array(1).to_vec()));
+    for (i, j) in places(4, 3) {
+        let due = -[2.0, 3.0, 5.0][j] * array(1)[i][j] + i as f64 * array(0)[i][j];
+        assert!((force[(i, j)] - due).abs() < 1e-14, "[{i}][{j}]");
+    }
+    let stack =
+        |salt| [0, 1].map(|i| [0, 1, 2].map(|j| [0, 1, 2, 3].map(|l| value([i, j, l], salt))));
+    let force = Stacked::new(2, 3, 4).unwrap().force(&State::new(
+        stack(0).map(Vec::from).to_vec(),
+        stack(1).map(Vec::from).to_vec(),
+    ));
+    for (i, j) in places(2, 3) {
+        for l in 0..4 {
+            let due = -(i as f64 + 1.0) * stack(1)[i][j][l] + j as f64 * stack(0)[i][j][l];
+            assert!((force[[i, j, l]] - due).abs() < 1e-14, "[{i}][{j}][{l}]");
+        }
+    }
+}

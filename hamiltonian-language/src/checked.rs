@@ -64,8 +64,8 @@ pub struct Checked {
     pub split_assumed: bool,
     /// `force(q; p) = …`: one value a group, of the group's type; empty without one.
     pub force: Vec<NodeId>,
-    /// The i of `force(q[i]; p[i]) = …`; `force` is the value at row i.
-    pub force_row: Option<Domain>,
+    /// The i of `force(q[i]; p[i]) = …`, the i and j of `force(u[i][j]; p[i][j]) = …`; `force` is the value there.
+    pub force_rows: Vec<Domain>,
     /// `dt = g*ds`: g, a scalar, with the first word of the statement.
     pub time_factor: Option<(NodeId, Span)>,
     /// `coordinates polar(x, y)`.

@@ -1,11 +1,12 @@
-//! Forces: `force(q; p) = …`, and `force(q[i]; p[i]) = …` for the row of an array.
+//! Forces: `force(q; p) = …`, `force(q[i]; p[i]) = …` for the row of an array, and `force(u[i][j]; p[i][j]) = …` for
+//! its element.
 //!
 //! Input: the statement. Output: one value a group of momenta. Invariant: a value has the shape of the
 //! momenta it acts on.
 
 use super::Checker;
 use crate::ast::{ExprKind, Expression, Signature, Size, Statement};
-use crate::checked::{Extent, Kind, Loop, Type};
+use crate::checked::{Kind, Loop, Type};
 use crate::names::listed;
 use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
@@ -26,8 +27,8 @@ impl Checker<'_> {
         }
         let count = self.out.groups.len();
         let root = value.root;
-        if let Some((name, rows, ty)) = self.row(signature) {
-            self.force_at_row(&name, rows, ty, value);
+        if let Some(names) = self.rows(signature) {
+            self.force_at_rows(&names, value);
             return;
         }
         let items = match &self.ast.nodes[root.0 as usize].kind {
@@ -89,54 +90,60 @@ impl Checker<'_> {
         }
     }
 
-    /// The i of `force(q[i]; p[i])`, if i is not a size, with the number of rows and the type of a
-    /// row.
-    fn row(&self, signature: &Signature) -> Option<(Ident, Extent, Type)> {
+    /// The names i, j of `force(u[i][j]; p[i][j])`, at most one for each extent, if none is a size.
+    fn rows(&self, signature: &Signature) -> Option<Vec<Ident>> {
         let [group] = &self.out.groups[..] else {
             return None;
         };
-        let (rows, ty) = group.ty.rows()?;
+        let name = |size: &Size| match size {
+            Size::Name(name) => Some(name.clone()),
+            Size::Literal(..) => None,
+        };
         let variables = signature.sections.iter().take(2).flatten();
-        let names = variables.map(|variable| match &variable.sizes[..] {
-            [Size::Name(name)] => Some(name),
-            _ => None,
-        });
-        let names: Vec<&Ident> = names.collect::<Option<_>>()?;
-        let (first, rest) = names.split_first()?;
-        let is_size = self.out.sizes.iter().any(|size| size.name == **first);
-        (!is_size && rest.iter().all(|name| name == first)).then(|| ((*first).clone(), rows, ty))
+        let mut names = variables.map(|variable| variable.sizes.iter().map(name).collect());
+        let first: Vec<Ident> = names.next()??;
+        let is_size = |name: &Ident| self.out.sizes.iter().any(|size| size.name == *name);
+        let is_some = !first.is_empty() && first.len() <= group.ty.extents().len();
+        let is_every = names.all(|names: Option<Vec<Ident>>| names.as_ref() == Some(&first));
+        (is_some && is_every && !first.iter().any(is_size)).then_some(first)
     }
 
-    /// `force(q[i]; p[i]) = …`: the force on row i.
-    fn force_at_row(&mut self, name: &Ident, rows: Extent, ty: Type, value: &Expression) {
-        let symbol = self.ast.symbols.find(&name.to_string());
-        if let Some(binding) = symbol.and_then(|symbol| self.bindings[symbol.0 as usize]) {
-            let message = format!(
-                "`{name}` is used twice: it is {} already",
-                self.described(binding)
-            );
-            self.report
-                .error(name.span(), message, "choose another name for the row");
-            return;
+    /// `force(q[i]; p[i]) = …`: the force on row i, or with more names on an element.
+    fn force_at_rows(&mut self, names: &[Ident], value: &Expression) {
+        let (mut arguments, mut ty) = (Vec::new(), self.out.groups[0].ty);
+        for (axis, name) in names.iter().enumerate() {
+            let symbol = self.ast.symbols.find(&name.to_string());
+            let binding = symbol.and_then(|symbol| self.bindings[symbol.0 as usize]);
+            let of = if axis == 0 { "row" } else { "index" };
+            let known = match binding {
+                Some(binding) => Some(self.described(binding)),
+                None => names[..axis].contains(name).then_some("an index"),
+            };
+            if let Some(known) = known {
+                let message = format!("`{name}` is used twice: it is {known} already");
+                let help = format!("choose another name for the {of}");
+                self.report.error(name.span(), message, help);
+                return;
+            }
+            let Some((rows, inner)) = ty.rows() else {
+                return;
+            };
+            ty = inner;
+            let id = Domain(self.out.loops.len() as u32);
+            self.out.loops.push(Loop {
+                name: name.clone(),
+                lower: Affine::default(),
+                upper: rows.affine(),
+            });
+            self.out.force_rows.push(id);
+            let index = Some(Affine::variable(id));
+            let row = self.push_affine(value.root, Kind::Loop(id), Type::Scalar, index);
+            arguments.extend(symbol.map(|symbol| (symbol, row)));
         }
-        let id = Domain(self.out.loops.len() as u32);
-        self.out.loops.push(Loop {
-            name: name.clone(),
-            lower: Affine::default(),
-            upper: rows.affine(),
-        });
-        self.out.force_row = Some(id);
-        let row = self.push_affine(
-            value.root,
-            Kind::Loop(id),
-            Type::Scalar,
-            Some(Affine::variable(id)),
-        );
-        self.active.push(id);
         let root = value.root;
-        let arguments = symbol.map(|symbol| (symbol, row)).into_iter().collect();
+        self.active.extend(&self.out.force_rows);
         let frame = self.visit(value, arguments, None);
-        self.active.pop();
+        self.active.truncate(self.active.len() - names.len());
         let Some((value, found)) = self.number(root, &frame) else {
             return;
         };
@@ -144,13 +151,14 @@ impl Checker<'_> {
             self.out.force = vec![value];
             return;
         }
+        let indices: String = names.iter().map(|name| format!("[{name}]")).collect();
         let momentum = &self.out.groups[0].momentum;
         let message = format!(
-            "expected a force of the shape of `{momentum}[{name}]`, {}, found {}",
+            "expected a force of the shape of `{momentum}{indices}`, {}, found {}",
             self.type_shown(ty),
             self.type_shown(found)
         );
-        let help = format!("write one value of that shape, such as `-c*{momentum}[{name}]`");
+        let help = format!("write one value of that shape, such as `-c*{momentum}{indices}`");
         self.error_over(root, message, help);
     }
 

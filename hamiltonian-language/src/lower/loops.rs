@@ -1,4 +1,4 @@
-//! Loops of sums, and the row of a force: their nesting, the expressions that depend on them, and
+//! Loops of sums, and the rows of a force: their nesting, the expressions that depend on them, and
 //! the loops that are unrolled.
 //!
 //! Input: [`Checked`]. Output: [`Loops`]. Invariants: a loop is unrolled only where its variable
@@ -52,12 +52,21 @@ impl Loops {
             let by_number = loops.is_by_number(checked, node);
             loops.by_number.push(by_number);
         }
-        if let Some(id) = checked.force_row {
-            let is_literal = checked.loops[id.0 as usize].upper.as_constant().is_some();
-            if !checked.charts.is_empty() && is_literal {
+        let mut around = None;
+        for (axis, id) in checked.force_rows.iter().copied().enumerate() {
+            let number = id.0 as usize;
+            let is_literal = checked.loops[number].upper.as_constant().is_some();
+            let is_column = axis > 0 && !checked.groups[0].is_lattice;
+            if is_column || !checked.charts.is_empty() && is_literal {
                 loops.unrolled |= Set::of(id);
             }
-            loops.numbers[id.0 as usize] = loops.unrolled & Set::of(id);
+            if loops.is_unrolled(id) {
+                loops.numbers[number] = Set::of(id);
+                continue;
+            }
+            loops.depths[number] = axis as u32;
+            loops.parents[number] = around;
+            around = Some(id);
         }
         // Bounds of a loop that is unrolled are numbers; they read only loops before it.
         for (at, one) in checked.loops.iter().enumerate().rev() {

@@ -216,10 +216,10 @@ impl Evaluator<'_> {
             let (rows, columns) = (shape.rows().cloned(), shape.columns());
             // A force is transformed element by element to other coordinates, and the components of
             // some vectors can be chosen by number only.
-            let at_row = self.checked.force_row;
+            let at_rows = &self.checked.force_rows[..];
             let by_number = !self.checked.charts.is_empty()
-                || match at_row {
-                    Some(id) => self.demands.loops.is_unrolled(id),
+                || match at_rows.first() {
+                    Some(id) => self.demands.loops.is_unrolled(*id),
                     None => {
                         matches!(shape, Shape::Vector(_)) && self.demands.loops.by_number(*root)
                     }
@@ -245,14 +245,21 @@ impl Evaluator<'_> {
                 .flat_map(|row| (0..columns).map(move |column| (row, column)))
             {
                 let mut demand = Demand::default();
-                match (at_row, row.affine.as_constant()) {
-                    (Some(id), Some(number)) => demand.values.push((id, number)),
-                    (Some(_), None) => demand.indices.extend(row.axes().into_iter().skip(1)),
-                    (None, _) if shape == Shape::Scalar => {}
-                    (None, _) => demand.indices.extend(row.axes()),
+                match (at_rows, row.affine.as_constant()) {
+                    ([id, ..], Some(number)) => demand.values.push((*id, number)),
+                    ([_, ..], None) => {
+                        let inner = row.axes().into_iter().skip(at_rows.len());
+                        demand.indices.extend(inner);
+                    }
+                    ([], _) if shape == Shape::Scalar => {}
+                    ([], _) => demand.indices.extend(row.axes()),
                 }
                 if matches!(shape, Shape::Matrix(..)) {
-                    demand.indices.push(Index::constant(i64::from(column)));
+                    let column = i64::from(column);
+                    match at_rows {
+                        [_, id] => demand.values.push((*id, column)),
+                        _ => demand.indices.push(Index::constant(column)),
+                    }
                 }
                 let value = self.values(model, &[(*root, demand)])?[0];
                 let at = Column {

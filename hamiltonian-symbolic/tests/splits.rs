@@ -140,6 +140,48 @@ fn limits_that_are_met_are_named() {
     assert_eq!(chain(9), Ok(Some(Limit::Components)));
 }
 
+/// So does a search that has spent its budget: comparisons, products, expressions. Fewer terms, or lower powers, are
+/// far within the budget.
+#[test]
+fn budgets_that_are_spent_are_named() {
+    // Radicands that are equal when they are multiplied out: each pair of terms takes a comparison.
+    let squares = ["q^2 + p^2", "(q + p)^2 - 2*q*p", "(q - p)^2 + 2*q*p"];
+    let roots = |count| {
+        let root = |k: usize| format!("sqrt({k} + {})", squares[k % 3]);
+        limit_of_piece("q; p", &sum_of(count, root))
+    };
+    assert_eq!(roots(6), Err(1));
+    assert_eq!(roots(18), Ok(Some(Limit::Parts)));
+    assert_eq!(roots(36), Ok(Some(Limit::Comparisons)));
+
+    // Quotients: each comparison takes many products.
+    let quotients = |count| {
+        let term = |k| format!("sin({k}*x*u + {k}*y*v)/(1 + {k}*x^2*v^2)");
+        limit_of_piece("x, y; u, v", &sum_of(count, term))
+    };
+    assert_eq!(quotients(4), Ok(None));
+    assert_eq!(quotients(12), Ok(Some(Limit::Products)));
+
+    // Products of three functions, whose derivatives have many terms.
+    let waves = |count| {
+        let term = |k| format!("sin({k}*q*p)*exp({k}*q)*cos({k}*p)");
+        limit_of_search("q; p", "", &sum_of(count, term))
+    };
+    assert_eq!(waves(4), Ok(None));
+    assert_eq!(waves(16), Ok(Some(Limit::Expressions)));
+
+    // Powers that commute: one comparison multiplies their bracket out.
+    let powers = |power: u32| {
+        let (m, r) = ("x*v - y*u", "x^2 + y^2 + u^2 + v^2");
+        limit_of_piece(
+            "x, y; u, v",
+            &format!("({m})^{power} + ({r} + 1 + {m})^{power}"),
+        )
+    };
+    assert_eq!(powers(3), Err(1));
+    assert_eq!(powers(12), Ok(Some(Limit::Question)));
+}
+
 /// Sharing may cancel a prepared expression to a number, which has no name to be handed on by.
 #[test]
 fn numbers_are_not_handed_on() {

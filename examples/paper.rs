@@ -379,7 +379,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("RungeKutta4", "Runge–Kutta 4 (not symplectic)"),
     ];
     Figure {
-        title: "Figure 3: the same system for longer: what the paper did not see".into(),
+        title: "Figure 3: the same H in a longer run".into(),
         x: time.into(),
         y: "|H/H(0) − 1|".into(),
         logarithmic: true,

@@ -67,7 +67,7 @@ fn starts_without_values_are_refused() {
     };
     assert_eq!(refused(1.0, 1.0), "");
     let at = |x: &str, rest: &str| format!(" at the start t = 0, q = [{x}], p = [0.0]: {rest}");
-    let place = "start where H and its first derivatives are finite";
+    let place = "choose a start and parameters at which H and its first derivatives are finite";
     assert_eq!(refused(1.0, -1.0), format!("H is NaN{}", at("-1.0", place)));
     assert_eq!(
         refused(1.0, 0.0),

@@ -273,7 +273,7 @@ pub enum Error {
     },
     /// A time that lies behind the run.
     #[error(
-        "{clock} = {} lies behind the run, which is at {clock} = {}", Number(*.target), Number(*.now)
+        "{clock} = {} lies behind the run, which is at {clock} = {}: a step of the other sign leads there", Number(*.target), Number(*.now)
     )]
     Behind {
         /// The name of the run's time: `t`, in another time the one that it has there.
@@ -306,8 +306,8 @@ pub enum Error {
     Event {
         /// Its name.
         name: String,
-        /// Why it cannot.
-        reason: &'static str,
+        /// Why it cannot, and a remedy.
+        reason: String,
     },
     /// An error of one member of an ensemble.
     #[error("member {index}: {error}")]

@@ -14,9 +14,11 @@ use crate::error::Error;
 use crate::observe::{Follower, Observer, Quantity, Section, View, one_trajectory};
 use crate::root::{Sample, dip, root, side};
 use crate::state::State;
-use crate::system::{Dynamics, System};
+use crate::system::{Dynamics, Observable, System};
 use crate::vector::Vector;
 use alloc::collections::VecDeque;
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::cell::OnceCell;
 use core::ops::ControlFlow;
@@ -121,6 +123,20 @@ impl<T: Real> Track<T> {
     }
 }
 
+/// Why an event of an unknown name cannot be located, with the names that are known.
+fn unknown(name: &str, known: &[Observable]) -> String {
+    let mut text = String::from("the system declares none of this name\nhelp: ");
+    let mut lead = "it declares";
+    for one in known {
+        text.push_str(&format!("{lead} `{}`", one.name));
+        lead = ",";
+    }
+    if known.is_empty() {
+        text.push_str(&format!("declare it, `event {name} = …`"));
+    }
+    text
+}
+
 impl<V: Vector> Events<V> {
     /// An observer of these events.
     pub fn new(events: impl IntoIterator<Item = Event<V>>) -> Self {
@@ -179,7 +195,7 @@ impl<V: Vector> Events<V> {
         for (number, event) in self.events.iter().enumerate() {
             let observable = S::observable_index(&event.name);
             if event.function.is_none() && observable.is_none() {
-                return Err(self.refuse(number, "the system declares none of this name"));
+                return Err(self.refuse(number, unknown(&event.name, S::OBSERVABLES)));
             }
             if event
                 .period
@@ -203,11 +219,11 @@ impl<V: Vector> Events<V> {
         Ok(())
     }
 
-    fn refuse(&self, event: usize, reason: &'static str) -> Error {
+    fn refuse(&self, event: usize, reason: impl Into<String>) -> Error {
         let name = self.events.get(event).map(|event| event.name.clone());
         Error::Event {
             name: name.unwrap_or_default(),
-            reason,
+            reason: reason.into(),
         }
     }
 

@@ -60,7 +60,8 @@ pub struct Observable {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a Hamiltonian system",
     label = "expected a system of `hamiltonian!`",
-    note = "in generic code bound it by what is used: `S: System<f64>` for energies and gradients, and what the scheme requires, such as `S: Separable<f64>` or `S: Split<f64>`, for a run"
+    note = "in generic code bound it by what is used: `S: System<f64>` for energies and gradients, and what the scheme requires, such as `S: Separable<f64>` or `S: Split<f64>`, for a run",
+    note = "`new` of a system whose sizes are set at run time returns a `Result`: write `Name::new(…)?`"
 )]
 pub trait System<T: Real> {
     /// The type of the coordinates, and of the momenta, which have the same shape.

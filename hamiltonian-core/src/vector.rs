@@ -20,6 +20,11 @@ use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVec
 ///
 /// The provided methods are all the linear algebra that schemes need. They are loops over the
 /// parts; the flat index runs through part 0, then part 1, and so on.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not store coordinates",
+    label = "expected the coordinates or the momenta of a state",
+    note = "write `State::new([0.5], [0.0])`, which converts arrays and `Vec`s; the fields of a `State` have other types"
+)]
 pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The scalar of every component.
     type Scalar: Real;

@@ -358,9 +358,19 @@ fn events_that_cannot_be_located_are_errors() {
     let error = run.advance(1).unwrap_err();
     assert_eq!(
         text(error),
-        "the event `nothing` cannot be located: the system declares none of this name"
+        "the event `nothing` cannot be located: the system declares none of this name\n\
+         help: declare it, `event nothing = …`"
     );
     assert!(run.advance(1).is_err());
+    let swing = Integrator::new(
+        &pendulum(false),
+        StormerVerlet::default(),
+        State::new([0.5], [0.0]),
+        0.1,
+    );
+    let mut run = swing.unwrap().observe(Events::new([Event::named("hight")]));
+    let error = text(run.advance(1).unwrap_err());
+    assert!(error.ends_with("help: it declares `height`"), "{error}");
     let mut run = new().observe(Events::new([at("t", |t| t).modulo(-1.0)]));
     let error = run.advance(1).unwrap_err();
     assert_eq!(

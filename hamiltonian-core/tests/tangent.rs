@@ -385,14 +385,15 @@ fn a_start_without_derivative_parts_is_refused() {
     let refused = Tangent::new(&Hand(Edge), RungeKutta4, start(), 0.1, 1).err();
     assert_eq!(
         refused.expect("it has no derivative").to_string(),
-        "the derivative part of H is NaN at the start t = 0, q = [0.0], p = [1.0]: start where H and its first \
-         and second derivatives are finite"
+        "the derivative part of H is NaN at the start t = 0, q = [0.0], p = [1.0]: choose a start and parameters at \
+         which H and its first and second derivatives are finite"
     );
     // The control: values themselves.
     let refused = Integrator::new(&Hand(Edge), RungeKutta4, start(), 0.1).err();
     assert_eq!(
         refused.expect("it has no derivative").to_string(),
-        "∂H/∂q is NaN at the start t = 0, q = [0.0], p = [1.0]: start where H and its first derivatives are finite"
+        "∂H/∂q is NaN at the start t = 0, q = [0.0], p = [1.0]: choose a start and parameters at which H and its first \
+         derivatives are finite"
     );
 }
 

@@ -261,7 +261,7 @@ fn errors_name_the_time() {
     );
     assert_eq!(
         message(run.advance_until(-1e200).err()),
-        "s = -1e200 lies behind the run, which is at s = 0.25"
+        "s = -1e200 lies behind the run, which is at s = 0.25: a step of the other sign leads there"
     );
     let beyond = message(run.advance_until(1e200).err());
     assert!(

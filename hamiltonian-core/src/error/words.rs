@@ -72,9 +72,12 @@ impl Display for Remedy<'_> {
             Some(parameter) => write!(f, "the parameter `{parameter}` must be finite"),
             None if self.1 => write!(
                 f,
-                "start where H and its first and second derivatives are finite"
+                "choose a start and parameters at which H and its first and second derivatives are finite"
             ),
-            None => write!(f, "start where H and its first derivatives are finite"),
+            None => write!(
+                f,
+                "choose a start and parameters at which H and its first derivatives are finite"
+            ),
         }
     }
 }

@@ -155,6 +155,8 @@ def main(source, target):
         )
         text = text.replace(f"<dots {k}>", path)
     text = re.sub(r'(font-size="\d+)\.\d+', r"\1", text)
+    # A page of the API that is narrower than the picture shows all of it.
+    text = text.replace("<svg width=", '<svg style="max-width:100%;height:auto" width=', 1)
     # An empty line would end the picture where it stands in Markdown.
     text = re.sub(r"\n\s*\n", "\n", text)
     with open(target, "w", encoding="utf-8") as file:

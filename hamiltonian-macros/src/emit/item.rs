@@ -209,7 +209,7 @@ fn collapsed(doc: &mut String, summary: &str, markdown: &str) {
 fn formula(doc: &mut String, math: &str) {
     let _ = write!(
         doc,
-        "\n<div style=\"overflow-x:auto\">\n<math display=\"block\">\n{math}\n</math>\n</div>\n"
+        "\n<div style=\"overflow:auto hidden;padding:.3em 0 .8em\">\n<math display=\"block\">\n{math}\n</math>\n</div>\n"
     );
 }
 

@@ -219,7 +219,7 @@ fn formulas_are_set() {
     let hamiltonian = section(&pendulum, "Hamiltonian");
     assert!(
         hamiltonian.starts_with(
-            "<div style=\"overflow-x:auto\">\n<math display=\"block\">\n<mi>H</mi><mo>=</mo><mfrac>"
+            "<div style=\"overflow:auto hidden;padding:.3em 0 .8em\">\n<math display=\"block\">\n<mi>H</mi><mo>=</mo><mfrac>"
         ),
         "{hamiltonian}"
     );

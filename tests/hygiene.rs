@@ -57,6 +57,8 @@ mod shadow {
     pub(crate) const t: i32 = 1;
     pub(crate) const v: i32 = 1;
     pub(crate) const c: i32 = 1;
+    pub(crate) const of: i32 = 1;
+    pub(crate) const other: i32 = 1;
     pub(crate) static M: i32 = 1;
     pub(crate) static i: i32 = 1;
 }

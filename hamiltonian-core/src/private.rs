@@ -44,7 +44,9 @@ pub use crate::system::{
 };
 pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
-pub use crate::{__computed_as_chosen as computed_as_chosen, __gathers as gathers};
+pub use crate::{
+    __computed_as_chosen as computed_as_chosen, __gathers as gathers, __timeless as timeless,
+};
 
 /// A group of coordinates with its rank, part, offset and columns.
 #[must_use]
@@ -294,6 +296,8 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
     }
 }
 
+// A constant of the user's may have the name of a variable, which would then be a pattern: variables begin with `_`.
+
 /// How a prepared system, a struct around what is held, stands in the lanes of a pack.
 #[macro_export]
 #[doc(hidden)]
@@ -303,38 +307,55 @@ macro_rules! __gathers {
         $($impl)* $crate::private::Gather<T> for $prepared {
             type Over<__U: $crate::private::Real> = $over;
             #[inline(always)]
-            fn gather<__P: $crate::private::Pack>(of: &[&Self]) -> Self::Over<T::Over<__P>> {
-                $name($crate::private::gathered::<T, __P, _, _>(of, |one| &one.0))
+            fn gather<__P: $crate::private::Pack>(_of: &[&Self]) -> Self::Over<T::Over<__P>> {
+                $name($crate::private::gathered::<T, __P, _, _>(_of, |_one| &_one.0))
             }
-            fn fits(&self, other: &Self) -> $crate::private::bool {
-                $crate::private::Carried::fits(&self.0, &other.0)
+            fn fits(&self, _other: &Self) -> $crate::private::bool {
+                $crate::private::Carried::fits(&self.0, &_other.0)
             }
-            fn equals(&self, other: &Self) -> $crate::private::bool {
-                self.fits(other) && $crate::private::Carried::equals(&self.0, &other.0)
+            fn equals(&self, _other: &Self) -> $crate::private::bool {
+                self.fits(_other) && $crate::private::Carried::equals(&self.0, &_other.0)
             }
         }
     };
 }
 
-/// The methods of a prepared system whose data begins with how it is computed, in lanes where there are some.
+/// The methods of a prepared system whose data begins with how it is computed, in lanes where there are some, and
+/// whose field is made of it alone.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __computed_as_chosen {
     ($scalar:ident) => {
         #[inline(always)]
+        fn field(&self, _c: $scalar) -> Self::Field {
+            Self::Field::fold(self, _c)
+        }
+        #[inline(always)]
         fn arithmetic(&self) -> $crate::private::Arithmetic {
             self.0.data.0
         }
-        fn set_arithmetic(&mut self, to: $crate::private::Arithmetic) {
-            self.0.data.0 = to;
+        fn set_arithmetic(&mut self, _to: $crate::private::Arithmetic) {
+            self.0.data.0 = _to;
         }
         #[inline(always)]
         fn in_lanes<__K: $crate::private::InLanes<$scalar, Self::Vector>>(
             &self,
-            kept: &mut $crate::private::Kept,
-            kernel: __K,
+            _kept: &mut $crate::private::Kept,
+            _kernel: __K,
         ) -> $crate::private::Option<__K::Output> {
-            $crate::private::in_lanes(self, kept, kernel)
+            $crate::private::in_lanes(self, _kept, _kernel)
+        }
+    };
+}
+
+/// The derivative by time of an H that does not depend on it.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __timeless {
+    ($scalar:ident) => {
+        #[inline(always)]
+        fn time_derivative(&self, _: $scalar, _: &Self::Vector, _: &Self::Vector) -> $scalar {
+            <$scalar as $crate::private::Real>::constant(0.0, 0.0)
         }
     };
 }

@@ -17,7 +17,9 @@ use super::{derived, observables, reach};
 use hamiltonian_symbolic::dag::Array;
 use hamiltonian_symbolic::model::{Model, Shape, VectorUse};
 use hamiltonian_symbolic::print;
-use hamiltonian_symbolic::program::{Function, Purpose, Step, Value};
+
+use hamiltonian_symbolic::program::{Function, Instruction, Purpose, Step, Value};
+use hamiltonian_symbolic::rational::Rational;
 use std::fmt::Write;
 
 /// Everything a definition implements that is the same in both forms, and the free functions that
@@ -192,8 +194,12 @@ impl<'a> Emission<'a> {
         ] {
             // Core's own gradient is one half after the other.
             let halves = [Purpose::GradientQ, Purpose::GradientP];
-            if !(purpose == Purpose::Gradient && are_apart(context.program, purpose, halves)) {
-                self.method(name, purpose, more, returns);
+            match purpose {
+                Purpose::Gradient if are_apart(context.program, purpose, halves) => {}
+                Purpose::TimeDerivative if is_timeless(context) => {
+                    line!(self, "__h::timeless!(T);");
+                }
+                _ => self.method(name, purpose, more, returns),
             }
         }
         if !context.model.observables.is_empty() {
@@ -213,11 +219,7 @@ impl<'a> Emission<'a> {
                  _op: &mut Self::Vector) {{\nself.v{at}(_t, _q, _p, _op);\n}}"
             );
         }
-        line!(
-            self,
-            "#[inline(always)]\nfn field(&self, _c: T) -> Self::Field {{\nSelf::Field::fold(self, _c)\n}}\n\
-             __h::computed_as_chosen!(T);\n}}"
-        );
+        line!(self, "__h::computed_as_chosen!(T);\n}}");
     }
 
     /// The arguments of an evaluation: t, and vectors that are read or written.
@@ -454,6 +456,16 @@ impl<'a> Emission<'a> {
             "#[inline]\nfn parameters(&self, {list}) -> {ty} {{\n{body}\n}}"
         );
     }
+}
+
+/// Returns true if the derivative of H by time is the constant 0.
+fn is_timeless(context: Context) -> bool {
+    let function = context.program.function(Purpose::TimeDerivative);
+    let is_zero = |value: &Value| match context.program.instruction(*value) {
+        Instruction::Constant(constant) => *constant == Rational::ZERO,
+        _ => false,
+    };
+    function.is_some_and(|function| function.results.iter().all(is_zero))
 }
 
 /// The body of a method: `_self` is the receiver, as parts that are free functions call it.

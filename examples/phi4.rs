@@ -103,9 +103,20 @@ fn bent(part: f64, fine: usize) -> Result<(f64, Vec<Curve>), Error> {
             let y = i as f64 * field.d;
             zeros(u, field.d, i).into_iter().map(move |x| (x, y))
         };
+        let ([rows, columns], d) = (u.extents(), field.d);
+        // Rows alone would leave gaps where a line is parallel to x.
+        let of_column = |j: usize| {
+            let crossing = move |i: usize| {
+                let (a, b) = (u[[i, j]], u[[i + 1, j]]);
+                let (x, y) = (j as f64 + 0.5, i as f64 + a / (a - b));
+                (a * b < 0.0).then_some((x * d - LENGTH / 2.0, y * d))
+            };
+            (0..rows - 1).filter_map(crossing)
+        };
+        let by_rows = (0..rows).flat_map(of_row);
         curves.push(Curve {
             name: format!("t = {t}"),
-            points: (0..u.extents()[0]).flat_map(of_row).collect(),
+            points: by_rows.chain((0..columns).flat_map(of_column)).collect(),
         });
     }
     Ok((run.observer().max_relative(), curves))

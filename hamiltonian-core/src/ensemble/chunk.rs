@@ -227,10 +227,10 @@ where
         false
     }
 
-    /// Writes what lanes follow for a member: nothing if they do not follow all that its observer follows.
+    /// Writes what lanes follow for a member whose observer sees something: nothing if they do not follow all that its observer follows.
     fn follows(&mut self, key: usize, into: &mut Follows<f64>) {
         let observer = &mut self.chunk.observers[key];
-        let can = self.looks && self.follows;
+        let can = self.follows;
         Follower::take(into, |with| can && observer.follow(with));
         // Observers that see their first state have yet to find where functions come from.
         if self.attaches && !into.sections.is_empty() {
@@ -258,11 +258,13 @@ where
         }
         self.next += 1;
         // The storage of the member before is used again.
-        let mut follows = match seat {
-            Some(seat) => core::mem::take(&mut seat.follows),
-            None => Follows::default(),
-        };
-        self.follows(key, &mut follows);
+        let mut follows = Follows::default();
+        if self.looks {
+            if let Some(seat) = seat {
+                core::mem::swap(&mut seat.follows, &mut follows);
+            }
+            self.follows(key, &mut follows);
+        }
         let (Some(prepared), Some(start), Some(template)) = (
             self.chunk.prepared.get(key),
             self.chunk.starts.get(key),

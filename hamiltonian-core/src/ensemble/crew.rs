@@ -21,6 +21,8 @@ pub(crate) struct Crew<T: Real, S: System<T>> {
     careful: bool,
     /// True if the host has members left.
     more: bool,
+    /// True if lanes follow the observer of any member so far.
+    follows: bool,
     change: Option<Change>,
 }
 
@@ -79,6 +81,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
             suspects: Vec::new(),
             careful: false,
             more: true,
+            follows: false,
             change: None,
         }
     }
@@ -93,7 +96,8 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         for (seat, place) in self.seats.iter_mut().zip(&mut self.place) {
             if *place == Place::Empty && (is_aligned || is_empty) {
                 self.more = self.more && host.load(seat);
-                if self.more {
+                if let Some(seat) = seat.as_ref().filter(|_| self.more) {
+                    self.follows |= !seat.follows.is_empty();
                     *place = Place::New;
                     self.change.get_or_insert_default();
                 }
@@ -123,9 +127,11 @@ impl<T: Real, S: System<T>> Crew<T, S> {
             let is_taken = self.place[lane] != Place::Empty;
             self.seats[lane].as_ref().filter(|_| is_taken)
         };
-        let stand_in = (0..self.place.len()).find_map(taken);
-        let lanes = 0..self.place.len();
-        lanes.filter_map(|lane| taken(lane).or(stand_in)).collect()
+        let mut seats = Vec::with_capacity(self.place.len());
+        if let Some(stand_in) = (0..self.place.len()).find_map(taken) {
+            seats.extend((0..self.place.len()).map(|lane| taken(lane).unwrap_or(stand_in)));
+        }
+        seats
     }
 
     /// Returns true if the crew has changed.
@@ -205,30 +211,35 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
+    /// The members under way whose drift is followed.
+    fn followed(&self) -> impl Iterator<Item = &Seat<T, S>> {
+        let any = self.follows.then(|| self.under()).into_iter().flatten();
+        any.filter(|seat| !seat.follows.drifts.is_empty())
+    }
+
     /// The steps between two states that the first member sees which is followed.
     fn interval(&self) -> u64 {
-        let followed = self.under().find(|seat| !seat.follows.drifts.is_empty());
+        let followed = self.followed().next();
         followed.map_or(1, |seat| seat.interval.max(1))
     }
 
     /// The steps since the last of them.
     fn phase(&self) -> u64 {
-        let followed = self.under().find(|seat| !seat.follows.drifts.is_empty());
+        let followed = self.followed().next();
         followed.map_or(0, |seat| seat.made % seat.interval.max(1))
     }
 
     /// The steps at which the lanes see states.
     pub(crate) fn schedule(&self) -> Schedule {
         let (interval, first) = (self.interval(), self.interval() - self.phase());
-        let followed = || self.under().filter(|seat| !seat.follows.drifts.is_empty());
         let ahead = |seat: &Seat<T, S>| {
             let interval = seat.interval.max(1);
             [interval - seat.made % interval, interval]
         };
         // Signs are followed from step to step.
-        let watches = self.under().any(|seat| !seat.follows.sections.is_empty());
+        let watches = self.follows && self.under().any(|seat| !seat.follows.sections.is_empty());
         let is_due = !watches || (first, interval) == (1, 1);
-        if is_due && followed().all(|seat| ahead(seat) == [first, interval]) {
+        if is_due && self.followed().all(|seat| ahead(seat) == [first, interval]) {
             return Schedule {
                 first,
                 interval,
@@ -362,6 +373,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
 
     /// Notes that something other is followed for a member.
     pub(crate) fn follows_other(&mut self) {
+        self.follows = true;
         self.change.get_or_insert_default();
     }
 

@@ -198,6 +198,8 @@ where
     steps: Vec<T>,
     /// True if all lanes have the same parameters.
     uniform: bool,
+    /// A number of each lane.
+    numbers: Vec<T>,
     /// Numbers of the lanes, component by component.
     rows: Vec<T>,
 }
@@ -237,6 +239,7 @@ where
             watched: Mask::splat(false),
             shown: another(&carried),
             rows: vec![T::default(); carried.len() * P::LANES as usize],
+            numbers: Vec::with_capacity(seats.len()),
             carried,
             times: Times::default(),
             opening: Opening::Open,
@@ -270,10 +273,11 @@ where
         store::<L, T, P, _>(&self.carried, &mut self.rows);
         crew.write_columns(&mut self.rows);
         let seats = crew.seats();
-        let steps = each(&seats, |seat| seat.step);
+        let steps = seats.iter().map(|seat| seat.step);
         let others = changed.parameters || !self.uniform;
         let is_prepared = core::mem::take(&mut self.is_prepared);
-        if !is_prepared && (others || steps != self.steps) {
+        if !is_prepared && (others || !steps.clone().eq(self.steps.iter().copied())) {
+            let steps: Vec<T> = steps.collect();
             let systems: Vec<_> = seats.iter().map(|seat| &seat.prepared).collect();
             (self.prepared, self.map) =
                 L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
@@ -290,9 +294,16 @@ where
             interval,
             ahead,
         } = &mut self.times;
-        gather::<L, T, P>(&each(&seats, |seat| seat.clock.start), start);
-        gather::<L, T, P>(&each(&seats, |seat| seat.clock.interval), interval);
-        gather::<L, T, P>(&each(&seats, |seat| count(seat.made)), ahead);
+        let of: [(&mut _, fn(&Seat<T, S>) -> T); 3] = [
+            (start, |seat| seat.clock.start),
+            (interval, |seat| seat.clock.interval),
+            (ahead, |seat| count(seat.made)),
+        ];
+        for (into, number) in of {
+            self.numbers.clear();
+            self.numbers.extend(seats.iter().map(|seat| number(seat)));
+            gather::<L, T, P>(&self.numbers, into);
+        }
         self.opening = match (changed.some_fresh, changed.all_fresh) {
             (_, true) => Opening::Open,
             (false, _) => Opening::Join,

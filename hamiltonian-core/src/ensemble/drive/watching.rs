@@ -34,13 +34,13 @@ where
     pub(super) fn watch<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
         self.watchers.clear();
         self.watchers_before.clear();
-        let watched = seats.iter().map(|seat| !seat.follows.sections.is_empty());
-        let watched: Vec<bool> = watched.collect();
-        self.watched = lanes_of::<L, T, P>(&watched);
         self.functions.clear();
-        if !watched.contains(&true) {
+        let watched = seats.iter().map(|seat| !seat.follows.sections.is_empty());
+        if !watched.clone().any(|is_watched| is_watched) {
+            self.watched = Mask::splat(false);
             return;
         }
+        self.watched = lanes_of::<L, T, P>(&watched.collect::<Vec<bool>>());
         for section in seats.iter().flat_map(|seat| &seat.follows.sections) {
             if !self.functions.iter().any(|other| other.is_of(section)) {
                 self.functions.push(*section);
@@ -75,6 +75,9 @@ where
         watchers: &[Watcher<T::Over<P>>],
         crew: &mut Crew<T, S>,
     ) {
+        if self.functions.is_empty() {
+            return;
+        }
         let [mut values, mut before] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
         for (function, watcher) in self.functions.iter().zip(watchers) {
             let [last, one_before] = watcher.last();

@@ -36,6 +36,7 @@ pub mod numbers;
 mod nystrom;
 pub mod order;
 mod pages;
+mod pairs;
 pub mod paper;
 mod periodic;
 pub mod planets;

@@ -2,9 +2,11 @@
 //! scheme meets; and the same errors.
 
 use crate::allocator::allocations;
+use crate::common::bits::LEVEL;
 use hamiltonian::lanes::Cpu;
 use hamiltonian::prelude::*;
 use hamiltonian::{Checkpoint, Dual, Run, Scheme};
+use std::sync::PoisonError;
 
 hamiltonian! {
     /// (34).
@@ -55,6 +57,7 @@ where
         (run.state().clone(), between)
     };
     let alone = run(false);
+    let _hidden = LEVEL.write().unwrap_or_else(PoisonError::into_inner);
     for cpu in Cpu::available() {
         Cpu::limit_to(cpu);
         let beside = run(true);

@@ -1,9 +1,10 @@
 //! Loops of one run on several threads: the bits of one thread.
 
 use crate::allocator::{allocations, calls};
+use crate::common::bits::LEVEL;
 use hamiltonian::prelude::*;
 use hamiltonian::{Checkpoint, Member, Real, Scheme, Vector};
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use std::thread::{ThreadId, current};
 
 hamiltonian! {
@@ -45,6 +46,20 @@ hamiltonian! {
         + sum(i in 0..n) { sum(j in 0..m) { u[i][j] }*sum(j in 0..k) { v[i][j] }/(m + k) }
 }
 
+hamiltonian! {
+    /// Bodies with those before them.
+    pub struct Bodies { n: usize, m: [n] }
+    H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..n, j in 0..i) { m[i]*m[j]/sqrt(norm_squared(q[i] - q[j]) + 1) }
+}
+
+hamiltonian! {
+    /// Rotors with those after them, each in a field of its own.
+    pub struct Rotors { n: usize }
+    H(a[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 - (i + 1)*cos(a[i])/n }
+        + sum(i in 0..n, j in i + 1..n) { (1 - cos(a[i] - a[j]))/n }
+}
+
 /// A start of which no two components are the same.
 fn start<S: System<f64>>(system: &S) -> State<S::Vector> {
     let mut start = State {
@@ -72,6 +87,7 @@ where
     M: Scheme<f64, S, Map: Sync>,
     <M::Map as hamiltonian::schemes::author::Map>::Work: Send,
 {
+    let _level = LEVEL.read().unwrap_or_else(PoisonError::into_inner);
     for fused in [false, true] {
         let end = |threads| {
             let run = Integrator::new(system, scheme.clone(), start(system), 0.01).unwrap();
@@ -116,6 +132,42 @@ fn lattices_have_the_bits_of_one_thread() {
             StormerVerlet::default(),
         );
     }
+}
+
+#[test]
+fn pairs_have_the_bits_of_one_thread() {
+    // Around the least number of rows that has tiles, with a last tile that is whole and one that is not.
+    for n in [4095, 4096, 4097, 5000] {
+        let masses: Vec<f64> = (0..n).map(|i| 1.0 + 0.5 * (i as f64).sin()).collect();
+        check(&Bodies::new(n, masses).unwrap(), StormerVerlet::default());
+    }
+    check(&Rotors::new(4099).unwrap(), StormerVerlet::default());
+    let masses = vec![0.5; 4098];
+    let system = Bodies::new(4098, masses).unwrap();
+    let end = |threads| {
+        let run = Integrator::new(&system, Gauss::<2>::default(), start(&system), 0.01).unwrap();
+        let mut run = run.threads(threads);
+        bits(run.advance(1).unwrap())
+    };
+    assert!(end(1) == end(2), "an implicit scheme");
+}
+
+#[test]
+fn a_member_has_the_tiles_of_its_run() {
+    let system = Rotors::new(4097).unwrap();
+    let new = || Integrator::new(&system, StormerVerlet::default(), start(&system), 0.01).unwrap();
+    let mut run = new().threads(2);
+    run.advance(1).unwrap();
+    let each = |_: Member| (system.clone(), start(&system));
+    let mut members = Ensemble::new(2, each, StormerVerlet::default(), 0.01)
+        .unwrap()
+        .reproducible();
+    members.advance(1);
+    for state in members.states() {
+        assert_eq!(state.unwrap(), *run.state());
+    }
+    let mut alone = new().lanes(false);
+    assert_eq!(alone.advance(1).unwrap(), run.state());
 }
 
 #[test]
@@ -171,17 +223,34 @@ hamiltonian! {
         + (u[(i + 1) % n][j] - u[i][j])^2/2 }
 }
 
+hamiltonian! {
+    /// Pairs whose rows note their threads.
+    pub struct SeenPairs { n: usize }
+    fn V(r) = seen;
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + V(q[i]) }
+        + sum(i in 0..n, j in 0..i) { (q[i] - q[j])^2/n }
+}
+
 #[test]
 fn steps_on_threads_are_made_on_both_and_do_not_allocate() {
-    let system = Seen::new(64, 256).unwrap();
-    let mut run = Integrator::new(&system, StormerVerlet::default(), start(&system), 0.01).unwrap();
+    on_both(&Seen::new(64, 256).unwrap());
+    on_both(&SeenPairs::new(4096).unwrap());
+}
+
+fn on_both<S>(system: &S)
+where
+    S: System<f64> + Clone,
+    StormerVerlet: Scheme<f64, S, Map: Sync>,
+    <<StormerVerlet as Scheme<f64, S>>::Map as hamiltonian::schemes::author::Map>::Work: Send,
+{
+    let mut run = Integrator::new(system, StormerVerlet::default(), start(system), 0.01).unwrap();
     take();
     run.advance(1).unwrap();
     let one: Vec<ThreadId> = take().into_iter().map(|(thread, _)| thread).collect();
     assert_eq!(one, [current().id()]);
     let mut run = run.threads(2);
     // The second thread takes rows when the machine lets it run.
-    let both = |run: &mut Run<Seen, StormerVerlet>| {
+    let both = |run: &mut Run<S, StormerVerlet>| {
         take();
         while SEEN.lock().unwrap()[1].is_none() {
             run.advance(1).unwrap();
@@ -191,7 +260,7 @@ fn steps_on_threads_are_made_on_both_and_do_not_allocate() {
     };
     let before = both(&mut run);
     let count = allocations(|| {
-        run.advance(200).unwrap();
+        run.advance(20).unwrap();
     });
     assert_eq!(count, 0);
     let after = both(&mut run);

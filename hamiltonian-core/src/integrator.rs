@@ -290,8 +290,10 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Threads share the loops over arrays of forces, drifts and fields that take 16384 iterations
     /// or more: rows of a lattice whose iterations change elements of their own row alone, and
     /// chains. Polynomials of neighbours, such as `(u[(i + 1) % n][j] - u[i][j])^2`, count as
-    /// changes of the own row. Sums over a whole array, sums over pairs, and all else of a step run
-    /// on one thread; so do all loops without [`lanes`](Integrator::lanes), and chains with
+    /// changes of the own row. Threads also share the forces of sums over the pairs of 4096 points
+    /// or more, `sum(i in 0..n, j in 0..i)` or `sum(i in 0..n, j in i + 1..n)`, if each iteration
+    /// changes elements i and j alone. Sums over a whole array, such as energies, and all else of a
+    /// step run on one thread; so do all loops without [`lanes`](Integrator::lanes), and chains with
     /// neighbours in a [`fused`](Integrator::fused) run. An ensemble has threads of its own, and
     /// each of its members one.
     ///

@@ -73,6 +73,7 @@ mod any;
 mod ensemble;
 
 mod loops;
+mod pairs;
 mod slabs;
 
 pub mod function;

@@ -33,6 +33,7 @@ pub use crate::kernel::{
 pub use crate::lattice::{Lattice, MatrixOf, check_extents, fits};
 pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;
+pub use crate::pairs::{Row, TILED, Triangle, pairs};
 pub use crate::push::Coupled;
 pub use crate::reach::Reach;
 pub use crate::slabs::rows;

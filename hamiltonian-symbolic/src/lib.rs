@@ -47,7 +47,7 @@ pub use algebra::ball::Ball;
 pub use algebra::dag::op;
 pub use algebra::{dag, diff, index, loops, model, normal_form, print, rational, set};
 pub use flows::split;
-pub use programs::{count, forces, hold, interpret, pipeline, program, schedule};
+pub use programs::{count, forces, hold, interpret, pairs, pipeline, program, schedule};
 pub use proofs::{bracket, facts, legendre, structure, transform};
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.

@@ -18,6 +18,7 @@ mod nests;
 mod normal_form;
 mod operations;
 mod order;
+mod pairs;
 mod print;
 mod programs;
 mod random_text;

@@ -63,6 +63,8 @@ pub fn write(
         slices: Vec::new(),
         trees: Vec::new(),
         slabs: Vec::new(),
+        tile: None,
+        body: None,
         is_inside: false,
     };
     writer.steps(steps);
@@ -82,6 +84,10 @@ pub(super) struct Writer<'a> {
     pub(super) trees: Vec<(Value, String, String)>,
     /// Columns of which a slab is there.
     pub(super) slabs: Vec<Slice>,
+    /// The loop over the columns of a row in a tile.
+    pub(super) tile: Option<Domain>,
+    /// The type of arithmetic that two forms of a loop share.
+    pub(super) body: Option<String>,
     /// True if a loop is open.
     pub(super) is_inside: bool,
     /// The values of the outermost level that stand where they are used.
@@ -109,7 +115,7 @@ impl Writer<'_> {
                 }
                 Step::Loop(inner) => {
                     let is_outermost = !std::mem::replace(&mut self.is_inside, true);
-                    if !(is_outermost && self.in_slabs(inner)) {
+                    if !(is_outermost && (self.in_tiles(inner) || self.in_slabs(inner))) {
                         self.nest(inner);
                     }
                     self.is_inside = !is_outermost;
@@ -309,15 +315,21 @@ impl Writer<'_> {
     }
 
     /// A loop: whole where no index wraps, in segments otherwise.
-    fn nest(&mut self, inner: &Loop) {
+    pub(super) fn nest(&mut self, inner: &Loop) {
         for accumulator in &inner.accumulators {
             line!(self, "let mut {} = {ZERO};", name(*accumulator));
         }
         let found = Accesses::of(self.context, inner);
         let (known_indices, known_slices) = (self.indices.len(), self.slices.len());
         let d = inner.domain.0;
-        let start = self.context.indices.start(&inner.start);
-        let end = self.context.indices.saturating(&inner.end);
+        let is_tile = self.tile == Some(inner.domain);
+        let (start, end) = match is_tile {
+            true => (format!("_r{d}.start"), format!("_r{d}.end")),
+            false => (
+                self.context.indices.start(&inner.start),
+                self.context.indices.saturating(&inner.end),
+            ),
+        };
         if found.wrapped.is_empty() && found.cuts.is_empty() {
             let range = match self.context.access {
                 Access::Reversed => format!("({start}..{end}).rev()"),
@@ -335,7 +347,7 @@ impl Writer<'_> {
             self.close(inner);
             return;
         }
-        if found.is_plain(inner) {
+        if found.is_plain(inner) && !is_tile {
             line!(self, "let _l{d} = {end};");
             let stretch = self.stretch(inner, &found);
             self.open(inner, stretch.as_ref(), [&format!("_l{d}"), "0usize"]);
@@ -347,6 +359,7 @@ impl Writer<'_> {
             }
             if let Some(stretch) = &stretch {
                 self.call(stretch, inner, "0usize");
+                line!(self, "}} else {{");
             }
             line!(self, "for _i{d} in 0.._l{d} {{");
             self.iteration_of(inner, stretch.as_ref());
@@ -372,10 +385,16 @@ impl Writer<'_> {
         if let Some(stretch) = &stretch {
             self.call(stretch, inner, &format!("_i{d}"));
         }
-        line!(self, "for _k{d} in 0.._l{d} {{");
-        line!(self, "let _i{d} = _i{d} + _k{d};");
-        self.iteration_of(inner, stretch.as_ref());
-        line!(self, "}}");
+        // In a tile all iterations are core's.
+        if !(is_tile && stretch.is_some()) {
+            if stretch.is_some() {
+                line!(self, "}} else {{");
+            }
+            line!(self, "for _k{d} in 0.._l{d} {{");
+            line!(self, "let _i{d} = _i{d} + _k{d};");
+            self.iteration_of(inner, stretch.as_ref());
+            line!(self, "}}");
+        }
         if stretch.is_some() {
             line!(self, "}}");
         }
@@ -481,7 +500,7 @@ impl Accesses {
     }
 
     /// Those of a loop; none where iterations read and write one point, which has no parts to cut.
-    fn of(context: Context, inner: &Loop) -> Accesses {
+    pub(super) fn of(context: Context, inner: &Loop) -> Accesses {
         let mut finder = Finder {
             context,
             domain: inner.domain,

@@ -39,6 +39,7 @@ mod markers;
 mod mixed;
 mod number;
 mod observables;
+mod pairs;
 mod parts;
 mod pieces;
 mod reach;

@@ -17,7 +17,7 @@ const MOST: usize = 300;
 /// A loop whose iterations core runs.
 pub(super) struct Stretch {
     /// The type of its arithmetic.
-    name: String,
+    pub(super) name: String,
     /// What does not vary: its instructions are steps of the loop's body, or values from outside.
     given: Vec<Value>,
     /// What is read, with the number of its cut.
@@ -212,17 +212,19 @@ impl Writer<'_> {
             true => sums(inner),
             false => Vec::new(),
         };
+        let is_long = match (self.tile == Some(inner.domain), sums.is_empty()) {
+            (true, _) => "true".to_owned(),
+            (false, true) => format!("<T as __h::Real>::WIDENS && {length} >= __h::LONG"),
+            (false, false) => format!("{length} >= __h::LONG"),
+        };
         if sums.is_empty() {
             if stretch.is_some() {
-                line!(
-                    self,
-                    "let _long{d} = <T as __h::Real>::WIDENS && {length} >= __h::LONG;"
-                );
+                line!(self, "let _long{d} = {is_long};");
             }
             return;
         }
         line!(self, "let _from{d} = {start};");
-        line!(self, "let _long{d} = {length} >= __h::LONG;");
+        line!(self, "let _long{d} = {is_long};");
         line!(
             self,
             "let mut _sums{d} = [[{ZERO}; __h::STRIDE]; {}];",
@@ -252,8 +254,11 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes the arithmetic of an iteration as a type.
-    fn body(&mut self, stretch: &Stretch) {
+    /// Writes the arithmetic of an iteration as a type, if it is not there yet.
+    pub(super) fn body(&mut self, stretch: &Stretch) {
+        if self.body.as_ref() == Some(&stretch.name) {
+            return;
+        }
         let (given, reads) = (names(&stretch.given), stretch.read_names());
         line!(self, "struct {};", stretch.name);
         line!(
@@ -306,8 +311,7 @@ impl Writer<'_> {
         line!(self, "[{}]\n}}\n}}", results.join(", "));
     }
 
-    /// Writes the call of core for a segment that begins at `start`, and the beginning of what is done
-    /// otherwise.
+    /// Writes the call of core for a segment that begins at `start`, of a long loop.
     pub(super) fn call(&mut self, stretch: &Stretch, inner: &Loop, start: &str) {
         let d = inner.domain.0;
         line!(self, "if _long{d} {{");
@@ -332,7 +336,7 @@ impl Writer<'_> {
             self,
             "__h::Stretch {{ length: _l{d}, first: {first}, number: _i{d}, given: [{}], \
              reads: [{}], columns: [{}], starts: [{}], sums: {sums}, \
-             arithmetic: {} }}.run({});\n}} else {{",
+             arithmetic: {} }}.run({});",
             names(&stretch.given),
             reads.join(", "),
             columns.join(", "),

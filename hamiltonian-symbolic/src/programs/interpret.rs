@@ -4,7 +4,8 @@
 //! the same order as emitted code, so that over `f64` the bits agree. Code for another target that computes what
 //! [`run`] computes is right: the values of `prepare`, of the step coefficient and of the evaluation, in order; loops
 //! in the order of their variables; sums of innermost loops of 32 iterations or more as eight strided partial sums
-//! and a tree, except in the flows of pieces, which read what they write.
+//! and a tree; loops over [`Pairs`] of 4096 rows or more tile by tile. In the flows of pieces, which
+//! read what they write, there are neither trees nor tiles.
 //!
 //! The kick of H = ½p² − cos q with the step coefficient ½: p − ½·sin q.
 //! ```
@@ -37,7 +38,8 @@
 use crate::PI_LOW;
 use crate::dag::{Array, Map, Part, Relation};
 use crate::index::{Affine, Domain, Index};
-use crate::program::{Function, Instruction, Program, Purpose, Step, Target, Update, Value};
+use crate::pairs::{self, Pairs, Triangle, pairs};
+use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 use hamiltonian_real::Real;
 
 /// A function written in Rust: the part asked for, at its arguments.
@@ -99,7 +101,22 @@ pub struct Outcome<T> {
 /// If the point has no array, size or function that the program reads, or an index leaves it.
 #[must_use]
 pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) -> Outcome<T> {
-    run_in_order(program, function, point, false)
+    run_in_order(program, function, point, false, [pairs::LEAST, pairs::TILE])
+}
+
+/// Runs a program with all loops over [`Pairs`] in tiles of so many rows and columns, however few rows there are: a
+/// test of what [`run`] does from 4096 rows on.
+///
+/// # Panics
+/// As for [`run`], and if a tile has no rows.
+#[must_use]
+pub fn run_in_tiles<T: Real>(
+    program: &Program,
+    function: &Function,
+    point: &Point<T>,
+    rows: usize,
+) -> Outcome<T> {
+    run_in_order(program, function, point, false, [1, rows])
 }
 
 /// Runs a program with the iterations of every loop of the evaluation in reverse order.
@@ -112,7 +129,7 @@ pub fn run_reversed<T: Real>(
     function: &Function,
     point: &Point<T>,
 ) -> Outcome<T> {
-    run_in_order(program, function, point, true)
+    run_in_order(program, function, point, true, [usize::MAX, 1])
 }
 
 fn run_in_order<T: Real>(
@@ -120,6 +137,7 @@ fn run_in_order<T: Real>(
     function: &Function,
     point: &Point<T>,
     reversed: bool,
+    [least, tile]: [usize; 2],
 ) -> Outcome<T> {
     let mut machine = Machine {
         program,
@@ -131,6 +149,9 @@ fn run_in_order<T: Real>(
         is_in_place: matches!(function.purpose, Purpose::Piece(_)),
         reversed: false,
         has_trees: true,
+        is_inside: false,
+        least,
+        tile,
         strides: Map::default(),
         iteration: 0,
     };
@@ -171,6 +192,12 @@ struct Machine<'a, T: Real> {
     reversed: bool,
     /// True if sums of long loops are partial sums and a tree: not in the flows of pieces.
     has_trees: bool,
+    /// True inside of a loop.
+    is_inside: bool,
+    /// The least number of rows of a triangle that is made in tiles.
+    least: usize,
+    /// The number of rows, and of columns, of a tile.
+    tile: usize,
     /// The partial sums of the innermost loop under way, if it is long.
     strides: Map<Value, [T; STRIDE]>,
     /// The number of its iteration.
@@ -234,27 +261,71 @@ impl<T: Real> Machine<'_, T> {
                     columns.expect("it was read above")[column][row] = new;
                 }
                 Step::Loop(l) => {
-                    for accumulator in &l.accumulators {
-                        self.numbers[accumulator.0 as usize] = T::zero();
-                    }
                     let (start, end) = (self.affine(&l.start), self.affine(&l.end));
-                    if self.has_trees && end - start >= LONG {
-                        self.open(&l.body);
+                    let is_outermost = !std::mem::replace(&mut self.is_inside, true);
+                    let is_large = usize::try_from(end).is_ok_and(|end| end >= self.least);
+                    let may_tile = is_outermost && is_large && self.has_trees && !self.reversed;
+                    match may_tile.then(|| pairs(l, self.program)).flatten() {
+                        Some(pairs) => self.tiles(l, &pairs, end as usize),
+                        None => self.range(l, start, end, LONG),
                     }
-                    for k in 0..(end - start).max(0) {
-                        self.iteration = k as usize;
-                        let i = if self.reversed {
-                            end - 1 - k
-                        } else {
-                            start + k
-                        };
-                        self.variables.insert(l.domain, i);
-                        self.steps(&l.body);
-                    }
-                    for (sum, s) in std::mem::take(&mut self.strides) {
-                        let tree =
-                            ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-                        self.numbers[sum.0 as usize] += tree;
+                    self.is_inside = !is_outermost;
+                }
+            }
+        }
+    }
+
+    /// The iterations of a loop in a range, whose sums are trees if it has as many as are given.
+    fn range(&mut self, l: &Loop, start: i64, end: i64, long: i64) {
+        for accumulator in &l.accumulators {
+            self.numbers[accumulator.0 as usize] = T::zero();
+        }
+        if self.has_trees && end - start >= long {
+            self.open(&l.body);
+        }
+        for k in 0..(end - start).max(0) {
+            self.iteration = k as usize;
+            let i = if self.reversed {
+                end - 1 - k
+            } else {
+                start + k
+            };
+            self.variables.insert(l.domain, i);
+            self.steps(&l.body);
+        }
+        for (sum, s) in std::mem::take(&mut self.strides) {
+            let tree = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+            self.numbers[sum.0 as usize] += tree;
+        }
+    }
+
+    /// The iterations over the pairs of a triangle, tile by tile: rows of tiles one after the other.
+    fn tiles(&mut self, outer: &Loop, pairs: &Pairs, n: usize) {
+        let size = self.tile;
+        let count = n.div_ceil(size);
+        let tile = |k: usize| k * size..((k + 1) * size).min(n);
+        for rows in 0..count {
+            let columns = match pairs.triangle {
+                Triangle::Below => 0..rows + 1,
+                Triangle::Above => rows..count,
+            };
+            for columns in columns {
+                for i in tile(rows) {
+                    let all = tile(columns);
+                    let range = match pairs.triangle {
+                        _ if rows != columns => all,
+                        Triangle::Below => all.start..i,
+                        Triangle::Above => i + 1..all.end,
+                    };
+                    self.variables.insert(outer.domain, i as i64);
+                    for (at, step) in outer.body.iter().enumerate() {
+                        match step {
+                            Step::Loop(inner) => {
+                                self.range(inner, range.start as i64, range.end as i64, 0);
+                            }
+                            _ if rows != columns && pairs.once.contains(&at) => {}
+                            _ => self.steps(std::slice::from_ref(step)),
+                        }
                     }
                 }
             }

@@ -11,6 +11,7 @@ pub mod hold;
 pub mod interpret;
 mod listing;
 mod order;
+pub mod pairs;
 pub mod pipeline;
 pub mod program;
 pub mod schedule;

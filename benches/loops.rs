@@ -5,10 +5,18 @@
 //! the runs in the columns `fused`: `/`, `sqrt` and the elementary functions of the library. With
 //! `-- --check` nothing is timed, and it fails where they do not reach the same end. Any other argument selects the workloads whose names
 //! contain it.
+//!
+//! `-- --threads` compares one thread with two instead, for 10 000 bodies and for fields of 1000 × 1000 sites: by wall
+//! time, for which two cores must be free, and by CPU time. It fails if the ends differ in a bit.
 
 #[path = "support/rounds.rs"]
 mod harness;
+#[path = "support/threads.rs"]
+mod threads;
 
+use hamiltonian::prelude::*;
+use hamiltonian::schemes::author::Map;
+use hamiltonian::{Scheme, Vector};
 use hamiltonian_lanes::Pack;
 use harness::{ByHand, Workload, add, by_hand, run, start};
 
@@ -332,6 +340,38 @@ const ALL: &[Workload] = &[
     },
 ];
 
+/// Two threads against one, for a system.
+fn share<S>(name: &str, system: &S, steps: u64)
+where
+    S: System<f64>,
+    StormerVerlet: Scheme<f64, S, Map: Sync>,
+    <<StormerVerlet as Scheme<f64, S>>::Map as Map>::Work: Send,
+{
+    let mut start = State {
+        q: system.zeros(),
+        p: system.zeros(),
+        t: 0.0,
+    };
+    for k in 0..start.q.len() {
+        *start.q.component_mut(k) = harness::noise(k);
+    }
+    let mut runs = [1, 2].map(|threads| {
+        let run = Integrator::new(system, StormerVerlet::default(), start.clone(), harness::H);
+        run.unwrap().threads(threads)
+    });
+    threads::compare(name, 20, |k| _ = runs[k].advance(steps).unwrap());
+    let [one, two] = runs;
+    assert!(one.state() == two.state(), "the ends of {name} differ");
+}
+
 fn main() {
-    harness::main(ALL);
+    if !std::env::args().any(|argument| argument == "--threads") {
+        return harness::main(ALL);
+    }
+    const BODIES: usize = 10_000;
+    let bodies = Gravity::new(BODIES, vec![1.0 / BODIES as f64; BODIES]).unwrap();
+    share("gravity, 10 000 bodies", &bodies, 2);
+    let field = SineGordon::new(1000, 1000).unwrap();
+    share("sine-Gordon, 1000 × 1000 sites", &field, 10);
+    share("φ⁴, 1000 × 1000 sites", &Phi4::new(1000, 1000).unwrap(), 20);
 }

@@ -9,6 +9,9 @@
 //! With `-- --threads` it compares one thread with two on the best level instead: by the wall time, for which two
 //! cores must be free, and by the CPU time, of which other programs take little.
 
+#[path = "support/threads.rs"]
+mod threads;
+
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -137,35 +140,12 @@ fn seconds(work: impl FnOnce()) -> f64 {
     now() - begin
 }
 
-/// CPU time of all threads of this process since its start, in seconds, where Linux tells.
-fn of_all_threads() -> Option<f64> {
-    /// Ticks a second that Linux shows to programs.
-    const TICKS: f64 = 100.0;
-    let line = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The name of the program is in brackets, and may have spaces; twelve fields on is the user's time.
-    let (_, fields) = line.rsplit_once(") ")?;
-    let ticks = fields.split(' ').skip(11).take(2).map(str::parse::<f64>);
-    Some(ticks.sum::<Result<f64, _>>().ok()? / TICKS)
-}
-
 /// Prints how many times as fast two threads are as one, and how much CPU time they take.
 fn compare_threads(swarm: impl Fn() -> Ensemble<Pendulum>) {
     let mut swarms = [swarm().threads(1), swarm().threads(2)];
-    let (mut least, mut work) = ([f64::INFINITY; 2], [0.0; 2]);
-    for _ in 0..20 {
-        for (k, swarm) in swarms.iter_mut().enumerate() {
-            let (begin, before) = (Instant::now(), of_all_threads());
-            swarm.advance(4 * STEPS);
-            least[k] = begin.elapsed().as_secs_f64().min(least[k]);
-            let spent = of_all_threads().zip(before);
-            work[k] += spent.map_or(f64::NAN, |(now, before)| now - before);
-        }
-    }
-    println!(
-        "two threads: {:.2} × as fast as one by wall time, {:.3} × the CPU time",
-        least[0] / least[1],
-        work[1] / work[0]
-    );
+    threads::compare("pendulums", 20, |k| {
+        swarms[k].advance(4 * STEPS);
+    });
 }
 
 fn main() {

@@ -3,14 +3,14 @@
 //! H = ∫ (π² + |∇φ|²)/2 + (φ² − 1)²/4 has the kinks φ = tanh(γ(x − vt)/√2). A pair that meets faster than v_c =
 //! 0.2598 bounces and escapes with v' where v'² = 0.887 (v² − v_c²); a slower one is captured, except in windows of
 //! resonance above v = 0.19 (D. K. Campbell, J. F. Schonfeld, C. A. Wingate, Physica D 9 (1983) 1). Flat fronts
-//! behave likewise in two dimensions. The picture `target/phi4/fronts.svg` has the lines φ = 0 of bent fronts at
-//! several times: they leave a bubble that shrinks.
+//! behave likewise in two dimensions. The picture `target/phi4/fronts.svg` has the field of bent fronts at four times,
+//! from top to bottom: they leave a bubble that shrinks.
 //!
 //! `-- N` sets N times as many sites along each axis.
 
 use checks::Checks;
 use hamiltonian::Lattice;
-use hamiltonian::plot::{Curve, Figure};
+use hamiltonian::plot::Figure;
 use hamiltonian::prelude::*;
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -89,37 +89,42 @@ fn velocity(v: f64, fine: usize, [from, to]: [f64; 2]) -> Result<f64, Error> {
     Ok((-place(from)? + place(to)?) / (to - from))
 }
 
-/// The largest energy error of bent fronts for a step of `part` of d, and their lines φ = 0.
-fn bent(part: f64, fine: usize) -> Result<(f64, Vec<Curve>), Error> {
+/// The times of the picture.
+const TIMES: [f64; 4] = [0.0, 10.0, 30.0, 45.0];
+
+/// The largest energy error of bent fronts for a step of `part` of d, and the field at some times.
+fn bent(part: f64, fine: usize) -> Result<(f64, Vec<Lattice<f64, 2>>), Error> {
     let Pair { field, start } = Pair::new(0.6, 0.8, fine)?;
     let step = part * field.d;
     let mut run =
         Integrator::new(&field, StormerVerlet::default(), start, step)?.observe(EnergyDrift::new());
-    let mut curves = Vec::new();
-    for t in [0.0, 10.0, 30.0, 45.0] {
+    let mut frames = Vec::new();
+    for t in TIMES {
         run.advance((t / step) as u64 - run.steps())?;
-        let u = &run.state().q;
-        let of_row = |i: usize| {
-            let y = i as f64 * field.d;
-            zeros(u, field.d, i).into_iter().map(move |x| (x, y))
-        };
-        let ([rows, columns], d) = (u.extents(), field.d);
-        // Rows alone would leave gaps where a line is parallel to x.
-        let of_column = |j: usize| {
-            let crossing = move |i: usize| {
-                let (a, b) = (u[[i, j]], u[[i + 1, j]]);
-                let (x, y) = (j as f64 + 0.5, i as f64 + a / (a - b));
-                (a * b < 0.0).then_some((x * d - LENGTH / 2.0, y * d))
-            };
-            (0..rows - 1).filter_map(crossing)
-        };
-        let by_rows = (0..rows).flat_map(of_row);
-        curves.push(Curve {
-            name: format!("t = {t}"),
-            points: by_rows.chain((0..columns).flat_map(of_column)).collect(),
-        });
+        frames.push(run.state().q.clone());
     }
-    Ok((run.observer().max_relative(), curves))
+    Ok((run.observer().max_relative(), frames))
+}
+
+/// The frames one below the other.
+fn picture(frames: &[Lattice<f64, 2>], fine: usize) -> Figure {
+    // A pixel for each site of the coarsest lattice, and gaps between the frames.
+    let [n, m] = frames[0].extents().map(|extent| extent / fine);
+    let gap = 3;
+    let height = frames.len() * (n + gap) - gap;
+    let all = Lattice::from_fn([height, m], |[i, j]| {
+        let (below, row) = (i / (n + gap), i % (n + gap));
+        match row < n {
+            true => frames[frames.len() - 1 - below][[row * fine, j * fine]],
+            false => f64::NAN,
+        }
+    });
+    let [a, b, c, d] = TIMES;
+    let y = HEIGHT * height as f64 / n as f64;
+    Figure {
+        title: format!("A kink and an antikink of φ⁴ with bent fronts: t = {a}, {b}, {c} and {d}"),
+        ..Figure::field(-LENGTH / 2.0..LENGTH / 2.0, 0.0..y, all)
+    }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -148,7 +153,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .count();
     checks.compare("rows of flat fronts that differ", differ as f64, 0.0, 0.0);
 
-    let (drift, curves) = bent(0.5, fine)?;
+    let (drift, frames) = bent(0.5, fine)?;
     let (narrow, _) = bent(0.25, fine)?;
     checks.compare(
         "max |ΔH/H₀|, ratio of steps d/2, d/4",
@@ -157,16 +162,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         0.3,
     );
 
-    Figure {
-        title: "A kink and an antikink of φ⁴ with bent fronts: φ = 0".into(),
-        x: "x".into(),
-        y: "y".into(),
-        dots: true,
-        legend_right: true,
-        curves,
-        ..Default::default()
-    }
-    .write("target/phi4/fronts.svg")?;
+    picture(&frames, fine).write("target/phi4/fronts.svg")?;
     println!("Written to target/phi4/fronts.svg");
     checks.finish()
 }

@@ -1,7 +1,7 @@
 //! The drawing of a figure.
 
 use super::raster::Raster;
-use super::{DENSE, Figure};
+use super::{DENSE, Field, Figure};
 use crate::error::Error;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
@@ -46,6 +46,11 @@ const COLOURS: [RGBColor; 7] = [
 /// The text whose element is replaced by the raster.
 const PLACE: &str = "the place of the raster";
 
+/// A number with three digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
 impl Figure {
     /// Writes the figure as SVG; directories that are missing are created.
     ///
@@ -68,15 +73,15 @@ impl Figure {
         let size = if self.equal { (756, 748) } else { (900, 580) };
         let (width, height) = (size.0 * FINE, size.1 * FINE);
         let mut text = String::new();
-        let raster = self.draw_all(&mut text, (width, height));
-        let raster = raster.map_err(|error| std::io::Error::other(error.to_string()))?;
-        if let Some(raster) = raster
+        let image = self.draw_all(&mut text, (width, height));
+        let image = image.map_err(|error| std::io::Error::other(error.to_string()))?;
+        if let Some(image) = image
             && let Some(place) = text.find(PLACE)
             && let Some(from) = text[..place].rfind("<text")
             && let Some(length) = text[from..].find("</text>")
         {
             let to = from + length + "</text>".len();
-            text.replace_range(from..to, &raster.element());
+            text.replace_range(from..to, &image);
         }
         // It is displayed at the intended size.
         let drawn = format!("width=\"{width}\" height=\"{height}\"");
@@ -95,16 +100,20 @@ impl Figure {
         names
     }
 
-    fn draw_all(&self, text: &mut String, size: (u32, u32)) -> Drawn<Option<Raster>> {
+    fn draw_all(&self, text: &mut String, size: (u32, u32)) -> Drawn<Option<String>> {
         let drawing = SVGBackend::with_string(text, size).into_drawing_area();
         drawing.fill(&WHITE)?;
         let body = drawing
             .margin(14 * FINE, 0, 0, 0)
             .titled(&self.title, ("sans-serif", 20 * FINE))?;
+        let corners: Vec<(f64, f64)> = (self.field.iter())
+            .flat_map(|field| [(field.x.start, field.y.start), (field.x.end, field.y.end)])
+            .collect();
         let all = || {
             self.curves
                 .iter()
                 .flat_map(|curve| &curve.points)
+                .chain(&corners)
                 .filter(|(x, y)| x.is_finite() && y.is_finite())
         };
         let range = |values: &mut dyn Iterator<Item = f64>| {
@@ -118,7 +127,7 @@ impl Figure {
             .margin(16 * FINE)
             .x_label_area_size(44 * FINE)
             .y_label_area_size(84 * FINE);
-        let raster = if self.logarithmic {
+        let image = if self.logarithmic {
             let shown = || all().map(|(_, y)| y.abs()).filter(|y| *y > 0.0);
             let smallest = shown().fold(f64::INFINITY, f64::min).max(1e-17);
             let largest = shown().fold(f64::NEG_INFINITY, f64::max);
@@ -148,6 +157,8 @@ impl Figure {
                     let (middle, across) = (0.5 * (y.start + y.end), 0.5 * (x.start + x.end));
                     x = across - half..across + half;
                     middle - half..middle + half
+                } else if self.field.is_some() {
+                    y
                 } else {
                     y.start - 0.05 * span..y.end + 0.3 * span
                 }
@@ -160,14 +171,14 @@ impl Figure {
         drawing.present()?;
         drop(body);
         drop(drawing);
-        Ok(raster)
+        Ok(image)
     }
 
     fn draw<'a, 'b: 'a, X, Y>(
         &self,
         chart: &mut ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>,
         visible: impl Fn(f64) -> Option<f64>,
-    ) -> Drawn<Option<Raster>>
+    ) -> Drawn<Option<String>>
     where
         X: Ranged<ValueType = f64> + ValueFormatter<f64>,
         Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
@@ -194,15 +205,41 @@ impl Figure {
         let names = self.names();
         let mut legend = 0;
         let dots: usize = self.curves.iter().map(|curve| curve.points.len()).sum();
-        let mut raster = (self.dots && dots > DENSE)
+        let mut raster = (self.dots && dots > DENSE && self.field.is_none())
             .then(|| Raster::new(chart.plotting_area().get_pixel_range(), FINE as i32));
         // Few dots are as large as circles would be; many show more structure if they are small.
         let size_of_dots = if dots > 20_000 { 1 } else { 2 };
-        if raster.is_some()
+        if (raster.is_some() || self.field.is_some())
             && let Some((x, y)) = self.a_point(&visible)
         {
             let font = ("sans-serif", FINE);
             chart.draw_series([Text::new(PLACE, (x, y), font)])?;
+        }
+        let mut image = None;
+        if let Some(field) = &self.field {
+            let [(left, top), (right, bottom)] =
+                [(field.x.start, field.y.end), (field.x.end, field.y.start)]
+                    .map(|corner| chart.backend_coord(&corner));
+            image = Some(field.element([left, top], [right - left, bottom - top]));
+            let ends = field.ends();
+            // A field without finite values has no colours to explain.
+            let places: &[f64] = if ends.start > ends.end {
+                &[]
+            } else {
+                &[1.0, 0.5, 0.0]
+            };
+            for &at in places {
+                let value = ends.start + at * (ends.end - ends.start);
+                let [red, green, blue] = Field::colour(at);
+                let style = RGBColor(red, green, blue).filled();
+                chart
+                    .draw_series(std::iter::empty::<Circle<(f64, f64), u32>>())?
+                    .label(tick(&rounded(value)))
+                    .legend(move |(x, y)| {
+                        let half = 6 * FINE as i32;
+                        Rectangle::new([(x, y - half), (x + 24 * FINE as i32, y + half)], style)
+                    });
+            }
         }
         for (number, curve) in self.curves.iter().enumerate() {
             let named = names
@@ -263,8 +300,9 @@ impl Figure {
                     )
             })
         }))?;
-        if self.curves.iter().all(|curve| curve.name.is_empty()) {
-            return Ok(raster);
+        let image = image.or_else(|| raster.as_ref().map(Raster::element));
+        if self.field.is_none() && self.curves.iter().all(|curve| curve.name.is_empty()) {
+            return Ok(image);
         }
         chart
             .configure_series_labels()
@@ -279,12 +317,17 @@ impl Figure {
             .border_style(BLACK.mix(0.3).stroke_width(FINE))
             .label_font(("sans-serif", 14 * FINE))
             .draw()?;
-        Ok(raster)
+        Ok(image)
     }
 
     /// A point that is drawn.
     fn a_point(&self, visible: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
-        let mut points = self.curves.iter().flat_map(|curve| &curve.points);
-        points.find_map(|(x, y)| x.is_finite().then_some((*x, visible(*y)?)))
+        let corner = self
+            .field
+            .iter()
+            .map(|field| (field.x.start, field.y.start));
+        let points = self.curves.iter().flat_map(|curve| &curve.points);
+        let mut points = points.copied().chain(corner);
+        points.find_map(|(x, y)| x.is_finite().then_some((x, visible(y)?)))
     }
 }

@@ -18,10 +18,14 @@
 //! ```
 
 mod draw;
+mod field;
 mod png;
 mod raster;
 
+pub use field::Field;
+
 use crate::error::Error;
+use crate::lattice::Lattice;
 use crate::table::Table;
 use std::ops::Range;
 
@@ -75,6 +79,8 @@ pub struct Figure {
     pub marks: Vec<((f64, f64), String)>,
     /// The range of y; that of all curves if `None`.
     pub range: Option<Range<f64>>,
+    /// Values on a lattice, below the curves.
+    pub field: Option<Field>,
     /// The curves.
     pub curves: Vec<Curve>,
 }
@@ -159,6 +165,30 @@ impl Figure {
                 name: String::new(),
                 points: points.into_iter().collect(),
             }],
+            ..Figure::default()
+        }
+    }
+
+    /// Draws values on a lattice with two axes as colours, which the legend explains: rows from bottom to top in the
+    /// range of y, columns from left to right in that of x. Values of both signs have colours about 0. Values that
+    /// are not finite are left out.
+    ///
+    /// ```
+    /// use hamiltonian::Lattice;
+    /// use hamiltonian::plot::Figure;
+    ///
+    /// let wave = Lattice::from_fn([40, 60], |[i, j]| (0.2 * (i + j) as f64).sin());
+    /// let figure = Figure::field(0.0..6.0, 0.0..4.0, wave);
+    /// assert!(figure.svg()?.contains("data:image/png;base64,"));
+    /// # Ok::<(), hamiltonian::Error>(())
+    /// ```
+    #[must_use]
+    pub fn field(x: Range<f64>, y: Range<f64>, values: Lattice<f64, 2>) -> Self {
+        Figure {
+            x: "x".to_owned(),
+            y: "y".to_owned(),
+            legend_right: true,
+            field: Some(Field { x, y, values }),
             ..Figure::default()
         }
     }

@@ -5,12 +5,13 @@
 //! (2025); P. Deutsch, RFC 1950 (zlib) and RFC 1951 (deflate, with the fixed codes of section 3.2.6).
 
 /// Encodes an image of `width` columns. Colour n of a pixel is `palette[n - 1]`, 0 is transparent; there
-/// are at most 15 colours.
+/// are at most 255 colours.
 pub(super) fn encode(width: usize, pixels: &[u8], palette: &[[u8; 3]]) -> Vec<u8> {
     let depth = match palette.len() {
         0..=1 => 1,
         2..=3 => 2,
-        _ => 4_usize,
+        4..=15 => 4,
+        _ => 8_usize,
     };
     let mut lines = Vec::with_capacity(pixels.len() * depth / 8 + pixels.len() / width.max(1));
     for row in pixels.chunks(width.max(1)) {

@@ -1,4 +1,4 @@
-//! Clouds of dots as an image.
+//! Clouds of dots, and other pixels, as an image.
 
 use super::png::{base64, encode};
 use std::ops::Range;
@@ -50,15 +50,23 @@ impl Raster {
 
     /// The element of an SVG.
     pub(super) fn element(&self) -> String {
-        let image = encode(self.width, &self.pixels, &self.palette);
-        format!(
-            "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" \
-             image-rendering=\"pixelated\" href=\"data:image/png;base64,{}\"/>",
-            self.area.0.start,
-            self.area.1.start,
-            self.width as i32 * self.fine,
-            self.height as i32 * self.fine,
-            base64(&image)
-        )
+        let size = [self.width, self.height].map(|pixels| pixels as i32 * self.fine);
+        let corner = [self.area.0.start, self.area.1.start];
+        element(corner, size, self.width, &self.pixels, &self.palette)
     }
+}
+
+/// The element of an SVG with an image, at a place and of a size in the units of the drawing.
+pub(super) fn element(
+    [x, y]: [i32; 2],
+    [across, down]: [i32; 2],
+    width: usize,
+    pixels: &[u8],
+    palette: &[[u8; 3]],
+) -> String {
+    format!(
+        "<image x=\"{x}\" y=\"{y}\" width=\"{across}\" height=\"{down}\" preserveAspectRatio=\"none\" \
+         image-rendering=\"pixelated\" href=\"data:image/png;base64,{}\"/>",
+        base64(&encode(width, pixels, palette))
+    )
 }

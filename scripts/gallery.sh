@@ -23,9 +23,11 @@ dipole dipole meridian.svg
 fput fput modes.svg
 nbody_eight nbody eight.svg
 nbody_collapse nbody collapse.svg
+stars stars merger.svg 10000
 chaos_map chaos_map map.svg 40000
 basins basins basins.svg 40000
 phi4 phi4 fronts.svg 2
+breather breather rings.svg
 mixing mixing t5.svg 10000
 nls nls peaks.svg
 rigid_body rigid_body axis.svg

@@ -18,7 +18,7 @@ use super::crew::Crew;
 use super::marks::{Marks, Three};
 use super::seat::{Host, Seat};
 use crate::flow::Scratch;
-use crate::map::Map;
+use crate::map::{Clock, Map};
 use crate::observe::{Quantity, Section, Tracker, Watcher};
 use crate::scheme::Scheme;
 use crate::state::Carried;
@@ -294,14 +294,13 @@ where
             interval,
             ahead,
         } = &mut self.times;
-        let of: [(&mut _, fn(&Seat<T, S>) -> T); 3] = [
-            (start, |seat| seat.clock.start),
-            (interval, |seat| seat.clock.interval),
-            (ahead, |seat| count(seat.made)),
-        ];
-        for (into, number) in of {
+        for (at, into) in [start, interval, ahead].into_iter().enumerate() {
             self.numbers.clear();
-            self.numbers.extend(seats.iter().map(|seat| number(seat)));
+            let number = |seat: &&Seat<T, S>| {
+                let Clock { start, interval } = seat.clock;
+                [start, interval, count(seat.made)][at]
+            };
+            self.numbers.extend(seats.iter().map(number));
             gather::<L, T, P>(&self.numbers, into);
         }
         self.opening = match (changed.some_fresh, changed.all_fresh) {

@@ -1,6 +1,11 @@
 //! Shapes of loops in one run: each against a straight lane loop by hand that gathers, at a site, the force
 //! of all its neighbours.
 //!
+//! Loops that stay scalar: those that compute more than 300 values in an iteration, that have loops inside, that
+//! read no element that moves on by one (they gain nothing), that call a function which is a parameter of the
+//! type or use a condition from outside (neither has a form in lanes), and flows in place, whose iterations
+//! follow from each other.
+//!
 //! `cargo bench --bench corpus` prints the table of `loops`; `-- --check` compares the ends of runs alone.
 
 #[path = "support/rounds.rs"]
@@ -438,7 +443,7 @@ const ALL: &[Workload] = &[
     Workload {
         name: "matrix of parameters",
         units: (FEW * FEW) as f64,
-        steps: 100,
+        steps: 20,
         library: |steps, fused| {
             run(
                 &Stiff::new(FEW, stiffness()).unwrap(),
@@ -453,7 +458,7 @@ const ALL: &[Workload] = &[
     Workload {
         name: "three axes",
         units: (EDGE * EDGE * EDGE) as f64,
-        steps: 60,
+        steps: 20,
         library: |steps, fused| {
             run(
                 &Cube::new(EDGE).unwrap(),
@@ -468,7 +473,7 @@ const ALL: &[Workload] = &[
     Workload {
         name: "two axes, open ends",
         units: (EDGE * EDGE) as f64,
-        steps: 400,
+        steps: 200,
         library: |steps, fused| {
             run(
                 &Plate::new(EDGE, EDGE).unwrap(),

@@ -295,7 +295,7 @@ const ALL: &[Workload] = &[
     Workload {
         name: "φ⁴, 256 × 256 sites",
         units: (EDGE * EDGE) as f64,
-        steps: 100,
+        steps: 12,
         library: |steps, fused| {
             run(
                 &Phi4::new(EDGE, EDGE).unwrap(),
@@ -326,7 +326,7 @@ const ALL: &[Workload] = &[
     Workload {
         name: "sine-Gordon, 256 × 256 sites",
         units: (EDGE * EDGE) as f64,
-        steps: 100,
+        steps: 12,
         library: |steps, fused| {
             run(
                 &SineGordon::new(EDGE, EDGE).unwrap(),

@@ -158,7 +158,7 @@ fn derivatives_are_those_of_duals() {
 
 #[test]
 fn lanes_have_the_bits_of_iterations_one_by_one() {
-    for (n, m) in SIZES {
+    for (n, m) in SIZES.into_iter().chain((1..=40).map(|m| (3, m))) {
         let seed = (1000 * n + m) as u64;
         bits::check(&Pendulums::new(n, m).unwrap(), seed);
         bits::check(&Coupled::new(n, m).unwrap(), seed);

@@ -15,6 +15,7 @@ mod common;
 pub mod compiled;
 mod compositions;
 pub mod coordinates;
+mod corpus;
 mod counting;
 mod crates;
 pub mod dynamics;

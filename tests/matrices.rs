@@ -56,6 +56,13 @@ fn energies_and_derivatives_are_those_of_sums_by_hand() {
         }
         bits::check(&net, n as u64);
     }
+    for k in 1..=40 {
+        let row = |i| (0..k).map(|j| given(i, j)).collect();
+        bits::check(
+            &Net::new(3, k, (0..3).map(row).collect::<Vec<Vec<f64>>>()).unwrap(),
+            k as u64,
+        );
+    }
     let (w, z) = ([[1.0, 2.0, 3.0]; 4], [[1.0, 2.0, 3.0, 4.0]; 3]);
     let q = [0.5, 0.25, 2.0, 1.0];
     let mut due = 3.0 * q[0];

@@ -70,7 +70,7 @@ pub fn add<P: Pack>(into: &mut [f64], by: &[f64], c: f64) {
     }
 }
 
-/// The end of a run, and the time of its steps without that of its start.
+/// The end of a run, and the time of its steps after the first one.
 pub type Timed = (Vec<f64>, Duration);
 
 /// A workload: its units of work in a step, the number of steps of a round, and the runs of it.
@@ -112,6 +112,8 @@ where
     if fused {
         run = run.fused();
     }
+    // The first step allocates.
+    run.advance(1).unwrap();
     let began = Instant::now();
     run.advance(black_box(steps as u64)).unwrap();
     let time = began.elapsed();
@@ -129,20 +131,24 @@ pub fn by_hand<S: ByHand>(
     lanes: bool,
 ) -> Timed {
     let (mut q, mut p) = start;
-    let all = Steps {
-        system,
-        q: &mut q,
-        p: &mut p,
-        work: &mut work,
-        count: black_box(steps),
+    let mut advance = |count| {
+        let all = Steps {
+            system,
+            q: &mut q,
+            p: &mut p,
+            work: &mut work,
+            count: black_box(count),
+        };
+        let began = Instant::now();
+        if lanes {
+            dispatch(all);
+        } else {
+            all.over::<f64>();
+        }
+        began.elapsed()
     };
-    let began = Instant::now();
-    if lanes {
-        dispatch(all);
-    } else {
-        all.over::<f64>();
-    }
-    let time = began.elapsed();
+    advance(1);
+    let time = advance(steps);
     ([q, p].concat(), time)
 }
 
@@ -199,7 +205,7 @@ pub fn main(all: &[Workload]) {
                 &|steps| (workload.library)(steps, true),
             ];
             let mut fastest = [Duration::MAX; 4];
-            for _ in 0..60 {
+            for _ in 0..240 {
                 for (fastest, run) in fastest.iter_mut().zip(runs) {
                     // Rounds are short, so that the fastest of many is not disturbed by other processes.
                     *fastest = (*fastest).min(run(workload.steps).1);

@@ -7,12 +7,15 @@
 //! result does not depend on whether, or on which CPU, iterations went through lanes, unless products
 //! [fuse](Arithmetic::fused) there.
 
+mod nest;
+mod packs;
 mod waiting;
 
 use crate::slabs::{both, slabs};
 use crate::system::Arithmetic;
-use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
-use waiting::{NONE, Waiting};
+use hamiltonian_lanes::{Kernel, Level, Nf, Real, dispatch};
+pub use nest::{Mode, Nest, nest};
+use packs::packs;
 
 /// The least extent of a loop whose sums are partial sums, and whose iterations may go through lanes.
 pub const LONG: usize = 32;
@@ -43,6 +46,13 @@ pub enum Change {
     AddProduct,
     /// `−= a·b`, fused where the scalar fuses
     SubProduct,
+}
+
+impl Change {
+    /// Returns true if the element before is part of the new one.
+    const fn reads(self) -> bool {
+        !matches!(self, Change::Set)
+    }
 }
 
 /// A store of an iteration.
@@ -133,6 +143,13 @@ pub fn total<T: Real>(s: &[T; STRIDE]) -> T {
     ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]))
 }
 
+/// `i % n`; most indices are below n and are not divided.
+#[inline(always)]
+#[must_use]
+pub fn wrapped(i: usize, n: usize) -> usize {
+    if i < n { i } else { i % n }
+}
+
 impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, const A: usize>
     Stretch<'_, T, G, R, C, S, A>
 {
@@ -143,28 +160,20 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             self.in_lanes::<B, W>();
         } else {
             let length = self.length;
-            self.one_by_one::<B, W>(0, length, None);
+            self.one_by_one::<B, W>(length);
         }
     }
 
     /// The iterations through lanes; those before the first partial sum one by one.
     #[inline(never)]
     fn in_lanes<B: Body<G, R, W>, const W: usize>(mut self) {
-        let before = match B::SUMS.is_empty() {
-            true => 0,
-            false => (STRIDE - self.first % STRIDE) % STRIDE,
-        };
-        if self.length < before + STRIDE {
-            let length = self.length;
-            return self.some::<B, W>(0, length, None);
-        }
+        let before = self.before::<B, W>();
         if before > 0 {
-            self.again().some::<B, W>(0, before, None);
-            self.length -= before;
-            self.first += before;
-            self.number += before;
-            self.reads = self.reads.map(|read| &read[before..]);
-            self.starts.iter_mut().for_each(|start| *start += before);
+            self.again().some::<B, W>(before);
+            self.skip(before);
+        }
+        if self.length == 0 {
+            return;
         }
         let slabs = match B::SUMS.is_empty() {
             true => slabs(self.arithmetic, self.length),
@@ -176,6 +185,38 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             return self.cut::<B, W>(&ends, slabs, false);
         }
         self.dispatch::<B, W>(false);
+    }
+
+    /// The number of iterations before the first pack: up to one that adds to the first partial sum, and all
+    /// if those after it fill no pack.
+    #[inline(always)]
+    fn before<B: Body<G, R, W>, const W: usize>(&self) -> usize {
+        let before = match B::SUMS.is_empty() {
+            true => 0,
+            false => (STRIDE - self.first % STRIDE) % STRIDE,
+        };
+        match self.length < before + STRIDE {
+            true => self.length,
+            false => before,
+        }
+    }
+
+    /// Leaves the first iterations out.
+    #[inline(always)]
+    fn skip(&mut self, count: usize) {
+        self.length -= count;
+        self.first += count;
+        self.number += count;
+        let mut r = 0;
+        while r < R {
+            self.reads[r] = &self.reads[r][count..];
+            r += 1;
+        }
+        let mut s = 0;
+        while s < S {
+            self.starts[s] += count;
+            s += 1;
+        }
     }
 
     /// The iterations through lanes. Where the stretch is followed, the elements that its last iterations
@@ -292,26 +333,15 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         }
     }
 
-    /// The iterations `at..end` one by one: the one copy of them beside those in lanes.
+    /// The first iterations one by one: the one copy of them beside those in lanes.
     #[inline(never)]
-    fn some<B: Body<G, R, W>, const W: usize>(
-        self,
-        at: usize,
-        end: usize,
-        waiting: Option<(&mut Waiting<T, S, W>, usize)>,
-    ) {
-        self.one_by_one::<B, W>(at, end, waiting);
+    fn some<B: Body<G, R, W>, const W: usize>(self, count: usize) {
+        self.one_by_one::<B, W>(count);
     }
 
-    /// The iterations `at..end` one by one. Stores that wait put their results into those of a block, which
-    /// begins with the iteration that is named.
+    /// The first iterations one by one.
     #[inline(always)]
-    fn one_by_one<B: Body<G, R, W>, const W: usize>(
-        self,
-        at: usize,
-        end: usize,
-        mut waiting: Option<(&mut Waiting<T, S, W>, usize)>,
-    ) {
+    fn one_by_one<B: Body<G, R, W>, const W: usize>(self, count: usize) {
         let Stretch {
             first,
             number,
@@ -322,7 +352,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             sums,
             ..
         } = self;
-        for k in at..end {
+        for k in 0..count {
             let mut read = [T::zero(); R];
             let mut r = 0;
             while r < R {
@@ -337,17 +367,8 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             let mut s = 0;
             while s < B::STORES.len() {
                 let store = &B::STORES[s];
-                match &mut waiting {
-                    Some((waiting, block)) if store.is_shared && waiting.group[s] != NONE => {
-                        for by in store.by {
-                            waiting.results[by][CARRY + k - *block] = out[by];
-                        }
-                    }
-                    _ => {
-                        let place = &mut columns[store.column][starts[s] + k];
-                        *place = changed(store.change, *place, store.by.map(|by| out[by]));
-                    }
-                }
+                let place = &mut columns[store.column][starts[s] + k];
+                *place = changed(store.change, *place, store.by.map(|by| out[by]));
                 s += 1;
             }
             let mut s = 0;
@@ -412,146 +433,6 @@ impl<
     }
 }
 
-/// At least [`STRIDE`] iterations in packs of as many, and those that fill none one by one.
-#[inline(always)]
-fn packs<
-    T: Real,
-    B: Body<G, R, W>,
-    P: Pack,
-    const G: usize,
-    const R: usize,
-    const C: usize,
-    const S: usize,
-    const A: usize,
-    const W: usize,
->(
-    stretch: Stretch<'_, T, G, R, C, S, A>,
-    is_followed: bool,
-) {
-    let Stretch {
-        length,
-        first,
-        number,
-        given,
-        mut reads,
-        mut columns,
-        mut starts,
-        sums,
-        arithmetic,
-    } = stretch;
-    let mut constants = [T::Over::<P>::default(); G];
-    let mut g = 0;
-    while g < G {
-        constants[g] = given[g].spread::<P>();
-        g += 1;
-    }
-    let mut totals = [T::Over::<P>::default(); A];
-    let mut a = 0;
-    while a < A {
-        totals[a] = T::gather::<P>(&sums[a]);
-        a += 1;
-    }
-    // Lengths that the compiler knows to be those of the loop: no element needs a check.
-    let mut r = 0;
-    while r < R {
-        reads[r] = &reads[r][..length];
-        r += 1;
-    }
-    let has_shared = const { has_shared(B::STORES) };
-    let mut waiting = Waiting::<T, S, W>::new(B::STORES, starts, length, is_followed);
-    let does_wait = has_shared && waiting.is_any();
-    let mut is_cut = [false; C];
-    let mut s = 0;
-    while s < B::STORES.len() {
-        let store = &B::STORES[s];
-        if !store.is_shared {
-            if !is_cut[store.column] {
-                let column = core::mem::take(&mut columns[store.column]);
-                columns[store.column] = &mut column[starts[s]..starts[s] + length];
-                is_cut[store.column] = true;
-            }
-            starts[s] = 0;
-        }
-        s += 1;
-    }
-    let block = if does_wait { BLOCK } else { length };
-    let mut at = 0;
-    while at < length {
-        let end = at + block.min(length - at);
-        let mut k = at;
-        while k + STRIDE <= end {
-            let mut read = [T::Over::<P>::default(); R];
-            let mut r = 0;
-            while r < R {
-                read[r] = T::gather::<P>(&reads[r][k..k + STRIDE]);
-                r += 1;
-            }
-            let ramp = match B::COUNTS {
-                true => ramp::<T, P>(number + k),
-                false => T::Over::<P>::default(),
-            };
-            let out = B::compute(constants, read, ramp);
-            let mut s = 0;
-            while s < B::STORES.len() {
-                let store = &B::STORES[s];
-                if store.is_shared && waiting.group[s] != NONE {
-                    let place = CARRY + k - at;
-                    let [a, b] = store.by;
-                    T::scatter::<P>(out[a], &mut waiting.results[a][place..place + STRIDE]);
-                    if a != b {
-                        T::scatter::<P>(out[b], &mut waiting.results[b][place..place + STRIDE]);
-                    }
-                } else {
-                    let place = if store.is_shared { starts[s] + k } else { k };
-                    let places = &mut columns[store.column][place..place + STRIDE];
-                    let by = [out[store.by[0]], out[store.by[1]]];
-                    let new = changed(store.change, T::gather::<P>(places), by);
-                    T::scatter::<P>(new, places);
-                }
-                s += 1;
-            }
-            let mut s = 0;
-            while s < B::SUMS.len() {
-                let (sum, by) = B::SUMS[s];
-                totals[sum] += out[by];
-                s += 1;
-            }
-            k += STRIDE;
-        }
-        if end == length {
-            let mut a = 0;
-            while a < A {
-                T::scatter::<P>(totals[a], &mut sums[a]);
-                a += 1;
-            }
-        }
-        if k < end {
-            let rest = Stretch {
-                length,
-                first,
-                number,
-                given,
-                reads,
-                columns: columns.each_mut().map(|column| &mut **column),
-                starts,
-                sums: &mut *sums,
-                arithmetic,
-            };
-            // What waits is looked at where something may: else it would not stay in registers.
-            let waiting = if has_shared {
-                Some((&mut waiting, at))
-            } else {
-                None
-            };
-            rest.some::<B, W>(k, end, waiting);
-        }
-        if does_wait {
-            waiting.settle::<P, C>(B::STORES, &mut columns, at, end, end == length);
-        }
-        at = end;
-    }
-}
-
 /// Returns true if results of any store wait.
 const fn has_shared(stores: &[Store]) -> bool {
     let mut s = 0;
@@ -564,14 +445,14 @@ const fn has_shared(stores: &[Store]) -> bool {
     false
 }
 
-/// Successive numbers of iterations.
-#[inline(always)]
-fn ramp<T: Real, P: Pack>(first: usize) -> T::Over<P> {
-    let mut numbers = [T::zero(); STRIDE];
-    let mut k = 0;
-    while k < STRIDE {
-        numbers[k] = T::constant((first + k) as f64, 0.0);
-        k += 1;
+/// Returns true if no earlier store is to the same column.
+const fn is_first_of_column(stores: &[Store], at: usize) -> bool {
+    let mut s = 0;
+    while s < at {
+        if stores[s].column == stores[at].column {
+            return false;
+        }
+        s += 1;
     }
-    T::gather::<P>(&numbers)
+    true
 }

@@ -31,7 +31,9 @@ pub use crate::kernel::{
     OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
 };
 pub use crate::lattice::{Lattice, MatrixOf, check_extents, fits};
-pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
+pub use crate::loops::{
+    Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, wrapped,
+};
 use crate::output::element;
 pub use crate::pairs::{Row, TILED, Triangle, pairs};
 pub use crate::push::Coupled;

@@ -3,7 +3,7 @@
 //! Input: the results of a block of iterations. Output: the columns they are stored in. Invariant: each
 //! element is changed in the order of the iterations.
 
-use super::{BLOCK, CARRY, REACH, STRIDE, Store, changed};
+use super::{BLOCK, CARRY, REACH, STRIDE, Store, changed, is_first_of_column};
 use hamiltonian_lanes::{Pack, Real};
 
 /// Results of a block of iterations on their way to columns that several stores of an iteration reach.
@@ -99,6 +99,17 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
             s += 1;
         }
         false
+    }
+
+    /// Returns true if a store that does not wait is the first one to change its element.
+    #[inline(always)]
+    pub(super) fn is_taken_back(&self, stores: &[Store], s: usize) -> bool {
+        let store = &stores[s];
+        store.change.reads()
+            && match store.is_shared {
+                true => self.group[s] == NONE,
+                false => is_first_of_column(stores, s),
+            }
     }
 
     /// Stores the results of iterations `at..end`.

@@ -4,13 +4,14 @@
 //! `n` is called `_n`; numbers stand where they are used; an index modulo a size is no operation
 //! of a loop body: the loop runs in segments in which nothing wraps.
 
+use super::accesses::{Accesses, start_name};
 use super::context::{Access, Context, ZERO};
 use super::index::variable;
 use super::inline::{Binding, Inlined};
 use super::layout::{Layout, Slice};
 use super::number;
 use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
-use hamiltonian_symbolic::index::{Affine, Domain, Index, Loops};
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Update, Value};
 use std::fmt::Write;
@@ -65,7 +66,9 @@ pub fn write(
         slabs: Vec::new(),
         tile: None,
         body: None,
+        same: Vec::new(),
         is_inside: false,
+        is_nest: false,
     };
     writer.steps(steps);
 }
@@ -82,21 +85,27 @@ pub(super) struct Writer<'a> {
     /// Sums of the open loop that are trees where it is long: whether it is, and the partial sum that an
     /// iteration adds to.
     pub(super) trees: Vec<(Value, String, String)>,
-    /// Columns of which a slab is there.
-    pub(super) slabs: Vec<Slice>,
+    /// Columns of which a slab is there, with the number of elements of a row.
+    pub(super) slabs: Vec<(Slice, String)>,
+    /// Variables of loops that are made as one, and that of the first one.
+    pub(super) same: Vec<(Domain, Domain)>,
     /// The loop over the columns of a row in a tile.
     pub(super) tile: Option<Domain>,
     /// The type of arithmetic that two forms of a loop share.
     pub(super) body: Option<String>,
     /// True if a loop is open.
     pub(super) is_inside: bool,
+    /// True in a nest that core runs as a whole.
+    pub(super) is_nest: bool,
     /// The values of the outermost level that stand where they are used.
     inlined: Inlined,
 }
 
 impl Writer<'_> {
     pub(super) fn steps(&mut self, steps: &[Step]) {
-        for step in steps {
+        let mut next = 0;
+        while let Some(step) = steps.get(next) {
+            next += 1;
             match step {
                 Step::Let(value) => self.compute(*value),
                 Step::Accumulate(to, value) => {
@@ -113,13 +122,44 @@ impl Writer<'_> {
                     let place = self.target(*target, row, column.as_ref());
                     self.update(&place, update);
                 }
-                Step::Loop(inner) => {
-                    let is_outermost = !std::mem::replace(&mut self.is_inside, true);
-                    if !(is_outermost && (self.in_tiles(inner) || self.in_slabs(inner))) {
-                        self.nest(inner);
-                    }
-                    self.is_inside = !is_outermost;
-                }
+                Step::Loop(_) => next += self.loops(&steps[next - 1..]) - 1,
+            }
+        }
+    }
+
+    /// Writes the first of some steps, which are loops; their number.
+    fn loops(&mut self, steps: &[Step]) -> usize {
+        let mut loops = Vec::new();
+        for step in steps {
+            let Step::Loop(inner) = step else { break };
+            loops.push(inner);
+        }
+        let count = self.joint(&loops);
+        loops.truncate(count.max(1));
+        let is_outermost = !std::mem::replace(&mut self.is_inside, true);
+        let is_apart = is_outermost && (self.in_tiles(&loops) || self.in_slabs(&loops));
+        if !is_apart {
+            match is_outermost {
+                true => self.whole(&loops, None),
+                false => self.rows_of(&loops, None),
+            }
+        }
+        self.is_inside = !is_outermost;
+        loops.len()
+    }
+
+    /// Writes one loop, or several as one; of an outermost one the rows of a slab, if that is there.
+    pub(super) fn rows_of(&mut self, loops: &[&Loop], slab: Option<Domain>) {
+        match (loops, slab) {
+            ([outer], None) => self.nest(outer),
+            ([outer], Some(slab)) => {
+                line!(self, "for {} in _r{} {{", variable(outer.domain), slab.0);
+                self.steps(&outer.body);
+                line!(self, "}}");
+            }
+            _ => {
+                let parts: Vec<_> = loops.iter().map(|outer| (*outer, None)).collect();
+                self.join(&parts, slab);
             }
         }
     }
@@ -434,7 +474,7 @@ impl Writer<'_> {
     }
 
     /// The slices of a segment, as long as the segment, so that no element needs a check.
-    fn cut(&mut self, domain: Domain, cuts: &[(Slice, Index)]) {
+    pub(super) fn cut(&mut self, domain: Domain, cuts: &[(Slice, Index)]) {
         let d = domain.0;
         for (at, (slice, index)) in cuts.iter().enumerate() {
             let start = match self.indices.iter().position(|(known, _)| known == index) {
@@ -457,13 +497,6 @@ impl Writer<'_> {
     }
 }
 
-/// The name of the start of a wrapped index in a segment: its place on the last axis, which the rows
-/// before it are added to.
-fn start_name(domain: Domain, at: usize, index: &Index) -> String {
-    let word = if index.outer.is_some() { 'o' } else { 'w' };
-    format!("_{word}{}_{at}", domain.0)
-}
-
 /// The borrow of a part of a slice.
 fn reference(slice: &Slice) -> &'static str {
     if slice.is_written() { "&mut " } else { "&" }
@@ -472,128 +505,6 @@ fn reference(slice: &Slice) -> &'static str {
 /// A `usize` expression as a scalar.
 fn real(text: &str) -> String {
     format!("T::constant({text} as __h::core::primitive::f64, 0.0)")
-}
-
-/// The elements that a loop's body reaches with the loop's own variable.
-#[derive(Default)]
-pub(super) struct Accesses {
-    /// Indices that wrap as the variable moves by one, with its factor 1 or −1.
-    wrapped: Vec<(Index, i64)>,
-    /// Columns read, or written at this one index only, that run along with the variable.
-    pub(super) cuts: Vec<(Slice, Index)>,
-}
-
-impl Accesses {
-    /// Returns true if the loop counts from 0 and columns run along with it element by element.
-    fn is_plain(&self, inner: &Loop) -> bool {
-        let along =
-            |(_, index): &(Slice, Index)| *index == Index::plain(Affine::variable(inner.domain));
-        self.wrapped.is_empty()
-            && inner.start.as_constant() == Some(0)
-            && self.cuts.iter().all(along)
-    }
-
-    /// The name of the start of a wrapped index in a segment.
-    pub(super) fn start_of(&self, domain: Domain, index: &Index) -> Option<String> {
-        let at = self.wrapped.iter().position(|(known, _)| known == index)?;
-        Some(start_name(domain, at, index))
-    }
-
-    /// Those of a loop; none where iterations read and write one point, which has no parts to cut.
-    pub(super) fn of(context: Context, inner: &Loop) -> Accesses {
-        let mut finder = Finder {
-            context,
-            domain: inner.domain,
-            accesses: Accesses::default(),
-            stores: Vec::new(),
-        };
-        if context.access == Access::Apart {
-            finder.walk(&inner.body, Loops::default());
-        }
-        let mut accesses = finder.accesses;
-        for (slice, index, steps) in finder.stores {
-            if steps {
-                accesses.cut(slice, index);
-            }
-        }
-        accesses
-    }
-
-    fn cut(&mut self, slice: Slice, index: Index) {
-        let cut = (slice, index);
-        if !self.cuts.contains(&cut) {
-            self.cuts.push(cut);
-        }
-    }
-}
-
-struct Finder<'a> {
-    context: Context<'a>,
-    domain: Domain,
-    accesses: Accesses,
-    /// Columns written, each with its index, and whether all stores have that index and it moves by
-    /// one with the loop variable.
-    stores: Vec<(Slice, Index, bool)>,
-}
-
-impl Finder<'_> {
-    fn walk(&mut self, steps: &[Step], inner: Loops) {
-        for step in steps {
-            match step {
-                Step::Let(value) => {
-                    let program = self.context.program;
-                    if let Instruction::Load(array, row, column) = program.instruction(*value) {
-                        let number = self.context.number(*array, row, column.as_ref());
-                        if self.index(&number, inner) {
-                            self.accesses.cut(self.context.read(*array), number);
-                        }
-                    }
-                }
-                Step::Store(target, row, column, _) => {
-                    let slice = Slice::write(self.context.layout, *target);
-                    let along = self.element(row, column.as_ref(), inner);
-                    match self.stores.iter_mut().find(|(s, ..)| *s == slice) {
-                        Some((_, index, steps)) => *steps &= index == row && along,
-                        None => self.stores.push((slice, row.clone(), along)),
-                    }
-                }
-                Step::Accumulate(..) => {}
-                Step::Loop(l) => self.walk(&l.body, inner | Loops::of(l.domain)),
-            }
-        }
-    }
-
-    /// Notes the indices of an element that wrap in this loop. Whether it moves by one element of its
-    /// column with the loop variable, in the body of this very loop.
-    fn element(&mut self, row: &Index, column: Option<&Index>, inner: Loops) -> bool {
-        let along = self.index(row, inner);
-        if let Some(column) = column {
-            self.index(column, inner);
-        }
-        along && column.is_none()
-    }
-
-    fn index(&mut self, index: &Index, inner: Loops) -> bool {
-        let variables = index.variables();
-        if variables.meets(inner) || !variables.has(self.domain) {
-            return false;
-        }
-        let outer = index.outer.as_ref();
-        if outer.is_some_and(|outer| outer.index.variables().has(self.domain)) {
-            return false;
-        }
-        let factor = index.affine.factor(self.domain);
-        if let Some(modulo) = &index.modulo {
-            if factor.abs() != 1 || modulo.factor(self.domain) != 0 {
-                return false;
-            }
-            let wrapped = (index.clone(), factor);
-            if !self.accesses.wrapped.contains(&wrapped) {
-                self.accesses.wrapped.push(wrapped);
-            }
-        }
-        factor == 1
-    }
 }
 
 /// Sets output columns to 0.

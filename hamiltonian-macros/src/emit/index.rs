@@ -99,9 +99,11 @@ impl Indices<'_> {
         let (plus, minus) = self.joined(affine);
         let n = self.modulus(modulo);
         if minus.is_empty() {
-            format!("({plus}) % {n}")
+            format!("__h::wrapped({plus}, {n})")
         } else {
-            format!("(({plus}) % {n} + ({n} - ({minus}) % {n})) % {n}")
+            format!(
+                "__h::wrapped(__h::wrapped({plus}, {n}) + ({n} - __h::wrapped({minus}, {n})), {n})"
+            )
         }
     }
 
@@ -153,10 +155,10 @@ mod tests {
             indices.saturating(&Affine::constant(-2).plus(1, &n)),
             "(N0).saturating_sub(2usize)"
         );
-        assert_eq!(indices.wrapped(&i, &n), "(_i2) % N0");
+        assert_eq!(indices.wrapped(&i, &n), "__h::wrapped(_i2, N0)");
         assert_eq!(
             indices.wrapped(&below, &n),
-            "((_i2) % N0 + (N0 - (1usize) % N0)) % N0"
+            "__h::wrapped(__h::wrapped(_i2, N0) + (N0 - __h::wrapped(1usize, N0)), N0)"
         );
     }
 }

@@ -17,6 +17,7 @@ macro_rules! line {
     }};
 }
 
+mod accesses;
 mod block;
 mod construct;
 mod context;
@@ -33,6 +34,7 @@ mod index;
 mod inline;
 mod item;
 mod iteration;
+mod join;
 mod kicks;
 mod layout;
 mod markers;
@@ -49,6 +51,7 @@ mod storage;
 mod stretch;
 mod values;
 mod vectors;
+mod whole;
 
 pub use declared::Declared;
 pub use number::closed;

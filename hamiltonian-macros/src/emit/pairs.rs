@@ -4,7 +4,8 @@
 //! the plain loop for few rows. Invariant: inside, a column that is written begins with the
 //! first column of the row in the tile, and the row's own element is a reference.
 
-use super::block::{Accesses, Writer};
+use super::accesses::Accesses;
+use super::block::Writer;
 use super::context::Access;
 use super::layout::Slice;
 use hamiltonian_symbolic::index::{Affine, Index};
@@ -14,7 +15,8 @@ use std::fmt::Write;
 
 impl Writer<'_> {
     /// Writes a loop over pairs in tiles; returns false for other loops.
-    pub(super) fn in_tiles(&mut self, outer: &Loop) -> bool {
+    pub(super) fn in_tiles(&mut self, loops: &[&Loop]) -> bool {
+        let [outer] = loops else { return false };
         if self.context.access != Access::Apart {
             return false;
         }
@@ -38,7 +40,7 @@ impl Writer<'_> {
                 line!(self, "if {count} >= __h::TILED {{");
                 self.tiles(outer, &pairs, &count);
                 line!(self, "}} else {{");
-                self.nest(outer);
+                self.whole(loops, None);
                 line!(self, "}}");
             }
         }
@@ -79,7 +81,10 @@ impl Writer<'_> {
             let element = format!("*_y{}", slice.name());
             self.slices.push((*slice, own.clone(), element));
         }
-        self.slabs = slices;
+        self.slabs = slices
+            .into_iter()
+            .map(|slice| (slice, String::new()))
+            .collect();
         self.tile = Some(pairs.inner.domain);
         for (at, step) in outer.body.iter().enumerate() {
             let is_once = pairs.once.contains(&at);

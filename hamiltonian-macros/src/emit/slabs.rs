@@ -1,35 +1,35 @@
 //! Outer loops in slabs, which threads take.
 //!
-//! Input: an outermost loop with loops inside. Output: a call of core with the loop over a range of rows, if
-//! each iteration changes elements of its own row of a lattice alone. Invariant: inside, a column that is
+//! Input: an outermost loop with loops inside, or several that are made as one. Output: a call of core with the
+//! loop over a range of rows, if each iteration changes elements of its own row of a lattice alone. Invariant: inside, a column that is
 //! written begins with the first row of the range.
 
 use super::block::Writer;
 use super::context::Access;
-use super::index::variable;
 use super::layout::{Layout, Slice};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::program::{Loop, Step, Target};
 use std::fmt::Write;
 
 impl Writer<'_> {
-    /// Writes a loop in slabs; whether that was done.
-    pub(super) fn in_slabs(&mut self, outer: &Loop) -> bool {
-        let has_loops = outer.body.iter().any(|step| matches!(step, Step::Loop(_)));
-        if !has_loops
+    /// Writes loops in slabs; whether that was done.
+    pub(super) fn in_slabs(&mut self, loops: &[&Loop]) -> bool {
+        let mut columns = Vec::new();
+        let are_rows = loops.iter().all(|outer| {
+            outer.body.iter().any(|step| matches!(step, Step::Loop(_)))
+                && outer.accumulators.is_empty()
+                && (outer.start.as_constant() == Some(0) || loops.len() > 1)
+                && self.rows(outer.domain, &outer.body, &mut columns).is_some()
+        });
+        if !are_rows
+            || columns.is_empty()
             || self.context.access != Access::Apart
             || self.context.layout == Layout::Scalars
             || !self.has_threads()
-            || !outer.accumulators.is_empty()
-            || outer.start.as_constant() != Some(0)
         {
             return false;
         }
-        let mut columns = Vec::new();
-        if self.rows(outer.domain, &outer.body, &mut columns).is_none() || columns.is_empty() {
-            return false;
-        }
-        let d = outer.domain.0;
+        let d = loops[0].domain.0;
         let names: Vec<String> = columns.iter().map(|(slice, _)| slice.name()).collect();
         let given: Vec<String> = (columns.iter())
             .map(|(slice, row)| format!("(&mut {}[..], {row})", slice.name()))
@@ -37,20 +37,25 @@ impl Writer<'_> {
         line!(
             self,
             "__h::rows({}, {}, [{}], #[inline(always)] move |_r{d}, [{}]| {{",
-            self.context.indices.saturating(&outer.end),
+            self.last_row(loops),
             self.arithmetic,
             given.join(", "),
             names.join(", "),
         );
-        for (slice, row) in &columns {
-            line!(self, "let _b{} = _r{d}.start * {row};", slice.name());
-        }
-        self.slabs = columns.into_iter().map(|(slice, _)| slice).collect();
-        line!(self, "for {} in _r{d} {{", variable(outer.domain));
-        self.steps(&outer.body);
-        line!(self, "}}\n}});");
+        self.slabs = columns;
+        self.whole(loops, Some(loops[0].domain));
+        line!(self, "}});");
         self.slabs.clear();
         true
+    }
+
+    /// The number of rows up to the last one that a loop reaches.
+    fn last_row(&self, loops: &[&Loop]) -> String {
+        let ends = loops
+            .iter()
+            .map(|outer| self.context.indices.saturating(&outer.end));
+        let all = ends.reduce(|text, end| format!("({text}).max({end})"));
+        all.unwrap_or_default()
     }
 
     /// The columns that steps write and the number of elements of a row of each. `None` if they write
@@ -95,7 +100,7 @@ impl Writer<'_> {
 
     /// The number of an element of a column that is written, in the slab that is there.
     pub(super) fn within(&self, slice: &Slice, number: String) -> String {
-        match self.slabs.contains(slice) {
+        match self.slabs.iter().any(|(slab, _)| slab == slice) {
             true => format!("{number} - _b{}", slice.name()),
             false => number,
         }

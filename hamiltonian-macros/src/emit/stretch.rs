@@ -4,17 +4,19 @@
 //! core's `Body`, and the call. Invariant: every element that is reached moves on by one with the loop
 //! variable, or does not move; what an iteration computes is a function over any scalar.
 
-use super::block::{Accesses, Writer, name, names};
+use super::accesses::Accesses;
+use super::block::{Writer, name, names};
 use super::context::{Access, ZERO};
 use super::layout::Slice;
-use hamiltonian_symbolic::index::{Index, Loops};
+use hamiltonian_symbolic::index::{Domain, Index, Loops};
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Update, Value};
 use std::fmt::Write;
 
 /// The most values that an iteration in lanes computes.
-const MOST: usize = 300;
+pub(super) const MOST: usize = 300;
 
 /// A loop whose iterations core runs.
+#[derive(Default)]
 pub(super) struct Stretch {
     /// The type of its arithmetic.
     pub(super) name: String,
@@ -24,6 +26,8 @@ pub(super) struct Stretch {
     reads: Vec<(Value, usize)>,
     /// The loop variable as a real.
     number: Option<Value>,
+    /// Values that others are names of, in the arithmetic of several loops.
+    same: Vec<(Value, Value)>,
     /// The steps of the arithmetic.
     computed: Vec<Step>,
     /// The results of the arithmetic.
@@ -40,6 +44,7 @@ pub(super) struct Stretch {
 }
 
 /// A store of an iteration.
+#[derive(Clone)]
 struct Store {
     column: usize,
     change: &'static str,
@@ -49,7 +54,7 @@ struct Store {
 }
 
 /// The number of an element of a list, which it is added to if it is not there.
-fn number<X: PartialEq>(list: &mut Vec<X>, element: X) -> usize {
+pub(super) fn number<X: PartialEq>(list: &mut Vec<X>, element: X) -> usize {
     list.iter()
         .position(|known| *known == element)
         .unwrap_or_else(|| {
@@ -77,17 +82,8 @@ impl Writer<'_> {
         let program = self.context.program;
         let varies = |variables: Loops| variables.has(inner.domain);
         let mut made = Stretch {
-            name: String::new(),
-            given: Vec::new(),
-            reads: Vec::new(),
-            number: None,
-            computed: Vec::new(),
-            results: Vec::new(),
-            columns: Vec::new(),
-            stores: Vec::new(),
             sums: sums(inner),
-            added: Vec::new(),
-            rest: Vec::new(),
+            ..Stretch::default()
         };
         if self.context.access != Access::Apart {
             return None;
@@ -304,6 +300,9 @@ impl Writer<'_> {
             stretch.number.map_or("_".to_owned(), name),
             stretch.results.len(),
         );
+        for (other, value) in &stretch.same {
+            line!(self, "let {} = {};", name(*other), name(*value));
+        }
         self.steps(&stretch.computed);
         let results: Vec<String> = (stretch.results.iter())
             .map(|value| self.operand(*value))
@@ -319,6 +318,12 @@ impl Writer<'_> {
             line!(self, "let _i{d} = {start};");
         }
         self.loads(inner, stretch, false);
+        self.launch(stretch, inner.domain);
+    }
+
+    /// Writes the call of core, after what is given.
+    pub(super) fn launch(&mut self, stretch: &Stretch, domain: Domain) {
+        let d = domain.0;
         let reads: Vec<String> = (stretch.reads.iter())
             .map(|(_, cut)| format!("_x{d}_{cut}"))
             .collect();
@@ -332,22 +337,27 @@ impl Writer<'_> {
             true => ("0usize".to_owned(), "&mut []".to_owned()),
             false => (format!("_i{d} - _from{d}"), format!("&mut _sums{d}")),
         };
-        line!(
-            self,
+        let stretch_text = format!(
             "__h::Stretch {{ length: _l{d}, first: {first}, number: _i{d}, given: [{}], \
-             reads: [{}], columns: [{}], starts: [{}], sums: {sums}, \
-             arithmetic: {} }}.run({});",
+             reads: [{}], columns: [{}], starts: [{}], sums: {sums}, arithmetic: {} }}",
             names(&stretch.given),
             reads.join(", "),
             columns.join(", "),
             starts.join(", "),
             self.arithmetic,
-            stretch.name,
         );
+        match self.is_nest {
+            true => line!(
+                self,
+                "<__M as __h::Mode>::run({stretch_text}, {});",
+                stretch.name
+            ),
+            false => line!(self, "{stretch_text}.run({});", stretch.name),
+        }
     }
 
     /// Writes what is given, and with `all` what is read.
-    fn loads(&mut self, inner: &Loop, stretch: &Stretch, all: bool) {
+    pub(super) fn loads(&mut self, inner: &Loop, stretch: &Stretch, all: bool) {
         let is_wanted = |step: &&Step| match step {
             Step::Let(value) => {
                 let is_read = stretch.reads.iter().any(|(read, _)| read == value);
@@ -391,6 +401,48 @@ impl Writer<'_> {
 }
 
 impl Stretch {
+    /// Returns true if each element that is written is the iteration's own, and nothing is summed.
+    pub(super) fn is_apart(&self) -> bool {
+        self.sums.is_empty() && self.stores.iter().all(|store| store.start.is_none())
+    }
+
+    /// Adds the iterations of another loop, whose columns run along with the variable of `domain` in the cuts
+    /// with the numbers `places`.
+    pub(super) fn append(&mut self, other: &Stretch, domain: Domain, places: &[usize]) {
+        if self.name.is_empty() {
+            self.name = format!("__All{}", other.name.trim_start_matches('_'));
+        }
+        for value in &other.given {
+            number(&mut self.given, *value);
+        }
+        for (value, cut) in &other.reads {
+            let cut = places[*cut];
+            match self.reads.iter().find(|(_, known)| *known == cut) {
+                Some((known, _)) => self.same.push((*value, *known)),
+                None => self.reads.push((*value, cut)),
+            }
+        }
+        match (self.number, other.number) {
+            (Some(own), Some(other)) => self.same.push((other, own)),
+            (own, other) => self.number = own.or(other),
+        }
+        self.computed.extend(other.computed.iter().cloned());
+        let before = self.results.len();
+        self.results.extend(&other.results);
+        for store in &other.stores {
+            let column = &other.columns[store.column];
+            let cut = column.rsplit('_').next().and_then(|at| at.parse().ok());
+            let column = cut.map_or(column.clone(), |cut: usize| {
+                format!("_x{}_{}", domain.0, places[cut])
+            });
+            self.stores.push(Store {
+                column: number(&mut self.columns, column),
+                by: store.by.map(|by| before + by),
+                ..store.clone()
+            });
+        }
+    }
+
     /// Notes a value that comes from outside the loop. `None` if it is a mask, which has no form over
     /// another scalar.
     fn takes(&mut self, instruction: &Instruction, value: Value) -> Option<()> {

@@ -57,12 +57,12 @@ fn is_doc(tree: Option<&TokenTree>) -> bool {
     matches!(group.stream().into_iter().next(), Some(TokenTree::Ident(name)) if name == "doc")
 }
 
-/// A literal, or a string of LaTeX, with `@` for the length, `@-1` for the last index and `@*@` for the number
-/// of elements of a lattice, if they are whole words.
+/// A literal, or a string of LaTeX, with `@` for the length, `@-1` to `@-3` for the last indices, which the
+/// neighbours of the first ones have, and `@*@` for the number of elements of a lattice, if they are whole words.
 fn generalised(literal: &str, length: u32) -> String {
     let word = |word: &str| match word.trim_end_matches("usize").parse() {
         Ok(value) if value == length => "@".to_owned(),
-        Ok(value) if value == length - 1 => "@-1".to_owned(),
+        Ok(value) if (length - 3..length).contains(&value) => format!("@-{}", length - value),
         Ok(value) if value == length * length => "@*@".to_owned(),
         Ok::<u32, _>(_) | Err(_) => word.to_owned(),
     };

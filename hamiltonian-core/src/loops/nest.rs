@@ -1,0 +1,162 @@
+//! Loops around stretches, in the level of the CPU from the first iteration to the last.
+//!
+//! Input: a nest of loops over rows ([`Nest`]), written by the macro. Output: what its iterations store.
+//! Invariant: rows are made in order, each as [`Stretch::run`] makes it; but a level is entered once.
+
+use super::packs::packs;
+use super::{Body, STRIDE, Stretch};
+use crate::system::Arithmetic;
+use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
+
+/// A nest of loops: of `G` numbers that are the same in all iterations, `R` columns that are read, `C` columns
+/// that are written, and `Z` sizes.
+pub trait Nest<T: Real, const G: usize, const R: usize, const C: usize, const Z: usize> {
+    /// Makes all iterations.
+    fn run<M: Mode>(
+        given: [T; G],
+        reads: [&[T]; R],
+        columns: [&mut [T]; C],
+        sizes: [usize; Z],
+        arithmetic: Arithmetic,
+    );
+}
+
+/// Where the stretches of a nest are made.
+pub trait Mode {
+    /// Makes the iterations of a stretch.
+    fn run<
+        T: Real,
+        B: Body<G, R, W>,
+        const G: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const A: usize,
+        const W: usize,
+    >(
+        stretch: Stretch<'_, T, G, R, C, S, A>,
+        body: B,
+    );
+}
+
+/// One iteration after the other.
+struct OneByOne;
+
+impl Mode for OneByOne {
+    #[inline(always)]
+    fn run<
+        T: Real,
+        B: Body<G, R, W>,
+        const G: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const A: usize,
+        const W: usize,
+    >(
+        stretch: Stretch<'_, T, G, R, C, S, A>,
+        _: B,
+    ) {
+        let length = stretch.length;
+        stretch.one_by_one::<B, W>(length);
+    }
+}
+
+/// Iterations in packs.
+struct In<P>(core::marker::PhantomData<P>);
+
+impl<P: Pack> Mode for In<P> {
+    #[inline(always)]
+    fn run<
+        T: Real,
+        B: Body<G, R, W>,
+        const G: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const A: usize,
+        const W: usize,
+    >(
+        mut stretch: Stretch<'_, T, G, R, C, S, A>,
+        _: B,
+    ) {
+        let before = stretch.before::<B, W>();
+        if before > 0 {
+            stretch.again().some::<B, W>(before);
+            stretch.skip(before);
+        }
+        if stretch.length >= STRIDE {
+            packs::<T, B, P, G, R, C, S, A, W>(stretch, false);
+        }
+    }
+}
+
+/// Makes all iterations of a nest, in lanes where it has long loops.
+#[inline(always)]
+pub fn nest<
+    T: Real,
+    N: Nest<T, G, R, C, Z>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const Z: usize,
+>(
+    _: N,
+    is_long: bool,
+    given: [T; G],
+    reads: [&[T]; R],
+    columns: [&mut [T]; C],
+    sizes: [usize; Z],
+    arithmetic: Arithmetic,
+) {
+    if T::WIDENS && arithmetic.lanes && is_long {
+        dispatch(InLanes::<T, N, G, R, C, Z> {
+            given,
+            reads,
+            columns,
+            sizes,
+            arithmetic,
+            nest: core::marker::PhantomData,
+        });
+    } else {
+        N::run::<OneByOne>(given, reads, columns, sizes, arithmetic);
+    }
+}
+
+/// The way into a level.
+struct InLanes<'a, T, N, const G: usize, const R: usize, const C: usize, const Z: usize> {
+    given: [T; G],
+    reads: [&'a [T]; R],
+    columns: [&'a mut [T]; C],
+    sizes: [usize; Z],
+    arithmetic: Arithmetic,
+    nest: core::marker::PhantomData<N>,
+}
+
+impl<
+    T: Real,
+    N: Nest<T, G, R, C, Z>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const Z: usize,
+> Kernel for InLanes<'_, T, N, G, R, C, Z>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        let InLanes {
+            given,
+            reads,
+            columns,
+            sizes,
+            arithmetic,
+            ..
+        } = self;
+        if L::FUSES && arithmetic.fused {
+            N::run::<In<L::Eight>>(given, reads, columns, sizes, arithmetic);
+        } else {
+            N::run::<In<Nf<L::Eight>>>(given, reads, columns, sizes, arithmetic);
+        }
+    }
+}

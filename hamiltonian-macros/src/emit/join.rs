@@ -1,0 +1,259 @@
+//! Loops over parts of one lattice, made as one loop.
+//!
+//! Input: loops that stand side by side, such as those over the sites, over the sites that have a left
+//! neighbour, and over those that have a right one. Output: one loop over what they have in common, and the
+//! iterations of each before and after. Invariant: an iteration changes elements of its own site alone, so
+//! each element is changed in the order of the loops.
+
+use super::accesses::Accesses;
+use super::block::Writer;
+use super::context::Access;
+use super::index::variable;
+use super::layout::{Layout, Slice};
+use super::stretch::Stretch;
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::program::{Loop, Step, Target};
+use std::fmt::Write;
+
+/// A loop among others, and the flag that tells whether it is there.
+type Part<'a> = (&'a Loop, Option<String>);
+
+impl Writer<'_> {
+    /// The number of loops, from the first on, that are made as one; 0 if there are not two of them.
+    pub(super) fn joint(&self, loops: &[&Loop]) -> usize {
+        if self.context.access != Access::Apart || self.context.layout == Layout::Scalars {
+            return 0;
+        }
+        let Some(depth) = loops
+            .first()
+            .and_then(|first| self.depth(first, &mut vec![]))
+        else {
+            return 0;
+        };
+        let mut count = loops.len();
+        for (at, next) in loops.iter().enumerate() {
+            let is_known = loops[..at].iter().any(|l| l.domain == next.domain);
+            if is_known || self.depth(next, &mut vec![]) != Some(depth) {
+                count = at;
+                break;
+            }
+        }
+        let all: Vec<&Loop> = innermost(&loops[..count]);
+        let values: usize = all.iter().map(|inner| inner.body.len()).sum();
+        if count < 2 || values > super::stretch::MOST {
+            return 0;
+        }
+        count
+    }
+
+    /// The number of loops inside each other, this one counted. `None` if a loop does anything but
+    /// change elements of the sites that the loop variables are the indices of.
+    fn depth(&self, outer: &Loop, around: &mut Vec<Domain>) -> Option<usize> {
+        if !outer.accumulators.is_empty() {
+            return None;
+        }
+        around.push(outer.domain);
+        let has_loops = outer.body.iter().any(|step| matches!(step, Step::Loop(_)));
+        let mut depth = None;
+        for step in &outer.body {
+            match step {
+                Step::Loop(inner) => {
+                    let inside = self.depth(inner, around)?;
+                    if *depth.get_or_insert(inside) != inside {
+                        return None;
+                    }
+                }
+                Step::Store(Target::Phase(_), row, None, _) => {
+                    let own = |(axis, domain): (Index, &Domain)| {
+                        axis == Index::plain(Affine::variable(*domain))
+                    };
+                    let axes = row.axes();
+                    let is_own =
+                        axes.len() == around.len() && axes.into_iter().zip(around.iter()).all(own);
+                    if has_loops || !is_own {
+                        return None;
+                    }
+                }
+                Step::Let(_) if !has_loops => {}
+                _ => return None,
+            }
+        }
+        around.pop();
+        if !has_loops {
+            let found = Accesses::of(self.context, outer);
+            let stretch = self.stretch(outer, &found)?;
+            return (!found.wraps() && stretch.is_apart()).then_some(1);
+        }
+        depth.map(|inside| inside + 1)
+    }
+
+    /// Writes loops as one; of an outermost loop the rows of a slab, if that is there.
+    pub(super) fn join(&mut self, loops: &[Part], slab: Option<Domain>) {
+        let known = self.same.len();
+        let first = loops[0].0.domain;
+        self.same
+            .extend(loops.iter().map(|(inner, _)| (inner.domain, first)));
+        for (inner, is_there) in loops {
+            let d = inner.domain.0;
+            let start = self.context.indices.start(&inner.start);
+            let end = self.context.indices.saturating(&inner.end);
+            match is_there {
+                Some(flag) => line!(
+                    self,
+                    "let (_s{d}, _e{d}) = if {flag} {{ ({start}, {end}) }} else {{ (0usize, 0usize) }};"
+                ),
+                None => line!(self, "let (_s{d}, _e{d}) = ({start}, {end});"),
+            }
+        }
+        if loops[0]
+            .0
+            .body
+            .iter()
+            .any(|step| matches!(step, Step::Loop(_)))
+        {
+            self.outer(loops, slab);
+        } else {
+            self.inner(loops);
+        }
+        self.same.truncate(known);
+    }
+
+    /// The loops around others.
+    fn outer(&mut self, loops: &[Part], slab: Option<Domain>) {
+        let d = loops[0].0.domain.0;
+        match slab {
+            Some(slab) => line!(self, "for _o{d} in _r{} {{", slab.0),
+            None => line!(
+                self,
+                "for _o{d} in {}..{} {{",
+                of_all(loops, 's', "min"),
+                of_all(loops, 'e', "max")
+            ),
+        }
+        let mut inside = Vec::new();
+        for (outer, _) in loops {
+            let own = outer.domain.0;
+            line!(
+                self,
+                "let ({}, _in{own}) = (_o{d}, _s{own} <= _o{d} && _o{d} < _e{own});",
+                variable(outer.domain)
+            );
+            for step in &outer.body {
+                if let Step::Loop(inner) = step {
+                    inside.push((inner, Some(format!("_in{own}"))));
+                }
+            }
+        }
+        self.join(&inside, None);
+        line!(self, "}}");
+    }
+
+    /// Innermost loops: what they have in common in lanes, the rest of each one by one.
+    fn inner(&mut self, loops: &[Part]) {
+        let d = loops[0].0.domain.0;
+        let mut parts = Vec::with_capacity(loops.len());
+        for (inner, _) in loops {
+            let found = Accesses::of(self.context, inner);
+            let Some(stretch) = self.stretch(inner, &found) else {
+                unreachable!("a loop that is joined has been seen as a stretch");
+            };
+            self.body(&stretch);
+            parts.push((*inner, found, stretch));
+        }
+        let (joint, cuts) = self.joint_stretch(&parts);
+        self.body(&joint);
+        line!(
+            self,
+            "let (_lo{d}, _hi{d}) = ({}, {});",
+            of_all(loops, 's', "max"),
+            of_all(loops, 'e', "min")
+        );
+        line!(
+            self,
+            "let _long{d} = <T as __h::Real>::WIDENS && _hi{d}.saturating_sub(_lo{d}) >= __h::LONG;"
+        );
+        let known = self.slices.len();
+        line!(self, "if _long{d} {{");
+        line!(self, "let _l{d} = _hi{d} - _lo{d};");
+        for (inner, ..) in &parts {
+            line!(self, "let {} = _lo{d};", variable(inner.domain));
+        }
+        self.cut(parts[0].0.domain, &cuts);
+        for (inner, _, stretch) in &parts {
+            self.loads(inner, stretch, false);
+        }
+        self.launch(&joint, parts[0].0.domain);
+        line!(self, "}}");
+        self.slices.truncate(known);
+        for (inner, found, stretch) in &parts {
+            let own = inner.domain.0;
+            line!(
+                self,
+                "for [_i{own}, _e{own}] in if _long{d} {{ [[_s{own}, _lo{d}], [_hi{d}, _e{own}]] }} \
+                 else {{ [[0usize, 0usize], [_s{own}, _e{own}]] }} {{"
+            );
+            line!(self, "if _i{own} < _e{own} {{");
+            line!(self, "let _l{own} = _e{own} - _i{own};");
+            self.cut(inner.domain, &found.cuts);
+            line!(self, "for _k{own} in 0.._l{own} {{");
+            line!(self, "let _i{own} = _i{own} + _k{own};");
+            self.iteration_of(inner, Some(stretch));
+            line!(self, "}}\n}}\n}}");
+            self.slices.truncate(known);
+        }
+    }
+
+    /// The iterations of all loops at one site, and the columns that run along with the first one's variable.
+    fn joint_stretch(
+        &self,
+        parts: &[(&Loop, Accesses, Stretch)],
+    ) -> (Stretch, Vec<(Slice, Index)>) {
+        let mut cuts: Vec<(Slice, Index)> = Vec::new();
+        let mut joint = Stretch::default();
+        let domain = parts[0].0.domain;
+        for (_, found, stretch) in parts {
+            let places: Vec<usize> = (found.cuts.iter())
+                .map(|(slice, index)| {
+                    let cut = (*slice, index.substitute(|d| self.same(d)));
+                    super::stretch::number(&mut cuts, cut)
+                })
+                .collect();
+            joint.append(stretch, domain, &places);
+        }
+        (joint, cuts)
+    }
+
+    /// The variable of the first of the loops that are made as one.
+    fn same(&self, domain: Domain) -> Affine {
+        let known = self.same.iter().find(|(own, _)| *own == domain);
+        Affine::variable(known.map_or(domain, |(_, first)| *first))
+    }
+}
+
+/// The least or the largest end of ranges.
+fn of_all(loops: &[Part], end: char, which: &str) -> String {
+    let (first, others) = (loops[0].0.domain.0, &loops[1..]);
+    others
+        .iter()
+        .fold(format!("_{end}{first}"), |text, (inner, _)| {
+            format!("{text}.{which}(_{end}{})", inner.domain.0)
+        })
+}
+
+/// The innermost loops of some.
+fn innermost<'a>(loops: &[&'a Loop]) -> Vec<&'a Loop> {
+    let mut all = Vec::new();
+    for outer in loops {
+        let inside: Vec<&Loop> = (outer.body.iter())
+            .filter_map(|step| match step {
+                Step::Loop(inner) => Some(inner),
+                _ => None,
+            })
+            .collect();
+        match inside.is_empty() {
+            true => all.push(*outer),
+            false => all.extend(innermost(&inside)),
+        }
+    }
+    all
+}

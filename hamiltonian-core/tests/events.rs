@@ -6,7 +6,8 @@ use core::ops::ControlFlow;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::walk::{
-    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
+    Visitor, visit_any, visit_exact, visit_implicit, visit_quadratic, visit_separable, visit_split,
+    visit_unforced,
 };
 use hamiltonian_core::{DoubleDouble, Error, Scheme, View, observers::Located};
 
@@ -106,6 +107,9 @@ fn every_scheme_locates_events() {
     visit_unforced(&mut Locates);
     visit_separable(&mut Locates);
     visit_split(&mut Locates);
+    visit_exact(&mut Locates);
+    visit_implicit(&mut Locates);
+    visit_quadratic(&mut Locates);
 }
 
 /// The times of the roots have the order of the scheme, and the states are those of `state_at`.

@@ -4,7 +4,7 @@
 //! to rounding; otherwise it is an error.
 
 use super::collocation::{Collocation, constant};
-use super::stages::{Carries, Collocated, at_rest, extrapolation};
+use super::stages::{Carries, Collocated, at_rest, of_fixed_point};
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::State;
@@ -142,7 +142,7 @@ impl<T: Real, S: System<T>, const STAGES: usize> Scheme<T, S> for Gauss<STAGES> 
             coordinates: integrals,
             momenta: integrals,
             modes: None,
-            guess: extrapolation(&self.coefficients, step),
+            matrices: of_fixed_point(&self.coefficients, step, &weights, [integrals; 2]),
             limit: self.max_iterations,
         }
     }

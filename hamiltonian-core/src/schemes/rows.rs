@@ -7,10 +7,31 @@
 use super::iterate::Outcome;
 use crate::vector::Vector;
 use core::marker::PhantomData;
-use hamiltonian_lanes::{Cpu, Mask, Pack, Real};
+use hamiltonian_lanes::{Base, Cpu, Level, Mask, Pack, Real};
 
-/// The stages of a row of [`Beside`].
-pub(super) const LANES: usize = 4;
+/// The least number of stages that lie beside each other.
+pub(super) const LEAST: usize = 4;
+
+/// The most stages of a row.
+const MOST: usize = 8;
+
+/// Rows of `WIDTH` stages beside each other.
+pub(super) struct Abreast<const WIDTH: usize>;
+
+/// The pack of a row.
+pub(super) trait Width {
+    /// Each of its registers has four lanes on AVX2.
+    type Pack<L: Level>: Base;
+}
+
+impl Width for Abreast<4> {
+    type Pack<L: Level> = L::Four;
+}
+
+/// In lock-step, so that one register's operations fill the latencies of the other's.
+impl Width for Abreast<8> {
+    type Pack<L: Level> = L::Eight;
+}
 
 /// The least level and the best that rows of [`Beside`] are compiled for. On SSE2 they took as long as stages
 /// [`Apart`]. On AVX-512 their registers are as wide as on AVX2; eight problems took between 0.95 and 1.08 times
@@ -31,12 +52,10 @@ pub(super) trait Layout<T: Real> {
     fn splat(value: T) -> Self::Row;
     /// The numbers of the stages.
     fn split(row: Self::Row) -> Self::Few;
-    /// True if it holds for all stages.
-    fn all(mask: <Self::Row as Real>::Mask) -> T::Mask;
     /// True if it holds for a stage.
     fn any(mask: <Self::Row as Real>::Mask) -> T::Mask;
-    /// The sum of a norm over the stages.
-    fn total(size: <Self::Row as Real>::Size) -> T::Size;
+    /// The largest of the stages' sizes, none of which is NaN.
+    fn largest(size: <Self::Row as Real>::Size) -> T::Size;
     /// `to = from`, but for the lanes of `T` where the mask is set.
     fn copy_unless<X: Vector<Scalar = Self::Row>>(mask: T::Mask, from: &X, to: &mut X);
 }
@@ -61,15 +80,11 @@ impl<T: Real> Layout<T> for Apart {
         [row]
     }
     #[inline(always)]
-    fn all(mask: T::Mask) -> T::Mask {
-        mask
-    }
-    #[inline(always)]
     fn any(mask: T::Mask) -> T::Mask {
         mask
     }
     #[inline(always)]
-    fn total(size: T::Size) -> T::Size {
+    fn largest(size: T::Size) -> T::Size {
         size
     }
     #[inline(always)]
@@ -83,16 +98,16 @@ impl<T: Real> Layout<T> for Apart {
     }
 }
 
-/// Four stages beside each other in the lanes of the pack `P`.
-pub(super) struct Beside<P>(PhantomData<P>);
+/// As many stages beside each other as the pack `P` has lanes.
+pub(super) struct Beside<P, const WIDTH: usize>(PhantomData<P>);
 
-impl<T: Real, P: Pack> Layout<T> for Beside<P> {
+impl<T: Real, P: Pack, const WIDTH: usize> Layout<T> for Beside<P, WIDTH> {
     type Row = T::Over<P>;
-    type Few = [T; LANES];
-    const WIDTH: usize = LANES;
+    type Few = [T; WIDTH];
+    const WIDTH: usize = WIDTH;
     #[inline(always)]
     fn gather(values: &[T]) -> Self::Row {
-        const { assert!(P::LANES as usize == LANES) }
+        const { assert!(P::LANES as usize == WIDTH && WIDTH <= MOST) }
         T::gather::<P>(values)
     }
     #[inline(always)]
@@ -100,26 +115,29 @@ impl<T: Real, P: Pack> Layout<T> for Beside<P> {
         value.spread::<P>()
     }
     #[inline(always)]
-    fn split(row: Self::Row) -> [T; LANES] {
-        let mut few = [T::default(); LANES];
+    fn split(row: Self::Row) -> [T; WIDTH] {
+        let mut few = [T::default(); WIDTH];
         T::scatter::<P>(row, &mut few);
         few
-    }
-    #[inline(always)]
-    fn all(mask: <Self::Row as Real>::Mask) -> T::Mask {
-        T::Mask::splat(mask.all())
     }
     #[inline(always)]
     fn any(mask: <Self::Row as Real>::Mask) -> T::Mask {
         T::Mask::splat(mask.any())
     }
     #[inline(always)]
-    fn total(size: <Self::Row as Real>::Size) -> T::Size {
-        let mut sum = 0.0;
-        for lane in 0..LANES as u32 {
-            sum += size.lane(lane);
+    fn largest(size: <Self::Row as Real>::Size) -> T::Size {
+        let mut few = [0.0; WIDTH];
+        for (lane, number) in (0..).zip(&mut few) {
+            *number = size.lane(lane);
         }
-        T::Size::constant(sum, 0.0)
+        let mut count = WIDTH / 2;
+        while count > 0 {
+            for k in 0..count {
+                few[k] = larger(few[k], few[k + count]);
+            }
+            count /= 2;
+        }
+        T::Size::constant(few[0], 0.0)
     }
     #[inline(always)]
     fn copy_unless<X: Vector<Scalar = Self::Row>>(_: T::Mask, from: &X, to: &mut X) {
@@ -152,7 +170,7 @@ pub(super) fn matrix_in_rows<T: Real, L: Layout<T>, const S: usize>(
     for (row, to) in all.iter_mut().enumerate().take(rows::<T, L, S>()) {
         let first = row * L::WIDTH;
         for (j, to) in to.iter_mut().enumerate() {
-            let mut few = [matrix[first][j]; LANES];
+            let mut few = [matrix[first][j]; MOST];
             for (k, number) in few.iter_mut().enumerate() {
                 *number = matrix[(first + k).min(S - 1)][j];
             }
@@ -217,21 +235,28 @@ pub(super) fn sum<T: Real, L: Layout<T>, const S: usize>(few: &[L::Few; S]) -> T
     joined::<_, S>(sums)
 }
 
-/// Replaces each number of the unknowns by the sum of a row of the matrix with all stages' numbers: the
-/// guess for a step from the unknowns of the step before.
-#[inline(always)]
-pub(super) fn multiply<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
-    matrix: &[[L::Row; S]; S],
-    unknowns: &mut [Y; S],
-) {
-    for k in 0..Y::PARTS {
-        for i in 0..unknowns[0].part(k).len() {
-            let few = spread::<T, L, Y, 0, S>([], unknowns, k, i);
-            for row in 0..rows::<T, L, S>() {
-                unknowns[row].part_mut(k)[i] = product::<T, L, S>(&matrix[row], &few);
+/// A matrix of a method times `guess`, the matrix that takes the unknowns of the step before to a guess for
+/// those of this one. Both are matrices of numbers that the weights have multiplied.
+pub(super) fn of_the_guess<T: Real, const S: usize>(
+    matrix: &[[T; S]; S],
+    weights: &[T; S],
+    guess: &[[T; S]; S],
+) -> [[T; S]; S] {
+    if S == 1 {
+        // One unknown is its own guess.
+        return *matrix;
+    }
+    let mut product = [[T::zero(); S]; S];
+    for (row, to) in matrix.iter().zip(&mut product) {
+        for (j, to) in to.iter_mut().enumerate() {
+            let mut sum = T::zero();
+            for (k, guess) in guess.iter().enumerate() {
+                sum += row[k] * weights[k] * guess[j];
             }
+            *to = sum / weights[j];
         }
     }
+    product
 }
 
 /// Number `i` of part `k` of all stages, times `N` factors of each, one after the other.
@@ -270,7 +295,7 @@ where
     for row in 0..rows::<T, L, S>() {
         for k in 0..Y::PARTS {
             for i in 0..from[0].part(k).len() {
-                let mut few = [T::zero(); LANES];
+                let mut few = [T::zero(); MOST];
                 for (lane, number) in few.iter_mut().enumerate() {
                     *number = from[(row * L::WIDTH + lane).min(S - 1)].part(k)[i];
                 }
@@ -303,12 +328,18 @@ where
 pub(super) trait Equations<T: Real, L: Layout<T>, const S: usize> {
     /// The unknowns of a row, and the point at which they are evaluated.
     type Unknowns: Vector<Scalar = L::Row>;
-    /// The points of all rows.
-    fn points(&self, unknowns: &[Self::Unknowns; S], points: &mut [Self::Unknowns; S]);
+    /// The points of all rows. The first time, the unknowns are those of the step before, and the points
+    /// those of the guess that is made of them.
+    fn points(
+        &self,
+        is_first: bool,
+        unknowns: &[Self::Unknowns; S],
+        points: &mut [Self::Unknowns; S],
+    );
     /// The right-hand side of a row.
     fn evaluate(&mut self, row: usize, point: &mut Self::Unknowns, next: &mut Self::Unknowns);
-    /// The size of the numbers that the unknowns of a row are made of, besides their own.
-    fn scale(&self) -> <L::Row as Real>::Size;
+    /// The size of the numbers that the unknowns of a stage are made of, besides their own.
+    fn scale(&self) -> T::Size;
 }
 
 /// A change that no longer shrinks is rounding if it is at most this many ε of the numbers added:
@@ -317,15 +348,17 @@ const ROUNDING: f64 = 1024.0;
 
 /// The iteration ends when the next change would be less than this part of ε: what is left is then no
 /// drift beside rounding, not even over 10⁷ steps.
-const REST: f64 = 1.0 / 256.0;
+const REST: f64 = 1.0 / 16.0;
 
-/// Iterates `y ← g(y)` of all stages, at most `limit` times, until in each of them
-/// - the change is 0,
-/// - or the change after this one, foreseen from the last two quotients of changes, would be lost in the
-///   rounding of the unknowns,
-/// - or the change does not shrink any more and is rounding.
+/// Iterates `y ← g(y)` of all stages, at most `limit` times, until the change, the largest of all stages,
+/// - is 0,
+/// - or would be lost the next time in the rounding of the unknowns, as foreseen from the last two
+///   quotients of changes,
+/// - or does not shrink any more and is rounding.
 ///
-/// A lane of `T` that is solved is not touched any more.
+/// A maximum is the same in any order, so that a step ends after as many iterations in every layout. The guess
+/// itself is not computed, so the first change is that of the second iteration; one stage begins with its
+/// unknown of the step before. A lane of `T` that is solved is not touched any more.
 #[inline(always)]
 pub(super) fn solve<T: Real, L: Layout<T>, E: Equations<T, L, S>, const S: usize>(
     limit: u32,
@@ -334,59 +367,87 @@ pub(super) fn solve<T: Real, L: Layout<T>, E: Equations<T, L, S>, const S: usize
     points: &mut [E::Unknowns; S],
     next: &mut E::Unknowns,
 ) -> Outcome<T> {
-    type Size<L, T> = <<L as Layout<T>>::Row as Real>::Size;
-    let zero = Size::<L, T>::zero();
-    let infinite = Size::<L, T>::constant(f64::INFINITY, 0.0);
-    let (mut before, mut earlier, mut rest) = ([infinite; S], [infinite; S], [zero; S]);
-    let mut stalled = [<L::Row as Real>::Mask::splat(false); S];
+    let zero = T::Size::zero();
+    let infinite = T::Size::constant(f64::INFINITY, 0.0);
+    let (mut before, mut earlier, mut rest) = (infinite, infinite, zero);
     let mut solved = T::Mask::splat(false);
+    let mut lost = T::Mask::splat(false);
     let mut iterations = 0;
     while iterations < limit {
-        equations.points(unknowns, points);
-        let mut done = <L::Row as Real>::Mask::splat(true);
-        let mut lost = <L::Row as Real>::Mask::splat(false);
+        equations.points(iterations == 0, unknowns, points);
+        let mut changes = [<L::Row as Real>::Size::zero(); S];
         for row in 0..rows::<T, L, S>() {
             equations.evaluate(row, &mut points[row], next);
-            let change = next.size_of_difference(&unknowns[row]);
+            changes[row] = next.size_of_difference(&unknowns[row]);
             L::copy_unless(solved, next, &mut unknowns[row]);
-            if iterations == 0 {
-                let part = Size::<L, T>::constant(REST * T::epsilon(), 0.0);
-                rest[row] = part * next.size();
-            }
-            // Two quotients: one may be small by chance.
-            let foreseen = (change * change).le(rest[row] * before[row])
-                & (change * before[row]).le(rest[row] * earlier[row])
-                & earlier[row].lt(infinite);
-            let mut now = change.equals(zero) | foreseen;
-            // Strictly smaller than infinity: ∞ ≤ ∞ is no convergence.
-            let stalls = before[row].le(change) & before[row].lt(infinite);
-            if (stalls | stalled[row]).any() {
-                let scale = equations.scale() + next.size();
-                let floor = Size::<L, T>::constant(ROUNDING * T::epsilon(), 0.0) * scale;
-                stalled[row] = stalled[row] | (stalls & change.lt(floor));
-                now = now | (stalled[row] & change.lt(floor));
-            }
-            done = done & now;
-            lost = lost | !change.equals(change);
-            earlier[row] = before[row];
-            before[row] = change;
         }
         iterations += 1;
-        solved = solved | L::all(done);
-        // A lane that is not a number stays one.
-        if (solved | L::any(lost)).all() {
-            break;
+        if iterations == 1 {
+            let part = T::Size::constant(REST * T::epsilon(), 0.0);
+            rest = part * largest_size::<T, L, _, S>(unknowns);
+            rest = T::Size::select(rest.lt(infinite), rest, zero);
+            if S > 1 {
+                continue;
+            }
         }
-    }
-    let mut residual = T::Size::zero();
-    if !solved.all() {
-        for change in before.iter().take(rows::<T, L, S>()) {
-            residual += L::total(*change);
+        let change = largest::<T, L, S>(&changes);
+        // Two quotients: one may be small by chance.
+        let foreseen = (change * change).le(rest * before)
+            & (change * before).le(rest * earlier)
+            & earlier.lt(infinite);
+        let mut now = change.equals(zero) | foreseen;
+        if !(now | change.lt(before)).all() {
+            // Strictly smaller than infinity: ∞ ≤ ∞ is no convergence.
+            let stalls = before.le(change) & before.lt(infinite);
+            let scale = equations.scale() + largest_size::<T, L, _, S>(unknowns);
+            let floor = T::Size::constant(ROUNDING * T::epsilon(), 0.0) * scale;
+            now = now | (stalls & change.lt(floor));
+            for change in changes.iter().take(rows::<T, L, S>()) {
+                lost = lost | L::any(!change.equals(*change));
+            }
+        }
+        solved = solved | (now & !lost);
+        earlier = before;
+        before = change;
+        // A lane that is not a number stays one.
+        if (solved | lost).all() {
+            break;
         }
     }
     Outcome {
         solved,
-        residual,
+        residual: before,
         iterations,
     }
+}
+
+/// The larger of two numbers.
+#[inline(always)]
+fn larger<R: Real>(a: R, b: R) -> R {
+    R::select(a.lt(b), b, a)
+}
+
+/// The largest of the stages' sizes; infinity if one of them is not a number.
+#[inline(always)]
+fn largest<T: Real, L: Layout<T>, const S: usize>(sizes: &[<L::Row as Real>::Size; S]) -> T::Size {
+    let infinite = <L::Row as Real>::Size::constant(f64::INFINITY, 0.0);
+    let mut most = infinite;
+    for (row, size) in sizes.iter().enumerate().take(rows::<T, L, S>()) {
+        // One instruction: the first if it is less, else the second.
+        let size = <L::Row as Real>::Size::select(size.lt(infinite), *size, infinite);
+        most = if row == 0 { size } else { larger(most, size) };
+    }
+    L::largest(most)
+}
+
+/// The largest size of the unknowns of a stage.
+#[inline(always)]
+fn largest_size<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
+    unknowns: &[Y; S],
+) -> T::Size {
+    let mut sizes = [<L::Row as Real>::Size::zero(); S];
+    for (size, unknowns) in sizes.iter_mut().zip(unknowns).take(rows::<T, L, S>()) {
+        *size = unknowns.size();
+    }
+    largest::<T, L, S>(&sizes)
 }

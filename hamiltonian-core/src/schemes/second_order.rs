@@ -7,8 +7,8 @@ use super::collocation::{Collocation, constant, whole_ulps};
 use super::compensated::carry;
 use super::iterate::Outcome;
 use super::rows::{
-    Apart, Beside, Equations, LANES, LEVELS, Layout, in_rows, load, matrix_in_rows, multiply,
-    product, rows, solve, spread, store, sum,
+    Abreast, Apart, Beside, Equations, LEAST, LEVELS, Layout, Width, in_rows, load, matrix_in_rows,
+    of_the_guess, product, rows, solve, spread, store, sum,
 };
 use super::stages::{Stages, extrapolation};
 use crate::flow::Scratch;
@@ -118,16 +118,17 @@ where
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let h = step.h;
         let (times, double) = self.coefficients.symplectic_double(h);
+        let weights = self.coefficients.weights.map(|b| constant::<T>(-b) * h);
+        let guess = extrapolation(&self.coefficients, step);
         let first = whole_ulps(DoubleDouble::from(GOLDEN), h);
         Eliminated {
             dynamics: prepared.clone(),
             h,
             times,
-            weights: self.coefficients.weights.map(|b| constant::<T>(-b) * h),
-            double,
+            double: [of_the_guess(&double, &weights, &guess), double],
+            weights,
             ends: times.map(|time| h - time),
             drifts: [first, h - first],
-            guess: extrapolation(&self.coefficients, step),
             limit: self.max_iterations,
         }
     }
@@ -156,14 +157,14 @@ pub struct Eliminated<T: Real, P: Dynamics<T>, const S: usize> {
     times: [T; S],
     /// −bᵢh.
     weights: [T; S],
-    /// νᵢⱼh = (A²)ᵢⱼh/bⱼ with νᵢⱼh − νⱼᵢh = cᵢh − cⱼh exactly.
-    double: [[T; S]; S],
+    /// νᵢⱼh = (A²)ᵢⱼh/bⱼ with νᵢⱼh − νⱼᵢh = cᵢh − cⱼh exactly; before it that of the guess, for ∂V/∂q of the
+    /// step before.
+    double: [[[T; S]; S]; 2],
     /// h − cᵢh exactly.
     ends: [T; S],
     /// Two durations whose sum is h exactly: where h is a short decimal fraction, hM⁻¹p is
     /// often halfway between two numbers, but for the rounding of h, and so rounded to one side.
     drifts: [T; 2],
-    guess: [[T; S]; S],
     limit: u32,
 }
 
@@ -219,9 +220,9 @@ struct Sums<V> {
 struct Tableau<'a, R, const S: usize> {
     times: &'a [R; S],
     weights: &'a [R; S],
-    double: &'a [[R; S]; S],
+    /// In one array, so that they are read where they are: of two, compilers copy one.
+    double: &'a [[[R; S]; S]; 2],
     ends: &'a [R; S],
-    guess: &'a [[R; S]; S],
 }
 
 /// ∂V/∂q at the stages ↦ ∂V/∂q at the points they lead to.
@@ -246,14 +247,12 @@ where
 {
     type Unknowns = X;
     #[inline(always)]
-    fn points(&self, gradients: &[X; S], points: &mut [X; S]) {
+    fn points(&self, is_first: bool, gradients: &[X; S], points: &mut [X; S]) {
+        let matrix = &self.tableau.double[usize::from(!is_first)];
         for k in 0..X::PARTS {
             for i in 0..points[0].part(k).len() {
                 let few = spread::<T, L, _, 1, S>([self.tableau.weights], gradients, k, i);
-                for (point, row) in points[..rows::<T, L, S>()]
-                    .iter_mut()
-                    .zip(self.tableau.double)
-                {
+                for (point, row) in points[..rows::<T, L, S>()].iter_mut().zip(matrix) {
                     point.part_mut(k)[i] = product::<T, L, S>(row, &few);
                 }
             }
@@ -268,17 +267,9 @@ where
         self.dynamics.gradient_q(t, self.moved, impulse, next);
     }
     #[inline(always)]
-    fn scale(&self) -> <L::Row as Real>::Size {
-        let h = L::splat(self.h).size();
-        let mut sizes = [<L::Row as Real>::Size::zero(); 2];
-        for (size, vector) in sizes.iter_mut().zip([&self.point.q, &self.point.p]) {
-            for k in 0..V::PARTS {
-                for number in vector.part(k) {
-                    *size += L::splat(*number).size();
-                }
-            }
-        }
-        (sizes[0] / h + sizes[1]) / h
+    fn scale(&self) -> T::Size {
+        let h = self.h.size();
+        (self.point.q.size() / h + self.point.p.size()) / h
     }
 }
 
@@ -317,7 +308,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
                 }
             }
         }
-        multiply::<T, L, _, S>(tableau.guess, gradients);
         let mut equations = SecondOrder::<T, L, D, _, _, S> {
             tableau,
             dynamics,
@@ -390,7 +380,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
             weights: &self.weights,
             double: &self.double,
             ends: &self.ends,
-            guess: &self.guess,
         }
     }
 
@@ -416,6 +405,28 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         }
     }
 
+    /// Makes steps with so many stages beside each other.
+    #[inline(always)]
+    fn steps_beside<const WIDTH: usize>(
+        &self,
+        (clock, made, n): (Clock<T>, u64, u64),
+        z: &mut CarriesForces<P::Vector, S>,
+        work: &mut EliminatedWork<P::Vector, S>,
+    ) -> Option<u64>
+    where
+        Abreast<WIDTH>: Width,
+    {
+        let steps = StepsBeside::<_, _, S, WIDTH> {
+            map: self,
+            clock,
+            made,
+            n,
+            z,
+            sums: &mut work.sums,
+        };
+        self.dynamics.in_lanes(&mut work.kept, steps)
+    }
+
     /// Makes steps, the stages beside each other where there are lanes for them.
     #[inline(always)]
     fn steps(
@@ -427,16 +438,14 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         work: &mut EliminatedWork<P::Vector, S>,
     ) {
         let mut made = 0;
-        while made < n && S >= LANES {
-            let steps = StepsBeside {
-                map: self,
-                clock,
-                made: from + made,
-                n: n - made,
-                z,
-                sums: &mut work.sums,
+        while made < n && S >= LEAST {
+            let left = (clock, from + made, n - made);
+            let steps = if const { S.is_multiple_of(8) } {
+                self.steps_beside::<8>(left, z, work)
+            } else {
+                self.steps_beside::<4>(left, z, work)
             };
-            let Some(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
+            let Some(steps) = steps else {
                 break;
             };
             made += steps;
@@ -458,7 +467,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
 }
 
 /// Steps whose stages lie beside each other, until one is not solved.
-struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize> {
+struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
     map: &'a Eliminated<T, P, S>,
     clock: Clock<T>,
     /// The steps made before.
@@ -468,11 +477,17 @@ struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize> {
     sums: &'a mut Sums<P::Vector>,
 }
 
-impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBeside<'_, T, Q, S> {
+impl<T, Q, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
+    for StepsBeside<'_, T, Q, S, WIDTH>
+where
+    T: Real,
+    Q: Dynamics<T>,
+    Abreast<WIDTH>: Width,
+{
     /// The number of steps made. If it is less than asked for, the value carried is that before the step
     /// that was not solved, but for ∂V/∂q.
     type Output = u64;
-    type Pack<L: Level> = L::Four;
+    type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
     const LEVELS: [Cpu; 2] = LEVELS;
 
     #[inline(always)]
@@ -489,17 +504,18 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
             z,
             sums,
         } = self;
-        let times = in_rows::<T, Beside<P>, S>(&map.times);
-        let weights = in_rows::<T, Beside<P>, S>(&map.weights);
-        let double = matrix_in_rows::<T, Beside<P>, S>(&map.double);
-        let ends = in_rows::<T, Beside<P>, S>(&map.ends);
-        let guess = matrix_in_rows::<T, Beside<P>, S>(&map.guess);
+        let times = in_rows::<T, Beside<P, WIDTH>, S>(&map.times);
+        let weights = in_rows::<T, Beside<P, WIDTH>, S>(&map.weights);
+        let mut double = [[[T::Over::<P>::zero(); S]; S]; 2];
+        for (to, from) in double.iter_mut().zip(&map.double) {
+            *to = matrix_in_rows::<T, Beside<P, WIDTH>, S>(from);
+        }
+        let ends = in_rows::<T, Beside<P, WIDTH>, S>(&map.ends);
         let tableau = Tableau {
             times: &times,
             weights: &weights,
             double: &double,
             ends: &ends,
-            guess: &guess,
         };
         let (gradients, rows) = kept.get(
             |_: &(Stages<D::Vector, S>, Rows<D::Vector, S>)| true,
@@ -517,11 +533,11 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
             impulse: sums.impulse.take(),
             moved: sums.moved.take(),
         };
-        load::<T, Beside<P>, _, _, S>(&z.y.x.0, &mut of.0);
+        load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut of.0);
         let mut left = n;
         while left > 0 {
             let t = clock.at(made + (n - left));
-            let outcome = map.fixed_point::<Beside<P>, _>(
+            let outcome = map.fixed_point::<Beside<P, WIDTH>, _>(
                 &tableau,
                 system,
                 t,
@@ -533,10 +549,17 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
             if !outcome.solved.all() {
                 break;
             }
-            map.finish::<Beside<P>, _>(&tableau, t, &of.0, &mut point, &mut low, &mut scalars);
+            map.finish::<Beside<P, WIDTH>, _>(
+                &tableau,
+                t,
+                &of.0,
+                &mut point,
+                &mut low,
+                &mut scalars,
+            );
             left -= 1;
         }
-        store::<T, Beside<P>, _, _, S>(&of.0, &mut z.y.x.0);
+        store::<T, Beside<P, WIDTH>, _, _, S>(&of.0, &mut z.y.x.0);
         (z.x, z.y.y) = (point, low);
         (*gradients, *rows, *sums) = (of, memory, scalars);
         n - left

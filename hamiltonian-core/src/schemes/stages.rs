@@ -17,7 +17,7 @@ mod slopes;
 use super::collocation::{Collocation, constant};
 use super::compensated::carry;
 use super::iterate::{Contraction, Outcome, iterate};
-use super::rows::{Apart, LANES};
+use super::rows::{Abreast, Apart, LEAST, Width, of_the_guess};
 use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Clock, Map, Step};
 use crate::state::{Pair, Point, State};
@@ -96,6 +96,19 @@ pub(super) fn extrapolation<T: Real, const S: usize>(
     })
 }
 
+/// α and β of the guess that [`extrapolation`] makes, for the slopes of the step before in place of this one's;
+/// and α and β themselves.
+pub(super) fn of_fixed_point<T: Real, const S: usize>(
+    method: &Collocation<S>,
+    step: Step<T>,
+    weights: &[T; S],
+    matrices: [[[T; S]; S]; 2],
+) -> [[[[T; S]; S]; 2]; 2] {
+    let guess = extrapolation(method, step);
+    let guess = matrices.map(|matrix| of_the_guess(&matrix, weights, &guess));
+    [guess, matrices]
+}
+
 /// The value a step with stages carries: the point; the unknowns of the last step, for
 /// [`Gauss`](super::Gauss) the slopes J∇H at the stages, which make a guess for a step of any size; the
 /// low words of the point.
@@ -140,7 +153,8 @@ pub struct Collocated<T: Real, P: Dynamics<T>, const S: usize> {
     /// β.
     pub(super) momenta: [[T; S]; S],
     pub(super) modes: Option<Modes<T, S>>,
-    pub(super) guess: [[T; S]; S],
+    /// [`of_fixed_point`].
+    pub(super) matrices: [[[[T; S]; S]; 2]; 2],
     /// The most iterations of each method.
     pub(super) limit: u32,
 }
@@ -384,9 +398,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
                 h: self.h,
                 times: &self.times,
                 weights: &self.weights,
-                coordinates: &self.coordinates,
-                momenta: &self.momenta,
-                guess: &self.guess,
+                matrices: &self.matrices,
             };
             fixed_point::<T, Apart, _, _, _, S>(
                 self.limit,
@@ -476,6 +488,28 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         outcome.solved = outcome.solved | fixed;
     }
 
+    /// Makes steps with so many stages beside each other.
+    #[inline(always)]
+    fn steps_beside<const WIDTH: usize>(
+        &self,
+        (clock, made, n): (Clock<T>, u64, u64),
+        z: &mut Carries<P::Vector, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+    ) -> Option<u64>
+    where
+        Abreast<WIDTH>: Width,
+    {
+        let map = self;
+        let steps = StepsBeside::<_, _, S, WIDTH> {
+            map,
+            clock,
+            made,
+            n,
+            z,
+        };
+        self.dynamics.in_lanes(&mut work.kept, steps)
+    }
+
     /// Makes steps, the stages beside each other where there are lanes for them.
     #[inline(always)]
     fn steps(
@@ -487,15 +521,14 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         work: &mut CollocatedWork<P::Vector, S>,
     ) {
         let mut made = 0;
-        while made < n && S >= LANES && self.modes.is_none() {
-            let steps = StepsBeside {
-                map: self,
-                clock,
-                made: from + made,
-                n: n - made,
-                z,
+        while made < n && S >= LEAST && self.modes.is_none() {
+            let left = (clock, from + made, n - made);
+            let steps = if const { S.is_multiple_of(8) } {
+                self.steps_beside::<8>(left, z, work)
+            } else {
+                self.steps_beside::<4>(left, z, work)
             };
-            let Some(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
+            let Some(steps) = steps else {
                 break;
             };
             made += steps;

@@ -5,7 +5,7 @@
 //! do not compile.
 
 use super::collocation::{Collocation, constant};
-use super::stages::{Carries, Collocated, CollocatedWork, Modes, Stages, at_rest, extrapolation};
+use super::stages::{Carries, Collocated, CollocatedWork, Modes, Stages, at_rest, of_fixed_point};
 use crate::error::Error;
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
@@ -183,14 +183,15 @@ impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, 
         let (nodal, momenta) = self.coefficients.pair(DEGREE);
         let map = Collocated {
             momenta,
-            guess: extrapolation(&self.coefficients, step),
             ..self.with_modes(prepared, step.h, 0..DEGREE)
         };
         if DEGREE < POINTS {
             map
         } else {
+            let matrices = [nodal, momenta];
             Collocated {
                 spans: map.weights,
+                matrices: of_fixed_point(&self.coefficients, step, &map.weights, matrices),
                 coordinates: nodal,
                 modes: None,
                 ..map
@@ -274,6 +275,9 @@ impl<T: Real, S: System<T>, const POINTS: usize> Scheme<T, S> for MomentumVariat
         Collocated {
             coordinates: map.momenta,
             momenta: map.coordinates,
+            matrices: map
+                .matrices
+                .map(|[coordinates, momenta]| [momenta, coordinates]),
             ..map
         }
     }
@@ -312,7 +316,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
             coordinates,
             momenta: zero,
             modes: Some(Modes { values, velocities }),
-            guess: zero,
+            matrices: [[zero; 2]; 2],
             limit: self.max_iterations,
         }
     }

@@ -9,8 +9,8 @@ use crate::map::Clock;
 use crate::schemes::compensated::carry;
 use crate::schemes::iterate::Outcome;
 use crate::schemes::rows::{
-    Beside, Equations, LEVELS, Layout, in_rows, load, matrix_in_rows, multiply, product, rows,
-    solve, spread, store, sum,
+    Abreast, Beside, Equations, LEVELS, Layout, Width, in_rows, load, matrix_in_rows, product,
+    rows, solve, spread, store, sum,
 };
 use crate::state::{Pair, Point};
 use crate::system::Dynamics;
@@ -20,24 +20,21 @@ use core::marker::PhantomData;
 use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 
 /// The numbers of a method for steps of one size, in rows of stages.
-pub(super) struct Tableau<'a, R, const S: usize> {
+pub(super) struct Tableau<'a, T, R, const S: usize> {
     /// The step.
-    pub(super) h: R,
+    pub(super) h: T,
     /// cᵢh.
     pub(super) times: &'a [R; S],
     /// bᵢh.
     pub(super) weights: &'a [R; S],
-    /// α for the coordinates.
-    pub(super) coordinates: &'a [[R; S]; S],
-    /// α for the momenta.
-    pub(super) momenta: &'a [[R; S]; S],
-    /// The slopes of the step before become a guess.
-    pub(super) guess: &'a [[R; S]; S],
+    /// α for the coordinates and for the momenta; before them those of the guess, for the slopes of the step
+    /// before. In one array, so that they are read where they are: of two, compilers copy one.
+    pub(super) matrices: &'a [[[[R; S]; S]; 2]; 2],
 }
 
 /// Slopes ↦ J∇H at the points they lead to.
 struct FirstOrder<'a, T: Real, L: Layout<T>, F, V: Vector<Scalar = T>, X, const S: usize> {
-    tableau: &'a Tableau<'a, L::Row, S>,
+    tableau: &'a Tableau<'a, T, L::Row, S>,
     field: &'a F,
     t: L::Row,
     point: &'a Point<V>,
@@ -54,13 +51,10 @@ where
 {
     type Unknowns = Point<X>;
     #[inline(always)]
-    fn points(&self, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
+    fn points(&self, is_first: bool, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
+        let matrices = &self.tableau.matrices[usize::from(!is_first)];
         for k in 0..Point::<X>::PARTS {
-            let matrix = if k < X::PARTS {
-                self.tableau.coordinates
-            } else {
-                self.tableau.momenta
-            };
+            let matrix = &matrices[usize::from(k >= X::PARTS)];
             for i in 0..self.point.part(k).len() {
                 let base = L::splat(self.point.part(k)[i]);
                 if S == 1 {
@@ -80,20 +74,19 @@ where
     }
     #[inline(always)]
     fn evaluate(&mut self, row: usize, point: &mut Point<X>, next: &mut Point<X>) {
-        next.set_zero();
+        // What is added to −0 has its bits, and is not added at all where c is known to be 1.
+        for k in 0..Point::<X>::PARTS {
+            for slope in next.part_mut(k) {
+                *slope = -L::Row::zero();
+            }
+        }
         let t = self.t + self.tableau.times[row];
         let Point { q, p } = next;
         self.field.add(t, &point.q, &point.p, q, p);
     }
     #[inline(always)]
-    fn scale(&self) -> <L::Row as Real>::Size {
-        let mut size = <L::Row as Real>::Size::zero();
-        for k in 0..Point::<V>::PARTS {
-            for number in self.point.part(k) {
-                size += L::splat(*number).size();
-            }
-        }
-        size / self.tableau.h.size()
+    fn scale(&self) -> T::Size {
+        self.point.size() / self.tableau.h.size()
     }
 }
 
@@ -102,7 +95,7 @@ where
 #[inline(always)]
 pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
     limit: u32,
-    tableau: &Tableau<'_, L::Row, S>,
+    tableau: &Tableau<'_, T, L::Row, S>,
     field: &F,
     t: T,
     point: &Point<V>,
@@ -117,10 +110,6 @@ where
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
 {
-    // One slope is its own guess.
-    if S > 1 {
-        multiply::<T, L, _, S>(tableau.guess, slopes);
-    }
     let mut equations = FirstOrder::<T, L, F, V, X, S> {
         tableau,
         field,
@@ -154,7 +143,7 @@ pub(super) fn finish<T, L, V, X, const S: usize>(
 }
 
 /// Steps whose stages lie beside each other, until one is not solved.
-pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize> {
+pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
     pub(super) map: &'a Collocated<T, P, S>,
     pub(super) clock: Clock<T>,
     /// The steps made before.
@@ -170,11 +159,17 @@ struct Memory<X: Vector, const S: usize> {
     next: Point<X>,
 }
 
-impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBeside<'_, T, Q, S> {
+impl<T, Q, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
+    for StepsBeside<'_, T, Q, S, WIDTH>
+where
+    T: Real,
+    Q: Dynamics<T>,
+    Abreast<WIDTH>: Width,
+{
     /// The number of steps made. If it is less than asked for, the value carried is that before the step
     /// that was not solved, but for its slopes.
     type Output = u64;
-    type Pack<L: Level> = L::Four;
+    type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
     const LEVELS: [Cpu; 2] = LEVELS;
 
     #[inline(always)]
@@ -190,18 +185,21 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
             n,
             z,
         } = self;
-        let times = in_rows::<T, Beside<P>, S>(&map.times);
-        let weights = in_rows::<T, Beside<P>, S>(&map.weights);
-        let coordinates = matrix_in_rows::<T, Beside<P>, S>(&map.coordinates);
-        let momenta = matrix_in_rows::<T, Beside<P>, S>(&map.momenta);
-        let guess = matrix_in_rows::<T, Beside<P>, S>(&map.guess);
+        let times = in_rows::<T, Beside<P, WIDTH>, S>(&map.times);
+        let weights = in_rows::<T, Beside<P, WIDTH>, S>(&map.weights);
+        let mut matrices = [[[[T::Over::<P>::zero(); S]; S]; 2]; 2];
+        for (to, from) in matrices
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(map.matrices.as_flattened())
+        {
+            *to = matrix_in_rows::<T, Beside<P, WIDTH>, S>(from);
+        }
         let tableau = Tableau {
-            h: map.h.spread::<P>(),
+            h: map.h,
             times: &times,
             weights: &weights,
-            coordinates: &coordinates,
-            momenta: &momenta,
-            guess: &guess,
+            matrices: &matrices,
         };
         let field = system.field(T::Over::<P>::one());
         let memory = kept.get(
@@ -221,10 +219,10 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
         let mut points = memory.points.take();
         let mut next = memory.next.take();
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
-        load::<T, Beside<P>, _, _, S>(&z.y.x.0, &mut slopes.0);
+        load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut slopes.0);
         let mut left = n;
         while left > 0 {
-            let outcome = fixed_point::<T, Beside<P>, _, _, _, S>(
+            let outcome = fixed_point::<T, Beside<P, WIDTH>, _, _, _, S>(
                 map.limit,
                 &tableau,
                 &field,
@@ -237,10 +235,10 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
             if !outcome.solved.all() {
                 break;
             }
-            finish::<T, Beside<P>, _, _, S>(&weights, &slopes.0, &mut point, &mut low);
+            finish::<T, Beside<P, WIDTH>, _, _, S>(&weights, &slopes.0, &mut point, &mut low);
             left -= 1;
         }
-        store::<T, Beside<P>, _, _, S>(&slopes.0, &mut z.y.x.0);
+        store::<T, Beside<P, WIDTH>, _, _, S>(&slopes.0, &mut z.y.x.0);
         let Pair { x, y } = z;
         *x = point;
         y.y = low;

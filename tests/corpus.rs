@@ -2,8 +2,8 @@
 //! bonds that are polynomials, conditions, or have a row of parameters. Each against its energy in plain Rust,
 //! and in lanes against its iterations one by one.
 
-// Each definition uses one of three bonds.
-#![allow(unused_variables)]
+// Each definition uses one of three bonds, and the tests few of the methods of each.
+#![allow(dead_code, unused_variables)]
 
 use crate::common::bits;
 use crate::common::derivatives::{Plain, check_plain, chosen, numbers};

@@ -1,8 +1,8 @@
 //! A block of steps of all lanes, compiled at a level, out of line.
 //!
-//! Input: what the lanes carry. Output: the same so many steps later, and a closed copy. Invariant: the
-//! bits of a lane depend on that lane alone, and are those of [`Map::run`] however steps are cut into
-//! blocks.
+//! Input: the carried values of the lanes. Output: the carried values `n` steps later, and a closed copy.
+//! Invariant: the bits of a lane depend on that lane alone. They are those of [`Map::run`] for every
+//! division of the steps into blocks.
 
 use super::marks::Marks;
 use crate::map::{self, Map};
@@ -29,8 +29,9 @@ impl<U: Real> map::Times<U> for Times<U> {
 }
 
 impl<U: Real> Times<U> {
-    /// The times `k` steps after the count began. As for [`Clock::at`](crate::schemes::author::Clock::at), it
-    /// vanishes where a system does not look at the time.
+    /// Returns the times `k` steps after the count began. As for
+    /// [`Clock::at`](crate::schemes::author::Clock::at), the compiler removes the call if the system does not
+    /// depend on time.
     #[inline(always)]
     pub(crate) fn at(&self, k: u64) -> U {
         let made = U::constant(k as i64 as f64, 0.0) + self.ahead;
@@ -49,17 +50,17 @@ pub(crate) enum Opening<M> {
     Mixed(M),
 }
 
-/// The steps at which each lane sees a state, where lanes differ in them.
+/// The steps after which each lane's observer receives a state, if the lanes differ in them.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Apart<U> {
-    /// The steps to the next state that a lane sees; 0 for one that sees none.
+    /// The steps to the next state that a lane's observer receives; 0 if it receives none.
     pub(crate) left: U,
     /// The steps between two of them.
     pub(crate) interval: U,
 }
 
 impl<U: Real> Apart<U> {
-    /// The lanes that see a state after `n` more steps.
+    /// Returns the lanes whose observers receive a state after `n` more steps.
     #[inline(always)]
     fn due(&mut self, n: u64) -> U::Mask {
         let left = self.left - U::constant(n as i64 as f64, 0.0);
@@ -69,25 +70,25 @@ impl<U: Real> Apart<U> {
     }
 }
 
-/// The quantities that a block follows.
+/// The quantities that a block evaluates for observers.
 pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) prepared: &'a S::Prepared,
     pub(crate) trackers: &'a mut [Tracker<U>],
-    /// The functions whose sign is followed: the first state is then after one step, the next after another.
+    /// The functions whose sign is followed. If there are any, states are evaluated after every step.
     pub(crate) watchers: &'a mut [Watcher<U>],
     /// The lanes whose observers follow signs.
     pub(crate) watched: U::Mask,
     /// True if H is followed.
     pub(crate) energy: bool,
-    /// True if any of them reads what the closing piece changes.
+    /// True if any of them depends on what the closing piece changes.
     pub(crate) closes: bool,
-    /// The steps to the first state that a lane sees.
+    /// The steps to the first state that a lane's observer receives.
     pub(crate) first: u64,
     /// The steps between two of them.
     pub(crate) interval: u64,
-    /// The states that each lane sees, if the lanes differ.
+    /// The schedule of each lane, if the lanes differ.
     pub(crate) apart: Option<&'a mut Apart<U>>,
-    /// The lanes that see their first state at the end of this block, of no steps.
+    /// The lanes whose observers receive their first state at the end of this block, which then has no steps.
     pub(crate) attach: Option<U::Mask>,
 }
 
@@ -98,8 +99,9 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         !self.watchers.is_empty() && self.attach.is_none()
     }
 
-    /// Follows the state after step `k`, where the clock stands at `t`, of which `marks` has what is carried, if
-    /// signs are followed: `shown` is closed, if [`closes`](Followed::closes). Returns true if the block should end.
+    /// Evaluates the followed quantities after step `k`, at the time `t`. If signs are followed, `marks` has the
+    /// carried value of this step. `shown` is closed if [`closes`](Followed::closes). Returns true if the block
+    /// should end.
     #[inline(always)]
     fn see<C: Carried<Vector = S::Vector, Scalar = U>>(
         &mut self,
@@ -113,7 +115,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         };
         let watches = self.watches();
         let (t, point) = (shown.time(t), shown.point());
-        // Apart from the loop, out of which it would be moved, to be computed for all quantities.
+        // Outside the loop: the compiler would hoist H out of it, and evaluate it for all quantities.
         if self.energy {
             let value = Quantity::Energy.at::<U, S>(self.prepared, t, point);
             for tracker in &mut *self.trackers {
@@ -123,7 +125,8 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             }
         }
         let mut is_any_loud = false;
-        // One place evaluates them all: each would have a copy of every observable, as long as a pack is wide.
+        // A single call evaluates all quantities: each further call would inline a copy of every observable,
+        // whose length is proportional to the width of the pack.
         let drifts = self.trackers.len();
         let all = drifts + if watches { self.watchers.len() } else { 0 };
         for at in 0..all {
@@ -162,7 +165,7 @@ pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: Sy
     pub(crate) opening: Opening<U::Mask>,
     pub(crate) carried: &'a mut R::Carried,
     pub(crate) shown: &'a mut R::Carried,
-    /// Scratch of the same shape.
+    /// Scratch of the shape of the carried value.
     pub(crate) spare: &'a mut R::Carried,
     pub(crate) work: &'a mut R::Work,
     pub(crate) followed: Followed<'a, U, S>,
@@ -176,8 +179,9 @@ where
     U: Real,
     S: System<U>,
 {
-    /// The lanes in which everything is finite, and the steps since the count of times began: fewer than `n`
-    /// were made where too many are marked, and `shown` is not closed then if nothing that is followed needs it.
+    /// The lanes in which all numbers are finite, and the steps since the count of times began. A block ends
+    /// before `n` steps if too many of them are marked. `shown` is then closed only if a followed quantity
+    /// requires it.
     type Output = (U::Mask, u64);
 
     #[inline(always)]
@@ -199,23 +203,24 @@ where
         let mut end = made + n;
         let watches = !followed.watchers.is_empty();
         let follows = watches || !followed.trackers.is_empty();
-        // Moved out, the value is a variable of this loop alone and stays in registers.
+        // A local variable stays in registers in the loop.
         let mut z = spare.take();
         z.copy_from(carried);
         let mut k = made;
-        // The next step whose state is seen.
+        // The next step whose state observers receive.
         let mut due = match n > 0 && follows {
             true => made.saturating_add(followed.first),
             false => u64::MAX,
         };
         let mut stop = end.min(due);
-        // Beside the loop of steps each piece occurs once, which keeps the code of a level small: the piece that joins
-        // the last step with one that may not follow costs less than code for the other case.
+        // Each piece occurs once outside the loop of steps, which keeps the code of a level small. The piece that
+        // joins the last step to the next is evaluated even if no step follows: that costs less than code for the
+        // other case.
         loop {
             let t = times.at(k);
             let opens = if k == made { opening } else { Opening::Join };
             let stops = k == stop;
-            // A variable of one turn.
+            // Local to one iteration.
             let mut seen = shown.take();
             if stops {
                 if k == due && followed.watches() {
@@ -255,7 +260,7 @@ where
             if const { core::mem::needs_drop::<R::Carried>() } {
                 *shown = seen;
             }
-            // Nothing else is in the loop of the steps, so that what is carried stays in registers.
+            // The loop of steps contains nothing else, so that the carried value stays in registers.
             map.go_on(&times, k, stop, &mut z, work);
             k = stop;
         }

@@ -1,7 +1,7 @@
 //! One bound for a scheme whose members advance together on every level.
 //!
-//! Input: a scheme and a system. Output: [`Ensembles`], the bound; behind it the drive of each level.
-//! Invariant: a pairing that is no [`Scheme`] fails with the message of that trait.
+//! Input: a scheme and a system. Output: [`Ensembles`], the bound, which selects the drive of each level.
+//! Invariant: a pair that is no [`Scheme`] is rejected with the message of that trait.
 
 use super::drive::InPack;
 use super::drive::deviations::Deviations;
@@ -22,8 +22,8 @@ use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Pack, Real, W};
 
 /// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `T` and packs of it.
 ///
-/// `T` is [`Dual<f64>`](crate::Dual) for members with deviations, see [`Lyapunov`](crate::Lyapunov). This is the one bound of
-/// code that is generic over systems and schemes:
+/// `T` is [`Dual<f64>`](crate::Dual) for members with deviations, see [`Lyapunov`](crate::Lyapunov). Code that is
+/// generic over systems and schemes needs this bound only:
 ///
 /// ```
 /// use hamiltonian::prelude::*;
@@ -46,7 +46,7 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     /// Advances members with deviations to their ends.
     #[doc(hidden)]
     fn deviate(&self, all: &mut Deviations<'_, T, S>, fuses: bool);
-    /// Returns true if two systems may stand in one pack.
+    /// Returns true if two systems may share a pack.
     #[doc(hidden)]
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
     /// Returns true if all their parameters are equal.
@@ -83,9 +83,8 @@ where
             fuses,
             ..
         } = self;
-        // The widths differ in speed alone. Conditions that are constants of a type are decided before code is
-        // emitted, so that the other width costs no time of the compiler. Levels that fuse nothing have one
-        // arithmetic.
+        // The widths differ in speed only. Constant conditions are evaluated before code is emitted, so that the
+        // compiler spends no time on the other width. Levels without fused products have one arithmetic only.
         if const { is_small::<T, S, M>() } {
             if fuses || const { !L::FUSES } {
                 work.at::<L, L::Wide, M>(scheme);
@@ -111,7 +110,7 @@ pub struct Deviating<'a, 'r, T: Real, S: System<T>>(&'a mut Deviations<'r, T, S>
 
 /// Work on members in the lanes of one pack type.
 pub trait Work<T: Real, S: System<T>> {
-    /// Does it inside the level `L` of the pack.
+    /// Does the work inside the level `L` of the pack.
     fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M);
 }
 
@@ -128,7 +127,7 @@ impl<T: Real, S: System<T>> Work<T, S> for Deviating<'_, '_, T, S> {
         scheme.deviate::<L>(self.0);
     }
 }
-/// Returns true if a step works on so few numbers that many registers in lock-step hide its latency. With
+/// Returns true if a step has few enough numbers for several registers in lock-step to hide its latency. With
 /// more numbers, registers spill.
 const fn is_small<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
     const MOST: usize = 4 * size_of::<f64>();
@@ -173,7 +172,7 @@ where
     }
 }
 
-/// A scheme for ensembles of `S`, its type forgotten.
+/// A scheme for ensembles of `S`, with its type erased.
 pub(crate) trait Engine<S: System<f64>>: Send + Sync {
     /// See [`Ensembles::drive`].
     fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool);
@@ -181,7 +180,7 @@ pub(crate) trait Engine<S: System<f64>>: Send + Sync {
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
     /// See [`Ensembles::equals`].
     fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
-    /// Checks a start, and writes all that the scheme carries from it to the end of `words`.
+    /// Checks a start, and appends the scheme's carried value at it to `words`.
     fn begin(
         &self,
         prepared: &S::Prepared,
@@ -189,11 +188,11 @@ pub(crate) trait Engine<S: System<f64>>: Send + Sync {
         step: f64,
         words: &mut Vec<f64>,
     ) -> Result<(), Error>;
-    /// Returns true if steps of this size differ in time.
+    /// Returns true if steps of this size differ in duration.
     fn varies(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: f64) -> bool;
-    /// The scheme's line of the catalogue.
+    /// Returns the scheme's entry in the catalogue.
     fn entry(&self) -> Entry;
-    /// The scheme with all its choices.
+    /// Returns the scheme's description, with all its options.
     fn describe(&self) -> String;
 }
 

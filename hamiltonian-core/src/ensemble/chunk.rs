@@ -1,8 +1,8 @@
 //! Members in memory, some hundreds at a time.
 //!
-//! Input: systems and starts. Output: the members so many steps later. Invariant: a chunk holds what the
-//! scheme carries, the parameters (once, if all are equal), an observer a member, and nothing else that
-//! grows with the number of members.
+//! Input: systems and starts. Output: the members after a number of steps. Invariant: a chunk stores the
+//! carried values of the scheme, the parameters (once, if all are equal) and one observer a member. Nothing
+//! else in it grows with the number of members.
 
 use super::guard::guard;
 use super::seat::{Host, Seat};
@@ -35,7 +35,7 @@ impl<A: Clone> Shared<A> {
         }
     }
 
-    /// Adds value number `count`, or none.
+    /// Adds the value of member `count`, if it has one.
     fn push(&mut self, count: usize, value: Option<A>, equals: impl Fn(&A, &A) -> bool) {
         match (&mut *self, value) {
             (Shared::Nothing, Some(value)) => *self = Shared::One(value),
@@ -45,29 +45,29 @@ impl<A: Clone> Shared<A> {
                 *self = Shared::Each(each);
             }
             (Shared::Each(each), Some(value)) => each.push(value),
-            // Never read.
+            // A member without a value has failed: its entry is never read.
             (Shared::Each(each), None) => each.extend(each.first().cloned()),
             _ => {}
         }
     }
 }
 
-/// A member that goes no further.
+/// The outcome of a member that has stopped.
 #[derive(Debug, Clone)]
 pub(crate) enum Out<V: Vector> {
-    /// It failed after so many steps.
+    /// The error of the member, and the number of steps made before it.
     Failed(Error, u64),
-    /// Its observer ended it at this state, after so many steps.
+    /// The state at which its observer ended the member, and the number of steps made.
     Ended(Box<State<V>>, u64),
 }
 
-/// Members whose indices follow each other.
+/// Members with consecutive indices.
 #[derive(Debug, Clone)]
 pub(crate) struct Chunk<R, V: Vector<Scalar = f64>, O> {
     /// The index of the first.
     pub(crate) first: usize,
     pub(crate) count: usize,
-    /// All that the scheme carries, member by member.
+    /// The carried values of the scheme, member by member.
     pub(crate) words: Vec<f64>,
     pub(crate) prepared: Shared<R>,
     /// The times at which they start.
@@ -92,7 +92,7 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
         }
     }
 
-    /// Adds a member, which has put what it carries at the end of `words`, or its error.
+    /// Adds a member, whose carried value is already at the end of `words`, or its error.
     pub(crate) fn push(
         &mut self,
         member: Result<(R, f64), Error>,
@@ -112,7 +112,7 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
         self.count += 1;
     }
 
-    /// Gives back the memory that was kept for further members.
+    /// Releases the memory reserved for further members.
     pub(crate) fn shrink(&mut self) {
         self.words.shrink_to_fit();
         if let Shared::Each(prepared) = &mut self.prepared {
@@ -125,7 +125,7 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
 }
 
 impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
-    /// The same members with other observers.
+    /// Replaces the observers of the members.
     pub(crate) fn with_observers<N>(self, observers: Vec<N>) -> Chunk<R, V, N> {
         Chunk {
             first: self.first,
@@ -140,7 +140,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
 }
 
 impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
-    /// A copy of the members before `end`, which nobody observes.
+    /// Returns a copy of the members before `end`, without observers.
     pub(crate) fn unobserved(&self, end: usize, width: usize) -> Chunk<R, V, ()> {
         Chunk {
             first: self.first,
@@ -154,7 +154,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
     }
 }
 
-/// Facts about all members of an ensemble.
+/// Properties common to all members of an ensemble.
 #[derive(Debug, Clone)]
 pub(crate) struct Common<V: Vector<Scalar = f64>> {
     /// A state of their shape.
@@ -164,37 +164,37 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
     pub(crate) step: f64,
     /// The time of one step.
     pub(crate) interval: f64,
-    /// True if steps differ in time.
+    /// True if steps differ in duration.
     pub(crate) varies: bool,
-    /// The number of steps made by those that still go on.
+    /// The number of steps made by the members that have not stopped.
     pub(crate) steps: u64,
 }
 
-/// The members of a chunk on their way from one number of steps to another. `see` receives each member's
-/// observer and its view at the stops, and ends the member by `Break`.
+/// The members of a chunk, advanced from one number of steps to another. At each stop `see` receives the
+/// member's observer and its view; it ends the member by returning `Break`.
 pub(crate) struct Going<'a, S: System<f64>, O, F> {
     pub(crate) chunk: &'a mut ChunkOf<S, O>,
     pub(crate) common: &'a Common<S::Vector>,
-    /// The number of steps at which they leave.
+    /// The number of steps at which members leave their lanes.
     pub(crate) target: u64,
-    /// True if observers see anything.
+    /// True if observers receive states.
     pub(crate) looks: bool,
     /// The index of the next member.
     pub(crate) next: usize,
-    /// True if observers see their first state.
+    /// True if observers receive their first state.
     pub(crate) attaches: bool,
-    /// True if lanes follow what observers follow.
+    /// True if the lanes evaluate the quantities that observers follow.
     pub(crate) follows: bool,
     pub(crate) see: F,
 }
 
-/// The state to which an observer has ended a member: none for the one that it was shown.
+/// The state at which an observer has ended a member; `None` for the state that it received.
 type EndOf<S> = Result<Option<State<<S as System<f64>>::Vector>>, Error>;
 
-/// What an observer makes of a view: whether the member ends, and where.
+/// The verdict of an observer on a view: `Break` with the final state if the member ends.
 pub(crate) type Seen<S> = ControlFlow<EndOf<S>>;
 
-/// See [`EndOf`].
+/// Returns the state at which the observer ends its member, see [`EndOf`].
 pub(crate) fn end_of<S: System<f64>, O: Observer<f64, S>>(observer: &O) -> EndOf<S> {
     observer.end().map(Option::<&_>::cloned)
 }
@@ -204,7 +204,7 @@ where
     S: System<f64>,
     O: Observer<f64, S>,
 {
-    /// The next stop of a member after so many steps.
+    /// Returns the next stop of a member that has made `made` steps.
     fn stop(&self, key: usize, made: u64) -> u64 {
         if !self.looks {
             return self.target;
@@ -214,7 +214,7 @@ where
         due.min(self.target)
     }
 
-    /// Notes where a member has ended. Returns that it does not go on.
+    /// Records the state at which a member has ended. Returns false: the member does not stay.
     fn end(&mut self, key: usize, view: &View<'_, f64, S>, end: EndOf<S>) -> bool {
         let out = match end {
             Ok(end) => {
@@ -227,12 +227,13 @@ where
         false
     }
 
-    /// Writes what lanes follow for a member whose observer sees something: nothing if they do not follow all that its observer follows.
+    /// Writes the quantities that lanes evaluate for a member whose observer receives states. There are none
+    /// unless the lanes evaluate all that the observer follows.
     fn follows(&mut self, key: usize, into: &mut Follows<f64>) {
         let observer = &mut self.chunk.observers[key];
         let can = self.follows;
         Follower::take(into, |with| can && observer.follow(with));
-        // Observers that see their first state have yet to find where functions come from.
+        // An observer without its first state has no previous values of the functions whose sign it follows.
         if self.attaches && !into.sections.is_empty() {
             *into = Follows::default();
         }
@@ -257,7 +258,7 @@ where
             return false;
         }
         self.next += 1;
-        // The storage of the member before is used again.
+        // Reuses the storage of the previous member of this seat.
         let mut follows = Follows::default();
         if self.looks {
             if let Some(seat) = seat {
@@ -323,7 +324,7 @@ where
         follows: &mut Follows<f64>,
         view: &View<'_, f64, S>,
     ) -> bool {
-        // Lanes have followed it to its target.
+        // The lanes have evaluated its quantities up to the target.
         if !follows.is_empty() {
             return false;
         }
@@ -382,7 +383,7 @@ where
     }
 }
 
-/// Shows an observer a state whose number of steps is a multiple of its interval.
+/// Passes a state to an observer if its number of steps is a multiple of the observer's interval.
 pub(crate) fn observe<S: System<f64>, O: Observer<f64, S>>(
     observer: &mut O,
     view: &View<'_, f64, S>,

@@ -1,6 +1,7 @@
 //! States of lanes in rows, out of line.
 //!
-//! Input: what lanes carry. Output: the states that it shows, closed. Invariant: what is carried stays.
+//! Input: the carried values of the lanes. Output: the closed states. Invariant: the carried values are not
+//! changed.
 
 use super::block::Times;
 use crate::flow::Scratch;
@@ -10,12 +11,12 @@ use crate::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
 
-/// Closes a copy of what is carried and writes it to rows of lanes: coordinates, momenta, the time, the
-/// duration of a step.
+/// Closes a copy of the carried value and writes it to rows of lanes: coordinates, momenta, the time and
+/// the duration of a step.
 pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Real, P: Pack> {
     pub(crate) map: &'a R,
     pub(crate) times: &'a Times<T::Over<P>>,
-    /// Steps since the count of times began; before it where this is negative.
+    /// Steps since the count of times began; a negative number is a step before it.
     pub(crate) made: u64,
     pub(crate) carried: &'a R::Carried,
     pub(crate) shown: &'a mut R::Carried,
@@ -53,7 +54,7 @@ where
     }
 }
 
-/// Writes a closed copy of what is carried to rows of lanes, as [`Close`] does.
+/// Writes a closed copy of the carried value to rows of lanes, as [`Close`] does.
 pub(crate) struct Show<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> {
     pub(crate) times: &'a Times<T::Over<P>>,
     pub(crate) made: u64,

@@ -1,8 +1,8 @@
-//! The members that stand in the lanes of a pack, over their own scalar.
+//! The members in the lanes of a pack, over their own scalar.
 //!
-//! Input: a host. Output: numbers of each lane, for the pack. Invariants: a lane without a member repeats
-//! the numbers of one that has one, so that nothing harmful is computed in it; members that failed in a
-//! block wait and are made again together at the end, step by step.
+//! Input: a host. Output: the numbers of each lane, for the pack. Invariants: a lane without a member repeats
+//! the numbers of an occupied one, so that it computes with valid numbers. Members that failed in a block
+//! are pending until the end, when they are replayed together, step by step.
 
 use super::seat::{Host, Seat};
 use crate::observe::Deviation;
@@ -11,27 +11,27 @@ use crate::system::System;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
-/// The crew.
+/// The members in the lanes of a pack, and those pending for replay.
 pub(crate) struct Crew<T: Real, S: System<T>> {
     seats: Vec<Option<Seat<T, S>>>,
     place: Vec<Place>,
-    /// Members that failed in a block of steps.
+    /// Members that failed in a block of steps and are pending for replay.
     suspects: Vec<Seat<T, S>>,
-    /// True if suspects stand in the lanes.
+    /// True if the members in the lanes are replayed step by step.
     careful: bool,
     /// True if the host has members left.
     more: bool,
-    /// True if lanes follow the observer of any member so far.
+    /// True if any member so far has an observer whose quantities the lanes evaluate.
     follows: bool,
     change: Option<Change>,
 }
 
-/// What is in a lane.
+/// The occupation of a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Place {
-    /// Nothing, or a seat to be used again.
+    /// No member; the seat of a previous one may be kept for reuse.
     Empty,
-    /// A member that has just taken it.
+    /// A member that was loaded since the last block.
     New,
     /// A member under way.
     Under,
@@ -39,22 +39,22 @@ enum Place {
     Leaving,
 }
 
-/// The steps at which lanes see states.
+/// The steps after which the observers of lanes receive states.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Schedule {
     /// The steps to the first.
     pub(crate) first: u64,
     /// The steps between two of them.
     pub(crate) interval: u64,
-    /// The steps to the first and between two of them lane by lane, if not all have the same; 0 for a lane
-    /// that sees none.
+    /// The steps to the first state and between two states, lane by lane, if the lanes differ; 0 for a lane
+    /// whose observer receives none.
     pub(crate) apart: Option<[Vec<u64>; 2]>,
 }
 
-/// As many steps between two states are never made.
+/// An interval longer than any run: the observer receives no further state.
 const NEVER: u64 = 1 << 53;
 
-/// The greatest common divisor.
+/// Returns the greatest common divisor.
 fn divisor(a: u64, b: u64) -> u64 {
     match b {
         0 => a,
@@ -62,14 +62,14 @@ fn divisor(a: u64, b: u64) -> u64 {
     }
 }
 
-/// How a crew differs from the one before.
+/// The differences between a crew and the previous one.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Change {
     /// Parameters may differ.
     pub(crate) parameters: bool,
-    /// A member stands at its start.
+    /// At least one member is at its start.
     pub(crate) some_fresh: bool,
-    /// All stand at their starts.
+    /// All members are at their starts.
     pub(crate) all_fresh: bool,
 }
 
@@ -89,7 +89,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
     /// Fills the empty lanes. Returns true if any member is left.
     pub(crate) fn fill(&mut self, host: &mut dyn Host<T, S>) -> bool {
         let mut some = false;
-        // A new member sees states at the steps at which the others do.
+        // The observer of a new member receives states after the same steps as the others.
         let interval = self.interval();
         let is_aligned = self.phase() == host.phase() % interval;
         let is_empty = self.under().next().is_none();
@@ -107,7 +107,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         if some {
             return true;
         }
-        // Nothing else is left: the suspects, step by step.
+        // Pending members are replayed last, step by step.
         self.careful = true;
         for (seat, place) in self.seats.iter_mut().zip(&mut self.place) {
             let Some(suspect) = self.suspects.pop() else {
@@ -121,7 +121,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         some
     }
 
-    /// The seats whose numbers are in the lanes: a lane without a member repeats the first that has one.
+    /// Returns the seats whose numbers are in the lanes. A lane without a member repeats the first occupied one.
     pub(crate) fn seats(&self) -> Vec<&Seat<T, S>> {
         let taken = |lane: usize| {
             let is_taken = self.place[lane] != Place::Empty;
@@ -139,7 +139,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         self.change.is_some()
     }
 
-    /// How the crew has changed since the last call.
+    /// Returns the change of the crew since the last call.
     pub(crate) fn changed(&mut self) -> Option<Change> {
         let mut change = self.change.take()?;
         change.all_fresh = true;
@@ -154,7 +154,8 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         Some(change)
     }
 
-    /// Writes what new members carry into their columns of the rows, and repeats a column in empty lanes.
+    /// Writes the carried values of new members into their columns of the rows, and repeats a column in empty
+    /// lanes.
     pub(crate) fn write_columns(&mut self, rows: &mut [T]) {
         let lanes = self.place.len();
         let mut stand_in = None;
@@ -180,13 +181,13 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// The steps of the next block: to the next stop of a member, or fewer.
+    /// Returns the number of steps of the next block, which ends at the next stop of a member or before.
     pub(crate) fn steps(&self, most: u64, host: &dyn Host<T, S>) -> u64 {
         let most = if self.careful { 1 } else { most };
         let left = self.under().map(|seat| seat.stop.saturating_sub(seat.made));
         let most = left.fold(most, u64::min);
         match self.more && self.place.contains(&Place::Empty) {
-            // To the step at which empty lanes may be filled.
+            // The block ends at the step at which empty lanes may be refilled.
             true => {
                 let interval = self.interval();
                 let ahead = interval + host.phase() % interval - self.phase();
@@ -217,19 +218,19 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         any.filter(|seat| !seat.follows.drifts.is_empty())
     }
 
-    /// The steps between two states that the first member sees which is followed.
+    /// Returns the steps between two states of the first member whose drift is followed.
     fn interval(&self) -> u64 {
         let followed = self.followed().next();
         followed.map_or(1, |seat| seat.interval.max(1))
     }
 
-    /// The steps since the last of them.
+    /// Returns the steps since the last such state.
     fn phase(&self) -> u64 {
         let followed = self.followed().next();
         followed.map_or(0, |seat| seat.made % seat.interval.max(1))
     }
 
-    /// The steps at which the lanes see states.
+    /// Returns the steps after which the observers of the lanes receive states.
     pub(crate) fn schedule(&self) -> Schedule {
         let (interval, first) = (self.interval(), self.interval() - self.phase());
         let ahead = |seat: &Seat<T, S>| {
@@ -268,7 +269,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Notes that drifts have begun.
+    /// Records that drifts have begun.
     pub(crate) fn attached(&mut self) {
         for seat in self.seats.iter_mut().flatten() {
             for track in &mut seat.follows.drifts {
@@ -280,7 +281,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Writes the numbers of a drift of each lane.
+    /// Writes the numbers of drift `k` of each lane into the seats.
     pub(crate) fn write_track(&mut self, k: usize, lanes: &[Vec<T>; 4]) {
         for (lane, (seat, place)) in self.seats.iter_mut().zip(&self.place).enumerate() {
             let Some(seat) = seat.as_mut().filter(|_| *place == Place::Under) else {
@@ -302,14 +303,14 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Notes that the drifts are up to date.
+    /// Records that the drifts are up to date.
     pub(crate) fn tracks_written(&mut self) {
         for seat in self.seats.iter_mut().flatten() {
             seat.since = seat.made;
         }
     }
 
-    /// Takes a member out of its lane, and tells whether it was being made again.
+    /// Removes a member from its lane. Returns it, and true if it was being replayed.
     pub(crate) fn take(&mut self, lane: usize) -> Option<(Seat<T, S>, bool)> {
         if core::mem::replace(&mut self.place[lane], Place::Empty) == Place::Empty {
             return None;
@@ -318,7 +319,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         Some((self.seats[lane].take()?, self.careful))
     }
 
-    /// Puts a member aside, to be made again.
+    /// Makes a member pending for replay.
     pub(crate) fn suspect(&mut self, mut seat: Seat<T, S>) {
         seat.other = true;
         self.suspects.push(seat);
@@ -340,7 +341,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Calls a function with each member at its stop, which returns whether that stays.
+    /// Calls a function with each member at its stop. The function returns true if the member stays.
     pub(crate) fn for_each_due(&mut self, mut of: impl FnMut(usize, &mut Seat<T, S>) -> bool) {
         for (lane, (seat, place)) in self.seats.iter_mut().zip(&mut self.place).enumerate() {
             let under = seat.as_mut().filter(|_| *place == Place::Under);
@@ -358,8 +359,8 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         due.any(|seat| !seat.follows.sections.is_empty())
     }
 
-    /// Calls a function with each member under way whose observer follows signs, which returns whether it
-    /// goes on.
+    /// Calls a function with each member under way whose observer follows signs. The function returns true if
+    /// the member stays.
     pub(crate) fn for_each_watched(&mut self, mut of: impl FnMut(usize, &mut Seat<T, S>) -> bool) {
         for (lane, (seat, place)) in self.seats.iter_mut().zip(&mut self.place).enumerate() {
             let under = seat.as_mut().filter(|_| *place == Place::Under);
@@ -371,7 +372,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Notes that something other is followed for a member.
+    /// Records that the followed quantities of a member have changed.
     pub(crate) fn follows_other(&mut self) {
         self.follows = true;
         self.change.get_or_insert_default();
@@ -382,7 +383,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         self.place.contains(&Place::Leaving)
     }
 
-    /// Gives the members that leave back to the host, with what they carry.
+    /// Returns leaving members to the host, with their carried values.
     pub(crate) fn leave(&mut self, rows: &[T], host: &mut dyn Host<T, S>) {
         let lanes = self.place.len();
         for (lane, (seat, place)) in self.seats.iter_mut().zip(&mut self.place).enumerate() {

@@ -1,8 +1,9 @@
 //! Members driven to their ends in the lanes of one pack type.
 //!
-//! Input: a scheme and a host. Output: the host has seen every member at each of its stops. Invariants: a
-//! member's bits depend on its seat and on the arithmetic of the pack alone; lanes change hands at the ends
-//! of blocks only; a member that fails costs the others nothing, since it is made again apart from them.
+//! Input: a scheme and a host. Output: the host has received every member at each of its stops. Invariants:
+//! a member's bits depend on its seat and on the arithmetic of the pack alone. Lanes are refilled at the ends
+//! of blocks only. A failure costs the other members nothing, since the failed one is replayed apart from
+//! them.
 
 mod alone;
 pub(super) mod deviations;
@@ -29,7 +30,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Level, Mask, Pack, Real};
 
-/// Steps between two checks that everything is finite, as in a single run.
+/// The number of steps between two checks that all numbers are finite, as in a single run.
 const BLOCK: u64 = 1024;
 
 /// A scheme that drives members of `S` in the lanes of `P`.
@@ -44,7 +45,7 @@ pub trait InPack<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
 pub(super) type MapIn<T, S, P, M> = <M as Scheme<<T as Real>::Over<P>, S>>::Map;
 /// The value that such a map carries.
 pub(super) type CarriedIn<T, S, P, M> = <MapIn<T, S, P, M> as Map>::Carried;
-/// A truth for each lane.
+/// The lane mask of the scalar.
 type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;
 
 impl<T, S, P, M> InPack<T, S, P> for M
@@ -73,7 +74,7 @@ where
         let mut lanes = Lanes::<T, S, P, M>::new::<L>(self, &crew);
         while !host.is_cancelled() {
             lanes.board::<L>(self, &mut crew);
-            // Members whose drift begins here are seen before their first step.
+            // A drift begins at the start: its first state is evaluated before the first step.
             let attach = lanes.attach.take();
             let n = match attach {
                 Some(_) => 0,
@@ -152,7 +153,7 @@ where
     }
 }
 
-/// A crew in lanes.
+/// The members of a crew in lanes, with the map of their steps and the followed quantities.
 struct Lanes<T, S, P, M>
 where
     T: Real,
@@ -166,7 +167,7 @@ where
     carried: CarriedIn<T, S, P, M>,
     /// The carried value at the beginning of the block.
     before: CarriedIn<T, S, P, M>,
-    /// The carried value, closed.
+    /// The closed state.
     shown: CarriedIn<T, S, P, M>,
     times: Times<T::Over<P>>,
     opening: Opening<MaskIn<T, P>>,
@@ -185,14 +186,14 @@ where
     marks: Marks<CarriedIn<T, S, P, M>, MaskIn<T, P>>,
     /// The carried values after the three steps before the block.
     three: Three<CarriedIn<T, S, P, M>>,
-    /// Scratch for the states that are shown on the way.
+    /// Scratch for the states that observers of signs receive between stops.
     passing: CarriedIn<T, S, P, M>,
     passing_rows: Vec<T>,
     /// The lanes whose drift begins at their present state.
     attach: Option<MaskIn<T, P>>,
-    /// The steps at which lanes see states, where they differ in them.
+    /// The steps after which the observers of lanes receive states, if the lanes differ.
     apart: Apart<T::Over<P>>,
-    /// True if the map is that of a crew which has yet to board.
+    /// True if the map is that of a crew which is not yet loaded into the lanes.
     is_prepared: bool,
     /// The step of each lane for which the map is made.
     steps: Vec<T>,
@@ -216,7 +217,7 @@ where
         >,
     M: Scheme<T, S> + Scheme<T::Over<P>, S>,
 {
-    /// The shapes for the first crew, to be boarded.
+    /// Allocates lanes of the shapes of the first crew, which is loaded afterwards.
     #[inline(always)]
     fn new<L: Level>(scheme: &M, crew: &Crew<T, S>) -> Self {
         let seats = crew.seats();
@@ -263,7 +264,7 @@ where
         self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
     }
 
-    /// Puts a crew that has changed into the lanes.
+    /// Loads a crew that has changed into the lanes.
     #[inline(always)]
     fn board<L: Level>(&mut self, scheme: &M, crew: &mut Crew<T, S>) {
         let Some(changed) = crew.changed() else {
@@ -320,7 +321,7 @@ where
         trackers.chain(watchers)
     }
 
-    /// Returns true if anything that is followed reads what the closing piece of a step changes.
+    /// Returns true if any followed quantity depends on what the closing piece of a step changes.
     #[inline(always)]
     fn closes(&self) -> bool {
         let closing = self.map.closing();
@@ -330,10 +331,10 @@ where
         })
     }
 
-    /// Puts the drifts of the members into lanes.
+    /// Loads the drifts of the members into lanes.
     #[inline(always)]
     fn track<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
-        // The first that is followed stands for all: others are seen at their stops.
+        // The first followed member determines the quantities; members that differ receive states at their stops.
         let first = seats.iter().find(|seat| !seat.follows.drifts.is_empty());
         let drifts = first.map_or(&[][..], |seat| &seat.follows.drifts);
         for trackers in [&mut self.trackers, &mut self.trackers_before] {
@@ -387,8 +388,8 @@ where
         crew.tracks_written();
     }
 
-    /// Takes the members out that are not finite after a block: to be made again step by step, or, where
-    /// that was one step, as failed.
+    /// Removes the members that are not finite after a block. They are replayed step by step; after a block of
+    /// one step they have failed.
     #[cold]
     #[inline(never)]
     fn part_with<L: Level>(
@@ -438,7 +439,7 @@ where
         }
     }
 
-    /// Shows members at their stops to the host, which takes those that leave.
+    /// Passes members at their stops to the host, which takes back those that leave.
     #[inline(always)]
     fn arrive<L: Level>(&mut self, scheme: &M, crew: &mut Crew<T, S>, host: &mut dyn Host<T, S>) {
         let lanes = P::LANES as usize;
@@ -493,17 +494,17 @@ fn each<T: Real, S: System<T>>(seats: &[&Seat<T, S>], of: impl Fn(&Seat<T, S>) -
     seats.iter().map(|seat| of(seat)).collect()
 }
 
-/// A number of steps as a scalar.
+/// Returns a number of steps as a scalar.
 fn count<T: Real>(steps: u64) -> T {
     T::constant(steps as i64 as f64, 0.0)
 }
 
-/// Numbers of steps as scalars.
+/// Returns numbers of steps as scalars.
 fn counts<T: Real>(steps: &[u64]) -> Vec<T> {
     steps.iter().map(|n| count(*n)).collect()
 }
 
-/// A copy, made out of line: a value in lanes is long, and many copies are made of the first.
+/// Returns a copy. It is made out of line, since a value in lanes is long and is copied in many places.
 #[inline(never)]
 fn another<C: Clone>(of: &C) -> C {
     of.clone()

@@ -2,13 +2,13 @@
 
 use crate::error::Error;
 
-/// The value of a closure, or [`Error::Panicked`] where panics unwind.
+/// Returns the value of a closure. If it panics, and panics unwind, returns [`Error::Panicked`].
 #[cfg(feature = "std")]
 pub(crate) fn guard<A>(closure: impl FnOnce() -> A) -> Result<A, Error> {
     use alloc::borrow::ToOwned;
     use alloc::string::String;
     use std::panic::{AssertUnwindSafe, catch_unwind};
-    // What the closure had in its hands is its member's, which is not used again.
+    // Unwind-safe: the closure modifies data of its own member only, which is not used again.
     catch_unwind(AssertUnwindSafe(closure)).map_err(|payload| {
         let message = match (
             payload.downcast_ref::<&str>(),
@@ -22,7 +22,7 @@ pub(crate) fn guard<A>(closure: impl FnOnce() -> A) -> Result<A, Error> {
     })
 }
 
-/// Without `std` panics do not unwind.
+/// Returns the value of a closure: without `std` panics do not unwind.
 #[cfg(not(feature = "std"))]
 pub(crate) fn guard<A>(closure: impl FnOnce() -> A) -> Result<A, Error> {
     Ok(closure())

@@ -1,4 +1,4 @@
-//! Hashes by which the members of a store are recognised.
+//! Hashes that identify the members of a store.
 
 use crate::state::State;
 use crate::system::System;
@@ -28,8 +28,8 @@ impl Write for Hash {
     }
 }
 
-/// A hash of a member's parameters, start and step. A system that describes no parameters may be written by hand and
-/// have some nevertheless: then what it prepares is written in full.
+/// Returns a hash of a member's parameters, start and step. A handwritten system may have parameters without
+/// describing them: if none are described, its prepared form is hashed in full.
 pub(crate) fn hash_of<S: System<f64>>(system: &S, start: &State<S::Vector>, step: f64) -> u64 {
     let mut hash = Hash::new();
     // Writing to a hash does not fail.

@@ -1,30 +1,30 @@
-//! Steps of lanes that observers of signs must see.
+//! Steps of lanes whose states observers of signs require.
 //!
-//! Input: what lanes carry, step by step. Output: the steps that are marked, with what was carried then and
-//! after the two steps before. Invariant: the lanes go on past a marked step, so what a member has made of
-//! it, even its end, is known at the end of the block.
+//! Input: the carried values of the lanes, step by step. Output: the marked steps, with the carried values
+//! after them and after the two steps before. Invariant: the lanes continue past a marked step. Observers
+//! receive its state at the end of the block, and may then end their member at the marked step.
 
 use crate::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Mask;
 
-/// As many marked steps end a block.
+/// The number of marked steps that ends a block.
 const MOST: usize = 16;
 
-/// The values carried after three steps, the last one last.
+/// The carried values after three consecutive steps, the last one last.
 pub(crate) type Three<C> = [C; 3];
 
 /// The marks of a block.
 pub(crate) struct Marks<C, M> {
     /// The values carried after the last three steps.
     ring: Three<C>,
-    /// The place of the last of them.
+    /// The index of the last of them in the ring.
     turn: usize,
     /// The lanes for which the present step is to be marked.
     pub(crate) loud: M,
     /// The steps that are marked, and their lanes.
     pub(crate) steps: Vec<(u64, M)>,
-    /// What was carried then. There are as many as have ever been of use.
+    /// The carried values at the marks. The vector is never shortened, so that its storage is reused.
     states: Vec<Three<C>>,
 }
 
@@ -40,26 +40,26 @@ impl<C: Vector, M: Mask> Marks<C, M> {
         }
     }
 
-    /// Replaces the last carried value: some lanes have new members.
+    /// Replaces the last carried value after a refill of lanes.
     #[inline(always)]
     pub(crate) fn replace(&mut self, carried: &C) {
         self.ring[self.turn].copy_from(carried);
     }
 
-    /// Adds what is carried after a step.
+    /// Adds the carried value after a step.
     #[inline(always)]
     pub(crate) fn add(&mut self, carried: &C) {
         self.turn = if self.turn == 2 { 0 } else { self.turn + 1 };
         self.ring[self.turn].copy_from(carried);
     }
 
-    /// What was added last.
+    /// Returns the carried value that was added last.
     #[inline(always)]
     pub(crate) fn present(&self) -> &C {
         &self.ring[self.turn]
     }
 
-    /// The last three.
+    /// Copies the last three carried values, in order.
     #[inline(always)]
     pub(crate) fn last(&self, to: &mut Three<C>) {
         for (ahead, to) in (1..).zip(to) {
@@ -67,7 +67,7 @@ impl<C: Vector, M: Mask> Marks<C, M> {
         }
     }
 
-    /// Marks the last step for the lanes that are loud. Returns true if the block should end.
+    /// Marks the last step for the lanes in `loud`. Returns true if the block should end.
     #[inline(always)]
     pub(crate) fn mark(&mut self, step: u64) -> bool {
         let lanes = core::mem::replace(&mut self.loud, M::splat(false));
@@ -82,7 +82,7 @@ impl<C: Vector, M: Mask> Marks<C, M> {
         self.steps.len() >= MOST
     }
 
-    /// What was carried at a mark.
+    /// Returns the carried values at a mark.
     #[inline(always)]
     pub(crate) fn states(&self, mark: usize) -> &Three<C> {
         &self.states[mark]

@@ -1,16 +1,17 @@
 //! Ensembles: many members of one system and scheme, which advance together in the lanes of packs.
 //!
-//! Input: a system and a start for each index. Output: [`Ensemble`], whose members live in memory, and
-//! [`Sweep`], which keeps a record of each. Invariant: thread count, lane, chunk and neighbours change no
-//! bit of a member.
+//! Input: a system and a start for each index. Output: [`Ensemble`], whose members stay in memory, and
+//! [`Sweep`], which keeps a record of each. Invariant: the bits of a member depend on neither the thread
+//! count nor its lane, its chunk or the other members.
 //!
-//! The modules follow the data: a member at its seat ([`seat`]), the crew of a pack ([`crew`]), a block of
-//! steps ([`block`]), the steps that observers of signs must see
-//! ([`marks`], [`close`]), the drive of members to their ends in one pack type ([`drive`]), the bound that
-//! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`],
-//! [`until`]), and members that leave a
-//! record ([`sweep`], [`sweep::running`],
-//! [`record`]) or exponents ([`lyapunov`], [`deviations`]).
+//! The modules follow the data:
+//!
+//! - [`seat`]: a member in its lane; [`crew`]: the members of a pack; [`block`]: a block of steps;
+//! - [`marks`], [`close`]: the steps whose states observers of signs require;
+//! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
+//! - [`chunk`], [`swarm`], [`until`]: members in memory;
+//! - [`sweep`], [`sweep::running`], [`record`]: members that leave a record;
+//! - [`lyapunov`], [`deviations`]: members that leave exponents.
 
 mod block;
 mod bound;
@@ -39,7 +40,7 @@ pub use record::{End, Record, Row, Status};
 pub use swarm::Ensemble;
 pub use sweep::Sweep;
 
-/// A member of an ensemble, from which its system and its start are made.
+/// A member of an ensemble: its index and its seed, from which its system and its start are made.
 ///
 /// ```
 /// use hamiltonian::prelude::*;
@@ -54,13 +55,12 @@ pub use sweep::Sweep;
 pub struct Member {
     /// Its index, from 0.
     pub index: usize,
-    /// A number for generators of random numbers, which depends on the index and the seed of the ensemble
-    /// alone.
+    /// A seed for random number generators. It depends only on the index and the seed of the ensemble.
     pub seed: u64,
 }
 
 impl Member {
-    /// The member of an ensemble with that seed.
+    /// Returns member `index` of an ensemble with the seed `seed`.
     ///
     /// The seed of a member is number `index` of SplitMix64 after a state that is the first number after
     /// `seed` (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453, doi:10.1145/2660193.2660195).

@@ -5,7 +5,7 @@
 
 use core::ops::ControlFlow;
 
-/// Does `count` jobs and hands their results over in order, until `take` breaks.
+/// Does `count` jobs and passes their results to `take` in order, until `take` breaks.
 pub(crate) fn in_order<B: Send>(
     count: usize,
     threads: usize,
@@ -45,7 +45,7 @@ mod parallel {
 
     impl<B> Shared<B> {
         fn lock(&self) -> MutexGuard<'_, Queue<B>> {
-            // Each change of the queue is whole.
+            // A poisoned lock is usable: no change of the queue can panic half-way.
             self.queue.lock().unwrap_or_else(PoisonError::into_inner)
         }
 
@@ -54,7 +54,7 @@ mod parallel {
         }
     }
 
-    /// Stops everything when it is dropped: a thread that panics keeps nobody waiting.
+    /// Stops all threads when dropped, so that none waits for a thread that has panicked.
     struct Stop<'a, B>(&'a Shared<B>);
 
     impl<B> Drop for Stop<'_, B> {

@@ -1,8 +1,8 @@
 //! Members in the lanes of a pack, and their host.
 //!
 //! Input: members, one after the other. Output: their arrivals, their ends, their failures. Invariant: a
-//! seat holds all that makes a member go on, over its own scalar: nothing in it depends on the level, the
-//! lane or the neighbours.
+//! seat stores the complete state of a member over its own scalar. Nothing in it depends on the level, the
+//! lane or the other members.
 
 use crate::error::Error;
 use crate::map::Clock;
@@ -12,13 +12,13 @@ use crate::system::System;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
-/// A member on its way.
+/// A member under way, with all that is needed to continue it in any lane.
 pub struct Seat<T: Real, S: System<T>> {
     /// The host's number of the member.
     pub(crate) key: usize,
     /// Its system.
     pub(crate) prepared: S::Prepared,
-    /// True if the system is another one than the one before in this seat.
+    /// True if the system differs from the previous one in this seat.
     pub(crate) other: bool,
     /// Its step.
     pub(crate) step: T,
@@ -26,28 +26,28 @@ pub struct Seat<T: Real, S: System<T>> {
     pub(crate) clock: Clock<T>,
     /// The number of steps made.
     pub(crate) made: u64,
-    /// The number of steps at which the host sees it next.
+    /// The number of steps at which the host next receives the member.
     pub(crate) stop: u64,
-    /// All that the scheme carries: on loading, and when it leaves.
+    /// The carried value of the scheme, up to date on loading and on leaving only.
     pub(crate) words: Vec<T>,
-    /// All that lanes follow for its observer. Drifts are up to date when it leaves and at its stops.
+    /// The quantities that lanes evaluate for its observer. Drifts are up to date at stops and on leaving.
     pub(crate) follows: Follows<T>,
     /// The number of steps between two states whose drift it follows.
     pub(crate) interval: u64,
     /// The number of steps made when the drifts were up to date.
     pub(crate) since: u64,
-    /// The number of steps made when its observer last saw a state, if lanes follow signs for it.
+    /// The number of steps made when its observer last received a state, if lanes follow signs for it.
     pub(crate) seen: u64,
     /// The start on loading; the state on arrival.
     pub(crate) state: State<S::Vector>,
 }
 
-/// The owner of members, which seats them and sees them at their stops.
+/// The owner of members, which loads them into seats and receives them at their stops.
 pub trait Host<T: Real, S: System<T>> {
-    /// Puts the next member into a seat, which may hold one that has left. Returns false if there is none.
+    /// Loads the next member into a seat, which may contain one that has left. Returns false if there is none.
     fn load(&mut self, seat: &mut Option<Seat<T, S>>) -> bool;
-    /// Receives a member's state at its stop. Returns true if the member stays, with its stop moved on. Lanes
-    /// follow from now on what is in `follows`.
+    /// Receives a member's state at its stop. Returns true if the member stays, with its stop advanced. Lanes
+    /// then evaluate the quantities in `follows`.
     fn arrive(
         &mut self,
         key: usize,
@@ -55,19 +55,19 @@ pub trait Host<T: Real, S: System<T>> {
         follows: &mut Follows<T>,
         view: &View<'_, T, S>,
     ) -> bool;
-    /// Shows the observer of a member a state on the way to its stop, see
-    /// [`Observer::pass`](crate::Observer::pass). Returns true if the member goes on.
+    /// Passes a state before the next stop to the observer of a member, see
+    /// [`Observer::pass`](crate::Observer::pass). Returns true if the member stays.
     fn pass(&mut self, key: usize, view: &View<'_, T, S>, quiet: bool) -> bool;
     /// Takes the drifts of a member at its stop.
     fn follow(&mut self, key: usize, follows: &mut Follows<T>);
-    /// The number of steps that members which are followed have made when they are loaded.
+    /// Returns the number of steps that followed members have made when they are loaded.
     fn phase(&self) -> u64;
-    /// Takes back what a member carries when it leaves.
+    /// Takes back the carried value of a member that leaves.
     fn leave(&mut self, seat: &mut Seat<T, S>);
     /// Takes back a member whose next step failed; `words` are those before that step.
     fn fail(&mut self, seat: &mut Seat<T, S>, error: Error);
-    /// Returns true if it receives states; if not, members leave at their stops.
+    /// Returns true if the host receives states. Otherwise members leave at their stops.
     fn looks(&self) -> bool;
-    /// Returns true if the work stops here, between two blocks: members under way are left where they are.
+    /// Returns true if the work is cancelled, which is checked between blocks. Members under way are abandoned.
     fn is_cancelled(&mut self) -> bool;
 }

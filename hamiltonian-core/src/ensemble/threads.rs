@@ -3,7 +3,7 @@
 //! Input: items. Output: the work is done on each. Invariant: an item is worked on by one thread, so that
 //! results depend on neither their number nor the order.
 
-/// The number of threads that the machine runs at once.
+/// Returns the number of threads that the machine runs at once.
 pub(crate) fn available() -> usize {
     #[cfg(feature = "std")]
     {
@@ -15,8 +15,8 @@ pub(crate) fn available() -> usize {
     }
 }
 
-/// Starts a thread for members. In unoptimised code the frames of inlined arithmetic in packs take more
-/// than the usual 2 MB of a thread's stack; what is not touched takes no memory.
+/// Starts a thread for members. In unoptimised code the frames of inlined arithmetic in packs exceed the
+/// default stack of 2 MB. Stack pages that are never touched take no memory.
 #[cfg(feature = "std")]
 pub(crate) fn spawn<'scope>(
     scope: &'scope std::thread::Scope<'scope, '_>,
@@ -41,7 +41,7 @@ pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&
     {
         let next = std::sync::Mutex::new(items.iter_mut());
         let take = || {
-            // A thread that panicked has left the iterator whole.
+            // A poisoned lock is usable: a thread that panicked has left the iterator intact.
             let mut next = next
                 .lock()
                 .unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -1,6 +1,6 @@
-//! Rare parts of the drive of members: they work over the members' own scalar, once for all packs.
+//! Rare parts of the drive of members, over the members' own scalar: compiled once for all packs.
 //!
-//! Input: numbers of the lanes. Output: members that have seen states, causes of failures. Invariant: nothing
+//! Input: numbers of the lanes. Output: states passed to observers, and causes of failures. Invariant: nothing
 //! here depends on the level.
 
 use crate::ensemble::crew::Crew;
@@ -17,7 +17,7 @@ use crate::system::{self, System};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
-/// Shows the members at their stops to the host. This is code over the members' scalar: once for all packs.
+/// Passes the members at their stops to the host.
 #[inline(never)]
 pub(super) fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,
@@ -60,17 +60,17 @@ pub(super) struct Passing<'a, T> {
     /// As [`Close`] writes them.
     pub(super) rows: &'a [T],
     pub(super) carries_duration: bool,
-    /// The lanes that are shown them.
+    /// The lanes whose observers receive the states.
     pub(super) which: &'a [bool],
     /// The steps since the beginning of the block.
     pub(super) ahead: u64,
-    /// The steps by which the states are behind.
+    /// The steps between these states and the last one.
     pub(super) back: u64,
     pub(super) quiet: bool,
 }
 
 impl<T: Real> Passing<'_, T> {
-    /// Shows them. This is code over the members' scalar: once for all packs.
+    /// Passes the states to the observers.
     #[inline(never)]
     pub(super) fn show<S: System<T>, M: Scheme<T, S>>(
         &self,
@@ -121,8 +121,8 @@ pub(in crate::ensemble) type Alone<'a, T, S> = (
     Clock<T>,
 );
 
-/// Why a member's step after `made` others is not finite: the step is made again alone, over its own scalar,
-/// from what is carried. `point` is the state after it, `reached` its time.
+/// Returns the error of a member whose step after `made` others is not finite. The step is replayed over the
+/// member's own scalar from the carried value. `point` is the state after it, `reached` its time.
 #[inline(never)]
 pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,

@@ -1,7 +1,7 @@
-//! Numbers of lanes and what is prepared for them, out of line.
+//! Conversion between numbers of members and lanes, out of line.
 //!
-//! Input: numbers of members, or those of lanes. Output: the other. Invariant: this code is as long as a pack is
-//! wide, so that each function of it occurs once in a pack type, and is called.
+//! Input: numbers of members, or those of lanes. Output: the other. Invariant: each function is compiled once
+//! for a pack type and never inlined, since the length of its code is proportional to the width of the pack.
 
 use super::MaskIn;
 use crate::map::{Map, Step};
@@ -14,8 +14,8 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
 
-/// A number of each member, in its lane of a pack that has its place: returned, it would be copied register by
-/// register wherever this is called.
+/// Writes a number of each member to its lane of an existing pack. A returned pack would be copied register by
+/// register at every call.
 #[inline(always)]
 pub(in crate::ensemble) fn gather<L: Level, T: Real, P: Pack>(
     numbers: &[T],
@@ -37,7 +37,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for Gathered<'_, T, P> {
     }
 }
 
-/// The lanes whose flag is set.
+/// Returns the lane mask of the flags.
 #[inline(always)]
 pub(in crate::ensemble) fn lanes_of<L: Level, T: Real, P: Pack>(flags: &[bool]) -> MaskIn<T, P> {
     let of = PhantomData::<(T, P)>;
@@ -59,7 +59,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for LanesOf<'_, T, P> {
     }
 }
 
-/// The number of each lane.
+/// Writes the number of each lane to a slice.
 #[inline(always)]
 pub(in crate::ensemble) fn scatter<L: Level, T: Real, P: Pack>(from: &T::Over<P>, into: &mut [T]) {
     L::enter_at(Scatter::<T, P> { from, into });
@@ -78,7 +78,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for Scatter<'_, T, P> {
     }
 }
 
-/// The lanes of a carried value from rows, one a component.
+/// Loads the lanes of a carried value from rows, one a component.
 #[inline(always)]
 pub(in crate::ensemble) fn load<L, T, P, V>(rows: &[T], to: &mut V)
 where
@@ -95,7 +95,7 @@ where
     }
 }
 
-/// The lanes of a carried value into rows.
+/// Stores the lanes of a carried value into rows.
 #[inline(always)]
 pub(in crate::ensemble) fn store<L, T, P, V>(from: &V, rows: &mut [T])
 where
@@ -112,7 +112,7 @@ where
     }
 }
 
-/// The systems of the lanes as one, and the map for the steps of the lanes.
+/// Combines the systems of the lanes into one, and makes the map of its steps.
 pub(in crate::ensemble) struct Prepare<'a, T: Real, S: System<T>, P, M> {
     scheme: &'a M,
     systems: &'a [&'a S::Prepared],
@@ -160,7 +160,7 @@ where
     }
 }
 
-/// What a scheme carries at a state, the same in all lanes.
+/// Makes the carried value of a scheme at a state that is the same in all lanes.
 pub(in crate::ensemble) struct Begin<'a, T: Real, S: System<T> + System<T::Over<P>>, P: Pack, M> {
     scheme: &'a M,
     prepared: &'a <S as System<T::Over<P>>>::Prepared,

@@ -1,7 +1,8 @@
 //! Signs of functions, followed in lanes.
 //!
-//! Input: the marks of a block. Output: observers that have seen the states at which a sign may have changed,
-//! with the two before. Invariant: they remember what they would remember had they seen every state.
+//! Input: the marks of a block. Output: states passed to observers, namely those at which a sign may have
+//! changed and the two before each. Invariant: the observers end in the state that they would have if they
+//! received every state.
 
 use super::alone::Passing;
 use super::rows::{gather, lanes_of, scatter, store};
@@ -29,7 +30,7 @@ where
         >,
     M: Scheme<T, S> + Scheme<T::Over<P>, S>,
 {
-    /// Puts the functions whose sign is followed into lanes: those of any member.
+    /// Loads the functions whose sign is followed for at least one member into lanes.
     #[inline(always)]
     pub(super) fn watch<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
         self.watchers.clear();
@@ -86,7 +87,7 @@ where
             crew.for_each_watched(|lane, seat| {
                 let mut own = seat.follows.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
-                // A member whose observer has only now seen its first state has values of its own.
+                // A member whose observer has only just received its first state keeps its own values.
                 if let Some(section) = own.filter(|_| self.watched.lane(lane as u32)) {
                     (section.value, section.change) = (values[lane], values[lane] - before[lane]);
                 }
@@ -95,7 +96,7 @@ where
         }
     }
 
-    /// Shows the marked steps of a block of `n`, in their order, to the observers that follow signs, and the
+    /// Passes the marked steps of a block of `n`, in their order, to the observers that follow signs, and the
     /// last step to those of members at their stops.
     #[inline(always)]
     pub(super) fn show_marks<L: Level>(
@@ -123,9 +124,8 @@ where
         }
     }
 
-    /// Shows the states after a step and the two before, of which `three` has what was carried, to the
-    /// observers of some lanes, as far as they have not seen them. `quiet` is whether nothing happened at the
-    /// last.
+    /// Passes the states after a step and the two before to the observers of some lanes, except those already
+    /// received. `three` has their carried values; `quiet` is true if no sign changed at the last.
     #[inline(never)]
     pub(super) fn show<L: Level>(
         &mut self,

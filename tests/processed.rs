@@ -18,13 +18,6 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// A driven pendulum in air.
-    pub struct Damped {}
-    H(q; p; t) = p^2/2 - cos(q)*(1 + sin(t)/4);
-    force(q; p) = -p/10
-}
-
-hamiltonian! {
     /// An orbit round a black hole in four pieces.
     pub struct BlackHole { E = 0.995, L = 4.6 }
     H(r, theta; p_r, p_theta) = (1 - 2/r)*p_r^2/2 + p_theta^2/(2*r^2)
@@ -168,29 +161,6 @@ fn correctors_make_the_error_of_planets_a_hundred_times_smaller() {
         plain.1,
         corrected.1
     );
-}
-
-/// A force that is affine in p is a part of an exact kick, and processed schemes keep their order.
-#[test]
-fn forced_systems_have_the_order_of_the_scheme() {
-    fn is_of_order<M: Scheme<f64, Damped>>(scheme: M, steps: u64) {
-        let end = |steps: u64| {
-            let h = 8.0 / steps as f64;
-            let start = State::new([1.2], [0.3]);
-            let mut run = Integrator::new(&Damped {}, scheme.clone(), start, h).unwrap();
-            run.advance(steps).unwrap().clone()
-        };
-        let errors = [steps, 2 * steps].map(|n| {
-            let (coarse, fine) = (end(n), end(2 * n));
-            coarse.q.distance(&fine.q).max(coarse.p.distance(&fine.p))
-        });
-        let (order, entry) = ((errors[0] / errors[1]).log2(), scheme.entry());
-        let expected = f64::from(entry.order);
-        assert!((order - expected).abs() < 0.3, "{}: {order}", entry.name);
-    }
-    is_of_order(Processed4::default(), 64);
-    is_of_order(Processed6::default(), 32);
-    is_of_order(WisdomHolman3::default(), 64);
 }
 
 /// max |ΔH| of every tenth of 10⁷ steps round the black hole is that of the first.

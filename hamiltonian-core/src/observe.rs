@@ -382,8 +382,9 @@ tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 /// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
 #[doc = include_str!("doc/oscillator.md")]
 /// type Four = W<f64, 4>;
-/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
-/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// let [one, zero, h] = [1.0, 0.0, 0.1].map(|x| Four::load(&[x; 4], x));
+/// let start = State::over([one], [zero]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, h)?;
 /// # let mut run = run;
 /// run.advance(1)?;
 /// # Ok::<(), Error>(())
@@ -393,8 +394,9 @@ tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 /// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
 #[doc = include_str!("doc/oscillator.md")]
 /// type Four = W<f64, 4>;
-/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
-/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// let [one, zero, h] = [1.0, 0.0, 0.1].map(|x| Four::load(&[x; 4], x));
+/// let start = State::over([one], [zero]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, h)?;
 /// let mut run = run.observe(Events::new([Event::of("q", |state: &State<_>| state.q[0])]));
 /// run.advance(1)?;
 /// # Ok::<(), Error>(())
@@ -403,8 +405,9 @@ tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 /// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
 #[doc = include_str!("doc/oscillator.md")]
 /// type Four = W<f64, 4>;
-/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
-/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// let [one, zero, h] = [1.0, 0.0, 0.1].map(|x| Four::load(&[x; 4], x));
+/// let start = State::over([one], [zero]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, h)?;
 /// let mut run = run.observe(Recorder::new());
 /// run.advance(1)?;
 /// # Ok::<(), Error>(())
@@ -413,8 +416,9 @@ tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 /// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
 #[doc = include_str!("doc/oscillator.md")]
 /// type Four = W<f64, 4>;
-/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
-/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// let [one, zero, h] = [1.0, 0.0, 0.1].map(|x| Four::load(&[x; 4], x));
+/// let start = State::over([one], [zero]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, h)?;
 /// let mut run = run.observe(EnergyDrift::new());
 /// run.advance(1)?;
 /// # Ok::<(), Error>(())

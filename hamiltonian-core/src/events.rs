@@ -11,7 +11,7 @@ pub use event::Event;
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
-use crate::observe::{Follower, Observer, Quantity, Section, View, one_trajectory};
+use crate::observe::{Follower, Observer, Section, View, one_trajectory};
 use crate::root::{Sample, dip, root, side};
 use crate::state::State;
 use crate::system::{Dynamics, Observable, System};
@@ -406,11 +406,11 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
             return false;
         }
         for (event, track) in self.events.iter().zip(&self.tracks) {
-            let Some(index) = track.observable else {
+            let Some(observable) = track.observable else {
                 return false;
             };
             with.section(Section {
-                quantity: Quantity::Observable(index),
+                observable,
                 period: event.period,
                 value: track.value,
                 change: track.change,

@@ -8,7 +8,7 @@ use super::marks::Marks;
 use crate::map::{self, Map};
 use crate::observe::{Quantity, Tracker, Watcher};
 use crate::state::Carried;
-use crate::system::System;
+use crate::system::{Dynamics, System, declared_energy_at};
 use crate::vector::Vector;
 use hamiltonian_lanes::{KernelAt, Level, Mask, Real};
 
@@ -117,7 +117,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         let (t, point) = (shown.time(t), shown.point());
         // Outside the loop: the compiler would hoist H out of it, and evaluate it for all quantities.
         if self.energy {
-            let value = Quantity::Energy.at::<U, S>(self.prepared, t, point);
+            let value = declared_energy_at::<U, S>(self.prepared, t, &point.q, &point.p);
             for tracker in &mut *self.trackers {
                 if tracker.quantity == Quantity::Energy {
                     tracker.follow(self.attach, due, value);
@@ -130,14 +130,12 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         let drifts = self.trackers.len();
         let all = drifts + if watches { self.watchers.len() } else { 0 };
         for at in 0..all {
-            let quantity = match at < drifts {
-                true => self.trackers[at].quantity,
-                false => self.watchers[at - drifts].quantity,
+            let index = match self.trackers.get(at).map(|tracker| tracker.quantity) {
+                Some(Quantity::Energy) => continue,
+                Some(Quantity::Observable(index)) => index,
+                None => self.watchers[at - drifts].observable,
             };
-            if quantity == Quantity::Energy {
-                continue;
-            }
-            let value = quantity.observed::<U, S>(self.prepared, t, point);
+            let value = self.prepared.observable(index, t, &point.q, &point.p);
             if at < drifts {
                 self.trackers[at].follow(self.attach, due, value);
                 continue;

@@ -317,7 +317,8 @@ where
     /// The quantities that are followed.
     fn quantities(&self) -> impl Iterator<Item = Quantity> {
         let trackers = self.trackers.iter().map(|tracker| tracker.quantity);
-        let watchers = self.watchers.iter().map(|watcher| watcher.quantity);
+        let watchers = self.watchers.iter().map(|watcher| watcher.observable);
+        let watchers = watchers.map(Quantity::Observable);
         trackers.chain(watchers)
     }
 

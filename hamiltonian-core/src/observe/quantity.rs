@@ -1,9 +1,6 @@
-//! A function of the state that lanes follow.
-//!
-//! Input: a state. Output: H or an observable there, over any scalar.
+//! A function of the state whose drift lanes follow: H or an observable.
 
-use crate::state::Point;
-use crate::system::{Dynamics, System, declared_energy_at};
+use crate::system::System;
 use hamiltonian_lanes::Real;
 
 /// A function of the state.
@@ -26,33 +23,5 @@ impl Quantity {
         let is_timed = declared.is_none_or(|observable| observable.depends_on_time);
         let reads = S::READS.get(index).filter(|_| !is_timed);
         reads.copied().unwrap_or([true; 2])
-    }
-
-    /// Its value.
-    #[inline(always)]
-    pub(crate) fn at<T: Real, S: System<T>>(
-        self,
-        prepared: &S::Prepared,
-        t: T,
-        point: &Point<S::Vector>,
-    ) -> T {
-        match self {
-            Quantity::Energy => declared_energy_at::<T, S>(prepared, t, &point.q, &point.p),
-            Quantity::Observable(_) => self.observed::<T, S>(prepared, t, point),
-        }
-    }
-
-    /// The value of an observable; 0 for H.
-    #[inline(always)]
-    pub(crate) fn observed<T: Real, S: System<T>>(
-        self,
-        prepared: &S::Prepared,
-        t: T,
-        point: &Point<S::Vector>,
-    ) -> T {
-        match self {
-            Quantity::Energy => T::zero(),
-            Quantity::Observable(index) => prepared.observable(index, t, &point.q, &point.p),
-        }
     }
 }

@@ -5,13 +5,13 @@
 //! Invariant: in a lane that is not returned, the observer would find nothing, and stores only two
 //! values after the step.
 
-use super::quantity::Quantity;
 use hamiltonian_lanes::{Mask, Real};
 
 /// A function whose sign an observer follows, with its values after the last two steps.
 #[derive(Debug, Clone, Copy)]
 pub struct Section<T> {
-    pub(crate) quantity: Quantity,
+    /// The number of the function among the observables.
+    pub(crate) observable: usize,
     /// The period: all multiples of it count as 0.
     pub(crate) period: Option<T>,
     /// The value after the last step.
@@ -29,14 +29,15 @@ impl<T: Real> Section<T> {
             (Some(one), Some(other)) => one.equals(other).all(),
             (one, other) => one.is_none() && other.is_none(),
         };
-        self.quantity == other.quantity && is_same_period
+        self.observable == other.observable && is_same_period
     }
 }
 
 /// A function in lanes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Watcher<U> {
-    pub(crate) quantity: Quantity,
+    /// The number of the function among the observables.
+    pub(crate) observable: usize,
     pub(crate) period: Option<U>,
     /// The value after the last step, at the place `turn`, and the one before, counted back from it if there is a
     /// period. No value moves from one place to the other, since packs are long.
@@ -55,9 +56,9 @@ fn nearest<U: Real>(x: U) -> U {
 
 impl<U: Real> Watcher<U> {
     /// Creates a function whose values are to be written.
-    pub(crate) fn new(quantity: Quantity, period: Option<U>) -> Self {
+    pub(crate) fn new(observable: usize, period: Option<U>) -> Self {
         Watcher {
-            quantity,
+            observable,
             period,
             values: [U::zero(); 2],
             turn: 0,

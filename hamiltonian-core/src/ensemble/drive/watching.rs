@@ -55,9 +55,10 @@ where
             };
             let in_lanes = |number: fn(&Section<T>) -> T| each(seats, |seat| of(seat, number));
             let period = function.period.map(T::spread::<P>);
-            self.watchers.push(Watcher::new(function.quantity, period));
+            self.watchers
+                .push(Watcher::new(function.observable, period));
             self.watchers_before
-                .push(Watcher::new(function.quantity, period));
+                .push(Watcher::new(function.observable, period));
             let numbers: [fn(&Section<T>) -> T; 2] = [
                 |section| section.value,
                 |section| section.value - section.change,

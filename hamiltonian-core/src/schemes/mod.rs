@@ -84,6 +84,7 @@ mod projection;
 mod tao;
 mod trajectories;
 
+mod beside;
 pub mod collocation;
 mod gauss;
 mod iterate;

@@ -3,11 +3,12 @@
 //! Input: H = ½ pᵀM⁻¹p + V(q, t). Output: [`GaussNystrom`]. Invariant: the steps are those of
 //! [`Gauss`](super::Gauss), to rounding.
 
+use super::beside::StagedMap;
 use super::collocation::{Collocation, constant, whole_ulps};
 use super::compensated::carry;
 use super::iterate::Outcome;
 use super::rows::{
-    Abreast, Apart, Beside, Equations, LEAST, LEVELS, Layout, Width, in_rows, load, matrix_in_rows,
+    Abreast, Apart, Beside, Equations, LEVELS, Layout, Width, in_rows, load, matrix_in_rows,
     of_the_guess, product, rows, solve, spread, store, sum,
 };
 use super::stages::{Stages, extrapolation};
@@ -352,28 +353,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         carry(point, low);
     }
 
-    /// One step, stage by stage.
-    #[inline(always)]
-    fn solve(
-        &self,
-        t: T,
-        z: &mut CarriesForces<P::Vector, S>,
-        work: &mut EliminatedWork<P::Vector, S>,
-    ) -> Cause {
-        let (rows, sums) = (&mut work.rows, &mut work.sums);
-        let gradients = &mut z.y.x.0;
-        let outcome = self.fixed_point::<Apart, _>(
-            &self.tableau(),
-            &self.dynamics,
-            t,
-            &z.x,
-            gradients,
-            rows,
-            sums,
-        );
-        self.complete(t, outcome, z, sums)
-    }
-
     fn tableau(&self) -> Tableau<'_, T, S> {
         Tableau {
             times: &self.times,
@@ -404,12 +383,15 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
             outcome.cause()
         }
     }
+}
 
-    /// Makes steps with so many stages beside each other.
+impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, S> {
     #[inline(always)]
     fn steps_beside<const WIDTH: usize>(
         &self,
-        (clock, made, n): (Clock<T>, u64, u64),
+        clock: Clock<T>,
+        made: u64,
+        n: u64,
         z: &mut CarriesForces<P::Vector, S>,
         work: &mut EliminatedWork<P::Vector, S>,
     ) -> Option<u64>
@@ -427,42 +409,35 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         self.dynamics.in_lanes(&mut work.kept, steps)
     }
 
-    /// Makes steps, the stages beside each other where there are lanes for them.
     #[inline(always)]
-    fn steps(
+    fn complete_unsolved(
         &self,
-        clock: Clock<T>,
-        from: u64,
-        n: u64,
+        t: T,
         z: &mut CarriesForces<P::Vector, S>,
         work: &mut EliminatedWork<P::Vector, S>,
     ) {
-        let mut made = 0;
-        while made < n && S >= LEAST {
-            let left = (clock, from + made, n - made);
-            let steps = if const { S.is_multiple_of(8) } {
-                self.steps_beside::<8>(left, z, work)
-            } else {
-                self.steps_beside::<4>(left, z, work)
-            };
-            let Some(steps) = steps else {
-                break;
-            };
-            made += steps;
-            if made < n {
-                self.complete(
-                    clock.at(from + made),
-                    Outcome::unsolved(),
-                    z,
-                    &mut work.sums,
-                );
-                made += 1;
-            }
-        }
-        while made < n {
-            self.solve(clock.at(from + made), z, work);
-            made += 1;
-        }
+        self.complete(t, Outcome::unsolved(), z, &mut work.sums);
+    }
+
+    #[inline(always)]
+    fn solve(
+        &self,
+        t: T,
+        z: &mut CarriesForces<P::Vector, S>,
+        work: &mut EliminatedWork<P::Vector, S>,
+    ) -> Cause {
+        let (rows, sums) = (&mut work.rows, &mut work.sums);
+        let gradients = &mut z.y.x.0;
+        let outcome = self.fixed_point::<Apart, _>(
+            &self.tableau(),
+            &self.dynamics,
+            t,
+            &z.x,
+            gradients,
+            rows,
+            sums,
+        );
+        self.complete(t, outcome, z, sums)
     }
 }
 

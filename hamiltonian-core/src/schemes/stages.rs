@@ -14,10 +14,11 @@
 mod newton;
 mod slopes;
 
+use super::beside::StagedMap;
 use super::collocation::{Collocation, constant};
 use super::compensated::carry;
 use super::iterate::{Contraction, Outcome, iterate};
-use super::rows::{Abreast, Apart, LEAST, Width, of_the_guess};
+use super::rows::{Abreast, Apart, Width, of_the_guess};
 use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Clock, Map, Step};
 use crate::state::{Pair, Point, State};
@@ -381,39 +382,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         outcome
     }
 
-    /// One step, stage by stage.
-    #[inline(always)]
-    fn solve(
-        &self,
-        t: T,
-        z: &mut Carries<P::Vector, S>,
-        work: &mut CollocatedWork<P::Vector, S>,
-    ) -> Cause {
-        let Pair { x: point, y } = &mut *z;
-        let unknowns = &mut y.x;
-        let outcome = if self.modes.is_some() {
-            self.solve_between(t, point, None, unknowns, work, |_, _| {})
-        } else {
-            let tableau = Tableau {
-                h: self.h,
-                times: &self.times,
-                weights: &self.weights,
-                matrices: &self.matrices,
-            };
-            fixed_point::<T, Apart, _, _, _, S>(
-                self.limit,
-                &tableau,
-                &self.field,
-                t,
-                point,
-                &mut unknowns.0,
-                &mut work.next.0,
-                &mut work.stage,
-            )
-        };
-        self.complete(t, outcome, z, work)
-    }
-
     /// The rest of a step: Newton's method in lanes where the fixed point failed, and the new point.
     #[inline(always)]
     fn complete(
@@ -487,21 +455,28 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         slopes.copy_where(!fixed, &work.guess);
         outcome.solved = outcome.solved | fixed;
     }
+}
 
-    /// Makes steps with so many stages beside each other.
+impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, S> {
+    #[inline(always)]
+    fn has_rows(&self) -> bool {
+        self.modes.is_none()
+    }
+
     #[inline(always)]
     fn steps_beside<const WIDTH: usize>(
         &self,
-        (clock, made, n): (Clock<T>, u64, u64),
+        clock: Clock<T>,
+        made: u64,
+        n: u64,
         z: &mut Carries<P::Vector, S>,
         work: &mut CollocatedWork<P::Vector, S>,
     ) -> Option<u64>
     where
         Abreast<WIDTH>: Width,
     {
-        let map = self;
         let steps = StepsBeside::<_, _, S, WIDTH> {
-            map,
+            map: self,
             clock,
             made,
             n,
@@ -510,37 +485,46 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         self.dynamics.in_lanes(&mut work.kept, steps)
     }
 
-    /// Makes steps, the stages beside each other where there are lanes for them.
     #[inline(always)]
-    fn steps(
+    fn complete_unsolved(
         &self,
-        clock: Clock<T>,
-        from: u64,
-        n: u64,
+        t: T,
         z: &mut Carries<P::Vector, S>,
         work: &mut CollocatedWork<P::Vector, S>,
     ) {
-        let mut made = 0;
-        while made < n && S >= LEAST && self.modes.is_none() {
-            let left = (clock, from + made, n - made);
-            let steps = if const { S.is_multiple_of(8) } {
-                self.steps_beside::<8>(left, z, work)
-            } else {
-                self.steps_beside::<4>(left, z, work)
+        self.complete(t, Outcome::unsolved(), z, work);
+    }
+
+    #[inline(always)]
+    fn solve(
+        &self,
+        t: T,
+        z: &mut Carries<P::Vector, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+    ) -> Cause {
+        let Pair { x: point, y } = &mut *z;
+        let unknowns = &mut y.x;
+        let outcome = if self.modes.is_some() {
+            self.solve_between(t, point, None, unknowns, work, |_, _| {})
+        } else {
+            let tableau = Tableau {
+                h: self.h,
+                times: &self.times,
+                weights: &self.weights,
+                matrices: &self.matrices,
             };
-            let Some(steps) = steps else {
-                break;
-            };
-            made += steps;
-            if made < n {
-                self.complete(clock.at(from + made), Outcome::unsolved(), z, work);
-                made += 1;
-            }
-        }
-        while made < n {
-            self.solve(clock.at(from + made), z, work);
-            made += 1;
-        }
+            fixed_point::<T, Apart, _, _, _, S>(
+                self.limit,
+                &tableau,
+                &self.field,
+                t,
+                point,
+                &mut unknowns.0,
+                &mut work.next.0,
+                &mut work.stage,
+            )
+        };
+        self.complete(t, outcome, z, work)
     }
 }
 

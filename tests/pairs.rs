@@ -53,7 +53,7 @@ where
 {
     let mut model = symbolic::system("q[n]; p[n]", "n", "m[n]", h);
     assert!(structure::analyse(&mut model).separable.is_ok());
-    // What other functions read too is computed ahead.
+    // Values that other functions read as well are prepared in advance.
     let purposes = [
         Purpose::Energy,
         Purpose::EnergyAndGradient,

@@ -1,4 +1,4 @@
-//! Values that are computed before an evaluation: what a prepared system, a field or a flow holds.
+//! Values that are computed before an evaluation, and held by a prepared system, a field or a flow.
 //!
 //! Input: numbers and conditions of a definition, and its sizes, functions and arrays. Output: [`Held`], which
 //! emitted bodies read. Invariant: each of them can be [`Carried`] into the lanes of a pack.
@@ -18,8 +18,8 @@ pub struct Held<T: Real, const N: usize, const M: usize = 0, D = ()> {
     pub v: [T; N],
     /// Conditions.
     pub m: [T::Mask; M],
-    /// How loops are computed, sizes set at run time, functions and arrays, those that there are in this order, as
-    /// nested pairs.
+    /// The arithmetic of loops, the sizes set at run time, the functions and the arrays, as nested pairs in this order.
+    /// Absent ones are left out.
     pub data: D,
 }
 
@@ -32,17 +32,17 @@ impl<T: Real, const N: usize> Held<T, N> {
     }
 }
 
-/// A value that several members have, each its own in its lane of a pack, or all the same.
+/// A value of a member that can be placed in a lane of a pack, or is the same for all lanes.
 pub trait Carried<T: Real>: Clone + Debug + Send + Sync + 'static {
     /// The same over another scalar.
     type Over<U: Real>;
-    /// The values of members in the lanes of one.
+    /// Gathers the values of members into lanes.
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>>;
-    /// Returns true if both may stand in one pack.
+    /// Returns true if the lanes of one pack can hold both.
     fn fits(&self, _: &Self) -> bool {
         true
     }
-    /// Returns true if both are equal, if they fit.
+    /// Returns true if both are equal, provided that they [fit](Carried::fits).
     fn equals(&self, other: &Self) -> bool;
 }
 
@@ -70,7 +70,7 @@ fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N
     (0..N).all(same)
 }
 
-/// A part of each member, in its lane.
+/// Gathers a part of each member into its lane.
 #[inline(always)]
 pub fn gathered<'a, T: Real, P: Pack, W, D: Carried<T>>(
     members: &[&'a W],

@@ -1,9 +1,9 @@
 //! The contract of kernels: bodies that a definition gives, and the fields, flows and pieces made of them.
 //!
 //! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`Motion`] and [`Field`] for a
-//! prepared system, one a kind. Output: [`Kernel`], the vector field, the flow and the piece of each kind.
-//! Invariant: a body has two stages, as in a program: from prepared values and a coefficient to what is held, and from
-//! what is held and a point to the change of a point.
+//! prepared system, one for each kind. Output: [`Kernel`], the vector field, the flow and the piece of each kind.
+//! Invariant: a body has two stages. The first computes the held values from the prepared system and a coefficient, once
+//! for each map. The second computes the change of a point from the held values and the point.
 
 use crate::exponential::Exponential;
 use crate::flow::{Flow, Piece, VectorField};
@@ -23,11 +23,11 @@ pub trait Shift<K, T: Real>: Dynamics<T> {
     const KICKS: bool;
     /// See [`Flow::MERGES`].
     const MERGES: bool = true;
-    /// What is computed from prepared values and the coefficient.
+    /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
-    /// Computes it.
+    /// Computes these values.
     fn fold(&self, c: T) -> Self::Held;
-    /// Adds to a half what follows from the other.
+    /// Adds to one half of phase space the change that the other half determines.
     fn add(held: &Self::Held, t: T, from: &Self::Vector, into: &mut Self::Vector);
 }
 
@@ -37,9 +37,9 @@ pub trait Motion<K, T: Real>: Dynamics<T> {
     const NAME: &'static str;
     /// See [`Flow::MERGES`].
     const MERGES: bool = true;
-    /// What is computed from prepared values and the coefficient.
+    /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
-    /// Computes it.
+    /// Computes these values.
     fn fold(&self, c: T) -> Self::Held;
     /// Moves a point.
     fn apply(held: &Self::Held, t: T, q: &mut Self::Vector, p: &mut Self::Vector);
@@ -50,7 +50,7 @@ pub trait Motion<K, T: Real>: Dynamics<T> {
     }
 }
 
-/// A system without sizes set at run time, of which a flow is a matrix.
+/// A system without sizes set at run time that has a flow with a matrix.
 pub trait Origin<T: Real>: Dynamics<T> {
     /// The zero vector.
     fn origin() -> Self::Vector;
@@ -58,9 +58,9 @@ pub trait Origin<T: Real>: Dynamics<T> {
 
 /// A body that adds the values of a vector field at a point.
 pub trait Field<K, T: Real>: Dynamics<T> {
-    /// What is computed from prepared values and the coefficient.
+    /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
-    /// Computes it.
+    /// Computes these values.
     fn fold(&self, c: T) -> Self::Held;
     /// See [`VectorField::add`].
     fn add(
@@ -118,7 +118,7 @@ pub struct Adds<K>(K);
 /// The [`Motion`] of a kind as a matrix of `N` rows.
 #[derive(Debug)]
 pub struct Matrices<K, const N: usize>(K);
-/// The kernel of kind `K` of a prepared system `D`: a piece, or with what is held a flow or a field.
+/// The kernel of kind `K` of a prepared system `D`: a piece, or with held values a flow or a field.
 pub struct Kernel<D, K, H = ()> {
     held: H,
     of: PhantomData<fn() -> (D, K)>,

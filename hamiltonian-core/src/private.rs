@@ -301,7 +301,7 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
 
 // A constant of the user's may have the name of a variable, which would then be a pattern: variables begin with `_`.
 
-/// How a prepared system, a struct around what is held, stands in the lanes of a pack.
+/// Implements `Gather` for a prepared system, a struct around the held values.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __gathers {

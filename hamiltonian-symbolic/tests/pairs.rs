@@ -50,7 +50,7 @@ fn sum(random: &mut Random) -> String {
     }
 }
 
-/// Whether a loop of the function is made in tiles.
+/// Returns true if a loop of the function is computed in tiles.
 fn has_tiles(function: &Function, program: &Program) -> bool {
     let is_one = |step: &Step| matches!(step, Step::Loop(outer) if pairs(outer, program).is_some());
     function.evaluation.iter().any(is_one)

@@ -1,17 +1,16 @@
-//! Loops around stretches, in the level of the CPU from the first iteration to the last.
+//! Nests of loops, which enter the level of the CPU once for all iterations.
 //!
-//! Input: a nest of loops over rows ([`Nest`]), written by the macro. Output: what its iterations store.
-//! Invariant: rows are made in order, each as [`Stretch::run`] makes it; but a level is entered once.
+//! Input: a nest of loops over rows ([`Nest`]), written by the macro. Output: the stored elements. Invariant: the rows
+//! are computed in order, each as by [`Stretch::run`].
 
 use super::packs::packs;
 use super::{Body, STRIDE, Stretch};
 use crate::system::Arithmetic;
 use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
 
-/// A nest of loops: of `G` numbers that are the same in all iterations, `R` columns that are read, `C` columns
-/// that are written, and `Z` sizes.
+/// A nest of loops with `G` loop-invariant numbers, `R` columns to read, `C` columns to write, and `Z` sizes.
 pub trait Nest<T: Real, const G: usize, const R: usize, const C: usize, const Z: usize> {
-    /// Makes all iterations.
+    /// Computes all iterations.
     fn run<M: Mode>(
         given: [T; G],
         reads: [&[T]; R],
@@ -21,9 +20,9 @@ pub trait Nest<T: Real, const G: usize, const R: usize, const C: usize, const Z:
     );
 }
 
-/// Where the stretches of a nest are made.
+/// The way in which the stretches of a nest are computed.
 pub trait Mode {
-    /// Makes the iterations of a stretch.
+    /// Computes the iterations of a stretch.
     fn run<
         T: Real,
         B: Body<G, R, W>,
@@ -91,7 +90,7 @@ impl<P: Pack> Mode for In<P> {
     }
 }
 
-/// Makes all iterations of a nest, in lanes where it has long loops.
+/// Computes all iterations of a nest, in lanes if `is_long`.
 #[inline(always)]
 pub fn nest<
     T: Real,
@@ -123,7 +122,7 @@ pub fn nest<
     }
 }
 
-/// The way into a level.
+/// The nest in the level of the CPU.
 struct InLanes<'a, T, N, const G: usize, const R: usize, const C: usize, const Z: usize> {
     given: [T; G],
     reads: [&'a [T]; R],

@@ -7,7 +7,7 @@ use super::waiting::{NONE, Waiting};
 use super::{BLOCK, Body, CARRY, STRIDE, Stretch, changed, has_shared};
 use hamiltonian_lanes::{Pack, Real};
 
-/// At least [`STRIDE`] iterations in packs of as many.
+/// Computes at least [`STRIDE`] iterations in packs of as many lanes.
 #[inline(always)]
 pub(super) fn packs<
     T: Real,
@@ -68,8 +68,8 @@ pub(super) fn packs<
         }
         s += 1;
     }
-    // Iterations that fill no pack are made with those before them once more. What a store that does not
-    // wait changes there is taken back first.
+    // The last iterations, which fill no pack, are computed together with those before them, which are thus repeated.
+    // The elements that a direct store changed there are restored first.
     let rest = length % STRIDE;
     let mut before = [T::Over::<P>::default(); S];
     let mut s = 0;

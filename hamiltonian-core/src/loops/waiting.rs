@@ -101,7 +101,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
         false
     }
 
-    /// Returns true if a store that does not wait is the first one to change its element.
+    /// Returns true if the store does not wait, reads its element, and is the first one to change it.
     #[inline(always)]
     pub(super) fn is_taken_back(&self, stores: &[Store], s: usize) -> bool {
         let store = &stores[s];

@@ -1,24 +1,24 @@
-//! Elements that a loop reaches with its own variable.
+//! The array elements that a loop accesses with its own variable.
 //!
-//! Input: a loop. Output: the indices that wrap in it, and the columns that run along with its variable.
-//! Invariant: a column that is written runs along only if it is written at one index alone.
+//! Input: a loop. Output: its periodic indices, and the columns that advance with its variable.
+//! Invariant: a written column is included only if all its stores have the same index.
 
 use super::context::{Access, Context};
 use super::layout::Slice;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Loops};
 use hamiltonian_symbolic::program::{Instruction, Loop, Step};
 
-/// The elements that a loop's body reaches with the loop's own variable.
+/// The elements that the body of a loop accesses with the variable of the loop.
 #[derive(Default)]
 pub(super) struct Accesses {
-    /// Indices that wrap as the variable moves by one, with its factor 1 or −1.
+    /// Periodic indices, each with the factor 1 or −1 of the variable.
     pub(super) wrapped: Vec<(Index, i64)>,
-    /// Columns read, or written at this one index only, that run along with the variable.
+    /// Columns that advance with the variable, with their index: read ones, and written ones with this index alone.
     pub(super) cuts: Vec<(Slice, Index)>,
 }
 
 impl Accesses {
-    /// Returns true if the loop counts from 0 and columns run along with it element by element.
+    /// Returns true if the loop begins at 0 and the index of each column is the variable itself.
     pub(super) fn is_plain(&self, inner: &Loop) -> bool {
         let along =
             |(_, index): &(Slice, Index)| *index == Index::plain(Affine::variable(inner.domain));
@@ -27,18 +27,19 @@ impl Accesses {
             && self.cuts.iter().all(along)
     }
 
-    /// The name of the start of a wrapped index in a segment.
+    /// Returns the name of the start of a periodic index in a segment.
     pub(super) fn start_of(&self, domain: Domain, index: &Index) -> Option<String> {
         let at = self.wrapped.iter().position(|(known, _)| known == index)?;
         Some(start_name(domain, at, index))
     }
 
-    /// Returns true if an index wraps.
+    /// Returns true if there is a periodic index.
     pub(super) fn wraps(&self) -> bool {
         !self.wrapped.is_empty()
     }
 
-    /// Those of a loop; none where iterations read and write one point, which has no parts to cut.
+    /// Finds the accesses of a loop. There are none if iterations read and write the same point, which cannot be
+    /// divided into slices.
     pub(super) fn of(context: Context, inner: &Loop) -> Accesses {
         let mut finder = Finder {
             context,
@@ -70,8 +71,8 @@ struct Finder<'a> {
     context: Context<'a>,
     domain: Domain,
     accesses: Accesses,
-    /// Columns written, each with its index, and whether all stores have that index and it moves by
-    /// one with the loop variable.
+    /// Written columns, each with its index; the flag is true if all its stores have that index, and the index
+    /// increases by one with the loop variable.
     stores: Vec<(Slice, Index, bool)>,
 }
 
@@ -102,8 +103,8 @@ impl Finder<'_> {
         }
     }
 
-    /// Notes the indices of an element that wrap in this loop. Whether it moves by one element of its
-    /// column with the loop variable, in the body of this very loop.
+    /// Records the periodic indices of an element. Returns true if it advances by one element of its column with the
+    /// loop variable, in the body of this loop itself.
     fn element(&mut self, row: &Index, column: Option<&Index>, inner: Loops) -> bool {
         let along = self.index(row, inner);
         if let Some(column) = column {
@@ -135,8 +136,8 @@ impl Finder<'_> {
     }
 }
 
-/// The name of the start of a wrapped index in a segment: its place on the last axis, which the rows
-/// before it are added to.
+/// The name of the start of a periodic index in a segment: the place on the last axis, plus the number of
+/// elements in the rows before.
 pub(super) fn start_name(domain: Domain, at: usize, index: &Index) -> String {
     let word = if index.outer.is_some() { 'o' } else { 'w' };
     format!("_{word}{}_{at}", domain.0)

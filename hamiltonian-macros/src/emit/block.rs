@@ -203,7 +203,7 @@ impl Writer<'_> {
     fn instruction(&self, instruction: &Instruction) -> String {
         let v = |value: &Value| self.operand(*value);
         let whole = |value: &Value| self.at(*value, Binding::Whole);
-        // What stands on the right of an operator binds more tightly than what stands on the left.
+        // A right operand needs parentheses around operators of the same precedence; a left operand does not.
         let [term, factor] = [Binding::Term, Binding::Factor]
             .map(|place| move |value: &Value| self.at(*value, place));
         match instruction {

@@ -1,16 +1,16 @@
-//! Functions that are two others one after the other.
+//! Functions that are the composition of two others.
 //!
-//! Input: a function of the whole of H and those of its halves. Output: whether the two compute what the whole does,
-//! operation by operation, and no more. Invariant: only straight lines are compared: a loop of the whole serves
-//! both halves at once.
+//! Input: a function of the whole H and the functions of its halves. Output: true if the two halves compute the same
+//! operations as the whole, and no more. Invariant: only straight-line code is compared, since a loop of the whole may
+//! serve both halves at once.
 
 use hamiltonian_symbolic::dag::Map;
 use hamiltonian_symbolic::program::{Function, Instruction, Program, Purpose, Step, Update, Value};
 
-/// The most steps that are compared.
+/// The limit of steps to be compared.
 const MOST: usize = 400;
 
-/// Returns true if the function of `whole` is those of two halves, which have no work in common.
+/// Returns true if the function `whole` is that of one half followed by that of the other, without shared work.
 pub fn are_apart(program: &Program, whole: Purpose, halves: [Purpose; 2]) -> bool {
     let halves = halves.map(|purpose| program.function(purpose));
     let (Some(whole), [Some(a), Some(b)]) = (program.function(whole), halves) else {
@@ -36,7 +36,7 @@ fn stores(function: &Function) -> usize {
     function.evaluation.iter().filter(is_store).count()
 }
 
-/// Returns true if each store of a half is one of the whole, and each output it clears.
+/// Returns true if each store of a half, and each output that it clears, occurs in the whole.
 fn has_stores(program: &Program, whole: &Function, half: &Function) -> bool {
     let mut known = Map::default();
     let mut is_there = |step: &Step| {
@@ -57,7 +57,7 @@ fn has_stores(program: &Program, whole: &Function, half: &Function) -> bool {
             .all(|target| whole.cleared.contains(target))
 }
 
-/// Pairs of values that were compared.
+/// Pairs of values already compared.
 type Known = Map<(Value, Value), bool>;
 
 fn is_same_update(program: &Program, a: &Update, b: &Update, known: &mut Known) -> bool {
@@ -74,7 +74,7 @@ fn are_same(program: &Program, a: &[Value], b: &[Value], known: &mut Known) -> b
     a.len() == b.len() && (a.iter().zip(b)).all(|(a, b)| is_same(program, *a, *b, known))
 }
 
-/// Returns true if two values are computed by the same operations of the same inputs.
+/// Returns true if the same operations on the same inputs compute both values.
 fn is_same(program: &Program, a: Value, b: Value, known: &mut Known) -> bool {
     if a == b {
         return true;

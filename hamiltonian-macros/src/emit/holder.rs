@@ -1,8 +1,8 @@
-//! What carries prepared values into evaluations, and the reads of a body from the type it is a function of.
+//! Holders: the types that carry prepared values into evaluations, and the expressions by which bodies read them.
 //!
 //! Input: the values, masks and parameter arrays that functions read. Output: their type, and the
-//! expressions that fill and read it. Invariant: a holder has the values its functions
-//! read and nothing else, but all run-time sizes and functions.
+//! expressions that fill and read it. Invariant: a holder has exactly the values that its functions read,
+//! and all run-time sizes and functions.
 
 use super::block::names;
 use super::context::Context;
@@ -13,7 +13,7 @@ use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;
 
-/// Values computed before an evaluation, and what is read beside them: core's `Held`.
+/// The values computed before an evaluation, and the data read with them: core's `Held`.
 #[derive(Debug)]
 pub struct Holder {
     /// The name of its functions' parts, and of the prepared system.
@@ -23,14 +23,14 @@ pub struct Holder {
     pub arrays: Vec<Slice>,
     /// True if it says how work on the system is computed.
     pub arithmetic: bool,
-    /// True if it is the prepared system, a struct around what is held.
+    /// True for the prepared system, a struct around the held values.
     is_prepared: bool,
 }
 
-/// What a holder has beside values.
+/// Data of a holder that is not computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Datum {
-    /// How work is computed.
+    /// The arithmetic of loops.
     Arithmetic,
     /// A size that is set at run time.
     Size(usize),
@@ -84,7 +84,7 @@ impl Holder {
         }
     }
 
-    /// The type of what is held.
+    /// The type of the held values.
     pub fn held(&self, context: Context) -> String {
         let (numbers, masks) = (self.values.numbers.len(), self.values.masks.len());
         let ty = |datum: &Datum| match *datum {
@@ -122,7 +122,7 @@ impl Holder {
             .collect()
     }
 
-    /// The expression of what is held, in a body.
+    /// The expression of the held values, in a body.
     fn root(&self) -> &'static str {
         match self.is_prepared {
             true => "_self.0",
@@ -148,7 +148,7 @@ impl Holder {
         format!("{}.0", self.place(context, Datum::Function(at)))
     }
 
-    /// The declaration of the prepared system, and how it stands in the lanes of a pack.
+    /// The declaration of the prepared system, and its `Gather` implementation.
     pub fn declare(&self, out: &mut String, context: Context) {
         let generics = context.generics;
         let (declaration, name) = (generics.holder_declaration(), &self.name);

@@ -1,16 +1,16 @@
-//! Values that stand where they are used, instead of in a `let` of their own.
+//! Inlined values: expressions written at their only use, instead of in a `let`.
 //!
-//! Input: the steps of a body. Output: the text of the values that one step of it uses, in place. Invariant: the
-//! operations are the same: a value moves past stores only if it reads no output.
+//! Input: the steps of a body. Output: the text of each inlined value. Invariant: the operations and their operands stay
+//! the same; a value moves past a store only if it reads no output.
 
 use super::context::{Access, Context};
 use hamiltonian_symbolic::dag::{Array, Map};
 use hamiltonian_symbolic::program::{Instruction, Step, Value};
 
-/// The longest text that stands where it is used.
+/// The greatest length of an inlined text.
 const LONGEST: usize = 60;
 
-/// The places of a text in an expression, by how tightly they bind.
+/// The places of an operand in an expression, in the order of their precedence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Binding {
     /// An argument, a right-hand side: no parentheses at all.
@@ -19,11 +19,11 @@ pub enum Binding {
     Term,
     /// A factor of a product.
     Factor,
-    /// What a method is called of.
+    /// The receiver of a method.
     Atom,
 }
 
-/// The values of a body that stand where they are used.
+/// The inlined values of a body.
 #[derive(Debug, Default)]
 pub struct Inlined {
     once: Map<Value, ()>,
@@ -31,8 +31,8 @@ pub struct Inlined {
 }
 
 impl Inlined {
-    /// The values that one step at the outermost level of `steps` uses, once, and nothing after them: `kept` has
-    /// what is used by its name.
+    /// Finds the values that are used exactly once, at the outermost level of `steps`. Values in `kept` are used by
+    /// name and are not inlined.
     pub fn of(context: Context, steps: &[Step], kept: &[Value]) -> Inlined {
         let mut uses: Map<Value, u32> = kept.iter().map(|value| (*value, 2)).collect();
         count(context, steps, 1, &mut uses);
@@ -44,7 +44,7 @@ impl Inlined {
                     Instruction::Load(Array::Held(_), ..) => false,
                     Instruction::Load(..) => context.access == Access::Apart,
                     Instruction::PairedSin(_) | Instruction::PairedCos(_) => false,
-                    // A function has a branch for rare arguments, and what is computed before it waits for its end.
+                    // A function has a branch for rare arguments, which the operations after it wait for.
                     Instruction::Call(..) | Instruction::External(..) => false,
                     _ => true,
                 };
@@ -59,7 +59,7 @@ impl Inlined {
         }
     }
 
-    /// Takes the text of a value that stands where it is used. False if it needs a `let`.
+    /// Takes the text of a value to be inlined. Returns false if it needs a `let`.
     pub fn take(&mut self, value: Value, instruction: &Instruction, text: &str) -> bool {
         if text.len() > LONGEST || !self.once.contains_key(&value) {
             return false;
@@ -74,7 +74,7 @@ impl Inlined {
         true
     }
 
-    /// The text of a value in a place, if it stands where it is used.
+    /// Returns the text of an inlined value, with parentheses if the place requires them.
     pub fn text(&self, value: Value, place: Binding) -> Option<String> {
         let (text, binding) = self.texts.get(&value)?;
         Some(match *binding >= place {

@@ -1,9 +1,9 @@
-//! Loops over parts of one lattice, made as one loop.
+//! Fusion of successive loops over parts of one lattice.
 //!
-//! Input: loops that stand side by side, such as those over the sites, over the sites that have a left
-//! neighbour, and over those that have a right one. Output: one loop over what they have in common, and the
-//! iterations of each before and after. Invariant: an iteration changes elements of its own site alone, so
-//! each element is changed in the order of the loops.
+//! Input: successive loops, for example over all sites, over the sites with a left neighbour, and over the sites
+//! with a right one. Output: one loop over the common range, and the remaining iterations of each loop before and after.
+//! Invariant: an iteration changes elements of its own site alone, so each element is changed in the order of
+//! the loops.
 
 use super::accesses::Accesses;
 use super::block::Writer;
@@ -15,11 +15,11 @@ use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::program::{Loop, Step, Target};
 use std::fmt::Write;
 
-/// A loop among others, and the flag that tells whether it is there.
+/// A loop, and the name of the flag that is true if the loop is executed.
 type Part<'a> = (&'a Loop, Option<String>);
 
 impl Writer<'_> {
-    /// The number of loops, from the first on, that are made as one; 0 if there are not two of them.
+    /// Returns how many of the loops, from the first on, can be fused; 0 for fewer than two.
     pub(super) fn joint(&self, loops: &[&Loop]) -> usize {
         if self.context.access != Access::Apart || self.context.layout == Layout::Scalars {
             return 0;
@@ -46,8 +46,8 @@ impl Writer<'_> {
         count
     }
 
-    /// The number of loops inside each other, this one counted. `None` if a loop does anything but
-    /// change elements of the sites that the loop variables are the indices of.
+    /// Returns the depth of a nest of loops. `None` if the nest does anything but change elements of the site whose
+    /// indices are the loop variables.
     fn depth(&self, outer: &Loop, around: &mut Vec<Domain>) -> Option<usize> {
         if !outer.accumulators.is_empty() {
             return None;
@@ -87,7 +87,7 @@ impl Writer<'_> {
         depth.map(|inside| inside + 1)
     }
 
-    /// Writes loops as one; of an outermost loop the rows of a slab, if that is there.
+    /// Writes fused loops; for outermost loops in slabs, the rows of one slab.
     pub(super) fn join(&mut self, loops: &[Part], slab: Option<Domain>) {
         let known = self.same.len();
         let first = loops[0].0.domain;
@@ -118,7 +118,7 @@ impl Writer<'_> {
         self.same.truncate(known);
     }
 
-    /// The loops around others.
+    /// Writes fused loops that contain loops.
     fn outer(&mut self, loops: &[Part], slab: Option<Domain>) {
         let d = loops[0].0.domain.0;
         match slab {
@@ -148,7 +148,7 @@ impl Writer<'_> {
         line!(self, "}}");
     }
 
-    /// Innermost loops: what they have in common in lanes, the rest of each one by one.
+    /// Writes fused innermost loops: the common range in lanes, the other iterations one by one.
     fn inner(&mut self, loops: &[Part]) {
         let d = loops[0].0.domain.0;
         let mut parts = Vec::with_capacity(loops.len());
@@ -203,7 +203,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The iterations of all loops at one site, and the columns that run along with the first one's variable.
+    /// Combines the iterations of all loops at one site, and the columns that advance with the variable of the first.
     fn joint_stretch(
         &self,
         parts: &[(&Loop, Accesses, Stretch)],
@@ -223,14 +223,14 @@ impl Writer<'_> {
         (joint, cuts)
     }
 
-    /// The variable of the first of the loops that are made as one.
+    /// Returns the variable of the first of the fused loops.
     fn same(&self, domain: Domain) -> Affine {
         let known = self.same.iter().find(|(own, _)| *own == domain);
         Affine::variable(known.map_or(domain, |(_, first)| *first))
     }
 }
 
-/// The least or the largest end of ranges.
+/// The expression of the least or the largest of several bounds.
 fn of_all(loops: &[Part], end: char, which: &str) -> String {
     let (first, others) = (loops[0].0.domain.0, &loops[1..]);
     others
@@ -240,7 +240,7 @@ fn of_all(loops: &[Part], end: char, which: &str) -> String {
         })
 }
 
-/// The innermost loops of some.
+/// Returns the innermost loops of several nests.
 fn innermost<'a>(loops: &[&'a Loop]) -> Vec<&'a Loop> {
     let mut all = Vec::new();
     for outer in loops {

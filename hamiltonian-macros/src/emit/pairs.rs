@@ -1,8 +1,8 @@
-//! Sums over pairs in tiles, which threads take.
+//! Sums over pairs in tiles, for threads.
 //!
-//! Input: an outermost loop. Output: if it is a loop over pairs, a call of core with the work on a row in a tile, and
-//! the plain loop for few rows. Invariant: inside, a column that is written begins with the
-//! first column of the row in the tile, and the row's own element is a reference.
+//! Input: an outermost loop. Output: for a loop over pairs, a call of core with the work on a row of a tile, and the
+//! plain loop for few rows. Invariant: in the work, a written column begins with the first column of the row in the
+//! tile, and the element of the row itself is a reference.
 
 use super::accesses::Accesses;
 use super::block::Writer;
@@ -27,7 +27,7 @@ impl Writer<'_> {
         let Some(pairs) = pairs(outer, self.context.program) else {
             return false;
         };
-        // One type serves both forms of the loop.
+        // Both forms of the loop share the type of the arithmetic.
         let found = Accesses::of(self.context, pairs.inner);
         if let Some(stretch) = self.stretch(pairs.inner, &found) {
             self.body(&stretch);

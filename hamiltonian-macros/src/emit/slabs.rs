@@ -1,8 +1,8 @@
 //! Outer loops in slabs, which threads take.
 //!
-//! Input: an outermost loop with loops inside, or several that are made as one. Output: a call of core with the
-//! loop over a range of rows, if each iteration changes elements of its own row of a lattice alone. Invariant: inside, a column that is
-//! written begins with the first row of the range.
+//! Input: an outermost loop with loops inside, or several fused ones. Output: a call of core with the loop over a range of
+//! rows, if each iteration changes elements of its own row of a lattice alone. Invariant: inside, a written column begins
+//! with the first row of the range.
 
 use super::block::Writer;
 use super::context::Access;

@@ -11,7 +11,7 @@ use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Value};
 use std::fmt::Write;
 
 impl Writer<'_> {
-    /// Writes outermost loops, as a nest if they are one; the rows of a slab, if that is there.
+    /// Writes outermost loops, as a nest if possible; in slabs, the rows of one slab.
     pub(super) fn whole(&mut self, loops: &[&Loop], slab: Option<Domain>) {
         let steps: Vec<Step> = loops.iter().map(|l| Step::Loop((*l).clone())).collect();
         let scan = scan(self.context, &steps, &[]);
@@ -97,7 +97,7 @@ impl Writer<'_> {
         );
     }
 
-    /// Returns true if loops are a nest with stretches inside, and all that they read can be handed over.
+    /// Returns true if the loops contain loops, and everything that they read can be passed to a `Nest`.
     fn is_whole(&self, loops: &[&Loop], reads: &[Value]) -> bool {
         let program = self.context.program;
         let is_mask = |value: &Value| program.instruction(*value).is_mask();
@@ -111,7 +111,8 @@ impl Writer<'_> {
                 .any(|outer| outer.body.iter().any(|step| matches!(step, Step::Loop(_))))
     }
 
-    /// Returns true if steps store in coordinates and momenta alone, and name nothing of their function.
+    /// Returns true if the steps store to coordinates and momenta only, and read no scalar parameter, time or
+    /// coefficient.
     fn fits(&self, steps: &[Step]) -> bool {
         steps.iter().all(|step| match step {
             Step::Let(value) => match self.context.program.instruction(*value) {
@@ -125,7 +126,7 @@ impl Writer<'_> {
         })
     }
 
-    /// The condition under which a loop inside has lanes; true where that depends on the rows.
+    /// The condition under which an inner loop is long enough for lanes; `true` if its length varies with the row.
     fn is_long(&self, loops: &[&Loop]) -> String {
         let mut ends = Vec::new();
         let mut ahead: Vec<&Loop> = loops.to_vec();

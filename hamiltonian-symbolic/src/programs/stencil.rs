@@ -106,7 +106,7 @@ fn at_site(dag: &mut Dag, store: &Store) -> Option<Store> {
     })
 }
 
-/// How the loop of an axis goes past a site.
+/// The displacement from a site to its neighbour along the axis of a loop.
 enum Shift {
     /// The index that takes the place of the loop variable.
     Periodic(Index),

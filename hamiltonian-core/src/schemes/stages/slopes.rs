@@ -74,7 +74,7 @@ where
     }
     #[inline(always)]
     fn evaluate(&mut self, row: usize, point: &mut Point<X>, next: &mut Point<X>) {
-        // What is added to −0 has its bits, and is not added at all where c is known to be 1.
+        // From −0, x + (−0) = x to the bit; if c is known to be 1, the compiler removes the sum.
         for k in 0..Point::<X>::PARTS {
             for slope in next.part_mut(k) {
                 *slope = -L::Row::zero();

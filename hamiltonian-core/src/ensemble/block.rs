@@ -234,8 +234,8 @@ where
                 map.join_and_close(t, &mut z, &mut seen, closes, work);
             }
             if stops {
-                if let Opening::Mixed(fresh) = opens {
-                    seen.copy_where(fresh, carried);
+                if let Opening::Mixed(at_start) = opens {
+                    seen.copy_where(at_start, carried);
                 }
                 let sees = k == due || followed.attach.is_some();
                 due = k.saturating_add(followed.interval);
@@ -251,7 +251,7 @@ where
             } else if !matches!(opens, Opening::Join) {
                 map.open(t, &mut seen, work);
                 match opens {
-                    Opening::Mixed(fresh) => z.copy_where(fresh, &seen),
+                    Opening::Mixed(at_start) => z.copy_where(at_start, &seen),
                     _ => z.copy_from(&seen),
                 }
             }

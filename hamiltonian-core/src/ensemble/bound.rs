@@ -5,7 +5,7 @@
 
 use super::drive::InPack;
 use super::drive::deviations::Deviations;
-use super::seat::Host;
+use super::host::Host;
 use crate::error::Error;
 use crate::integrator::Recipe;
 use crate::map::Map;

@@ -5,7 +5,7 @@
 //! else in it grows with the number of members.
 
 use super::guard::guard;
-use super::seat::{Host, Seat};
+use super::host::{Host, MemberRun};
 use crate::error::Error;
 use crate::map::Clock;
 use crate::observe::{Follower, Follows, Observer, View};
@@ -249,7 +249,7 @@ where
     O: Observer<f64, S>,
     F: FnMut(usize, &mut O, &View<'_, f64, S>) -> Seen<S>,
 {
-    fn load(&mut self, seat: &mut Option<Seat<f64, S>>) -> bool {
+    fn load(&mut self, slot: &mut Option<MemberRun<f64, S>>) -> bool {
         while self.next < self.chunk.count && self.chunk.out.contains_key(&self.next) {
             self.next += 1;
         }
@@ -258,11 +258,11 @@ where
             return false;
         }
         self.next += 1;
-        // Reuses the storage of the previous member of this seat.
+        // Reuses the storage of the previous run.
         let mut follows = Follows::default();
         if self.looks {
-            if let Some(seat) = seat {
-                core::mem::swap(&mut seat.follows, &mut follows);
+            if let Some(run) = slot {
+                core::mem::swap(&mut run.follows, &mut follows);
             }
             self.follows(key, &mut follows);
         }
@@ -285,19 +285,19 @@ where
             start: *start,
             interval: self.common.interval,
         };
-        match seat {
-            Some(seat) => {
+        match slot {
+            Some(run) => {
                 if matches!(self.chunk.prepared, Shared::Each(_)) {
-                    seat.prepared.clone_from(prepared);
-                    seat.other = true;
+                    run.prepared.clone_from(prepared);
+                    run.other = true;
                 }
-                seat.words.copy_from_slice(words);
-                (seat.key, seat.clock, seat.made, seat.stop) = (key, clock, made, stop);
-                (seat.follows, seat.interval) = (follows, interval);
-                (seat.since, seat.seen) = (made, made);
+                run.words.copy_from_slice(words);
+                (run.key, run.clock, run.made, run.stop) = (key, clock, made, stop);
+                (run.follows, run.interval) = (follows, interval);
+                (run.since, run.seen) = (made, made);
             }
             None => {
-                *seat = Some(Seat {
+                *slot = Some(MemberRun {
                     key,
                     prepared: prepared.clone(),
                     other: true,
@@ -362,16 +362,14 @@ where
         self.common.steps
     }
 
-    fn leave(&mut self, seat: &mut Seat<f64, S>) {
+    fn leave(&mut self, run: &mut MemberRun<f64, S>) {
         let width = self.common.width;
-        self.chunk.words[seat.key * width..][..width].copy_from_slice(&seat.words);
+        self.chunk.words[run.key * width..][..width].copy_from_slice(&run.words);
     }
 
-    fn fail(&mut self, seat: &mut Seat<f64, S>, error: Error) {
-        self.chunk
-            .out
-            .insert(seat.key, Out::Failed(error, seat.made));
-        self.leave(seat);
+    fn fail(&mut self, run: &mut MemberRun<f64, S>, error: Error) {
+        self.chunk.out.insert(run.key, Out::Failed(error, run.made));
+        self.leave(run);
     }
 
     fn looks(&self) -> bool {

@@ -1,7 +1,7 @@
 //! Members driven to their ends in the lanes of one pack type.
 //!
 //! Input: a scheme and a host. Output: the host has received every member at each of its stops. Invariants:
-//! a member's bits depend on its seat and on the arithmetic of the pack alone. Lanes are refilled at the ends
+//! a member's bits depend on its system, its start and the arithmetic of the pack alone. Lanes are refilled at the ends
 //! of blocks only. A failure costs the other members nothing, since the failed one is replayed apart from
 //! them.
 
@@ -15,9 +15,9 @@ use self::deviations::Deviations;
 use self::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::block::{Apart, Block, Followed, Opening, Times};
 use super::close::{Close, Show};
-use super::crew::Crew;
+use super::host::{Host, MemberRun};
 use super::marks::{Marks, Three};
-use super::seat::{Host, Seat};
+use super::occupants::Occupants;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
 use crate::observe::{Quantity, Section, Tracker, Watcher};
@@ -67,18 +67,18 @@ where
 
     #[inline(always)]
     fn drive<L: Level>(&self, host: &mut dyn Host<T, S>) {
-        let mut crew = Crew::<T, S>::new(P::LANES as usize);
-        if !crew.fill(host) {
+        let mut occupants = Occupants::<T, S>::new(P::LANES as usize);
+        if !occupants.fill(host) {
             return;
         }
-        let mut lanes = Lanes::<T, S, P, M>::new::<L>(self, &crew);
+        let mut lanes = Lanes::<T, S, P, M>::new::<L>(self, &occupants);
         while !host.is_cancelled() {
-            lanes.board::<L>(self, &mut crew);
+            lanes.load_lanes::<L>(self, &mut occupants);
             // A drift begins at the start: its first state is evaluated before the first step.
             let attach = lanes.attach.take();
             let n = match attach {
                 Some(_) => 0,
-                None => crew.steps(BLOCK, host),
+                None => occupants.steps(BLOCK, host),
             };
             lanes.before.copy_from(&lanes.carried);
             lanes.trackers_before.copy_from_slice(&lanes.trackers);
@@ -88,7 +88,7 @@ where
                 lanes.marks.last(&mut lanes.three);
                 lanes.marks.steps.clear();
             }
-            let schedule = crew.schedule();
+            let schedule = occupants.schedule();
             let closes = lanes.closes();
             let energy = lanes.quantities().any(|one| one == Quantity::Energy);
             if let Some([left, interval]) = &schedule.apart {
@@ -135,25 +135,25 @@ where
                 lanes.opening = Opening::Join;
             }
             if attach.is_some() {
-                crew.attached();
+                occupants.begin_drifts();
             }
             if !finite.all() {
-                lanes.part_with::<L>(self, finite, &mut crew, host);
+                lanes.part_with::<L>(self, finite, &mut occupants, host);
             }
             if watches {
-                lanes.show_marks::<L>(self, n, &mut crew, host);
+                lanes.show_marks::<L>(self, n, &mut occupants, host);
             }
-            crew.made(n);
+            occupants.made(n);
             lanes.made += n;
-            lanes.arrive::<L>(self, &mut crew, host);
-            if !crew.fill(host) {
+            lanes.arrive::<L>(self, &mut occupants, host);
+            if !occupants.fill(host) {
                 return;
             }
         }
     }
 }
 
-/// The members of a crew in lanes, with the map of their steps and the followed quantities.
+/// The occupants in lanes, with the map of their steps and the followed quantities.
 struct Lanes<T, S, P, M>
 where
     T: Real,
@@ -171,7 +171,7 @@ where
     shown: CarriedIn<T, S, P, M>,
     times: Times<T::Over<P>>,
     opening: Opening<MaskIn<T, P>>,
-    /// Steps since the crew last changed.
+    /// Steps since the occupants last changed.
     made: u64,
     /// The drifts that are followed, and those at the beginning of the block.
     trackers: Vec<Tracker<T::Over<P>>>,
@@ -193,7 +193,7 @@ where
     attach: Option<MaskIn<T, P>>,
     /// The steps after which the observers of lanes receive states, if the lanes differ.
     apart: Apart<T::Over<P>>,
-    /// True if the map is that of a crew which is not yet loaded into the lanes.
+    /// True if the map is that of occupants which are not yet loaded into the lanes.
     is_prepared: bool,
     /// The step of each lane for which the map is made.
     steps: Vec<T>,
@@ -217,14 +217,14 @@ where
         >,
     M: Scheme<T, S> + Scheme<T::Over<P>, S>,
 {
-    /// Allocates lanes of the shapes of the first crew, which is loaded afterwards.
+    /// Allocates lanes of the shapes of the first occupants, which are loaded afterwards.
     #[inline(always)]
-    fn new<L: Level>(scheme: &M, crew: &Crew<T, S>) -> Self {
-        let seats = crew.seats();
-        let steps = each(&seats, |seat| seat.step);
-        let systems: Vec<_> = seats.iter().map(|seat| &seat.prepared).collect();
+    fn new<L: Level>(scheme: &M, occupants: &Occupants<T, S>) -> Self {
+        let runs = occupants.runs();
+        let steps = each(&runs, |run| run.step);
+        let systems: Vec<_> = runs.iter().map(|run| &run.prepared).collect();
         let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
-        let begin = Begin::<T, S, P, M>::new(scheme, &prepared, &seats[0].state, &steps);
+        let begin = Begin::<T, S, P, M>::new(scheme, &prepared, &runs[0].state, &steps);
         let carried = L::enter_at(begin);
         let mut lanes = Lanes {
             map,
@@ -240,7 +240,7 @@ where
             watched: Mask::splat(false),
             shown: another(&carried),
             rows: vec![T::default(); carried.len() * P::LANES as usize],
-            numbers: Vec::with_capacity(seats.len()),
+            numbers: Vec::with_capacity(runs.len()),
             carried,
             times: Times::default(),
             opening: Opening::Open,
@@ -254,40 +254,40 @@ where
             uniform: false,
             is_prepared: true,
         };
-        lanes.compare(&seats);
+        lanes.compare(&runs);
         lanes
     }
 
-    /// Compares the parameters of all seats.
-    fn compare(&mut self, seats: &[&Seat<T, S>]) {
-        let mut pairs = seats.windows(2);
+    /// Compares the parameters of all runs.
+    fn compare(&mut self, runs: &[&MemberRun<T, S>]) {
+        let mut pairs = runs.windows(2);
         self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
     }
 
-    /// Loads a crew that has changed into the lanes.
+    /// Loads occupants that have changed into the lanes.
     #[inline(always)]
-    fn board<L: Level>(&mut self, scheme: &M, crew: &mut Crew<T, S>) {
-        let Some(changed) = crew.changed() else {
+    fn load_lanes<L: Level>(&mut self, scheme: &M, occupants: &mut Occupants<T, S>) {
+        let Some(changed) = occupants.changed() else {
             return;
         };
-        self.write_sections::<L>(&self.watchers, crew);
+        self.write_sections::<L>(&self.watchers, occupants);
         store::<L, T, P, _>(&self.carried, &mut self.rows);
-        crew.write_columns(&mut self.rows);
-        let seats = crew.seats();
-        let steps = seats.iter().map(|seat| seat.step);
+        occupants.write_columns(&mut self.rows);
+        let runs = occupants.runs();
+        let steps = runs.iter().map(|run| run.step);
         let others = changed.parameters || !self.uniform;
         let is_prepared = core::mem::take(&mut self.is_prepared);
         if !is_prepared && (others || !steps.clone().eq(self.steps.iter().copied())) {
             let steps: Vec<T> = steps.collect();
-            let systems: Vec<_> = seats.iter().map(|seat| &seat.prepared).collect();
+            let systems: Vec<_> = runs.iter().map(|run| &run.prepared).collect();
             (self.prepared, self.map) =
                 L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
             self.steps = steps;
-            self.compare(&seats);
+            self.compare(&runs);
         }
         load::<L, T, P, _>(&self.rows, &mut self.carried);
-        self.track::<L>(&seats);
-        self.watch::<L>(&seats);
+        self.track::<L>(&runs);
+        self.watch::<L>(&runs);
         self.marks.replace(&self.carried);
         self.made = 0;
         let Times {
@@ -297,19 +297,19 @@ where
         } = &mut self.times;
         for (at, into) in [start, interval, ahead].into_iter().enumerate() {
             self.numbers.clear();
-            let number = |seat: &&Seat<T, S>| {
-                let Clock { start, interval } = seat.clock;
-                [start, interval, count(seat.made)][at]
+            let number = |run: &&MemberRun<T, S>| {
+                let Clock { start, interval } = run.clock;
+                [start, interval, count(run.made)][at]
             };
-            self.numbers.extend(seats.iter().map(number));
+            self.numbers.extend(runs.iter().map(number));
             gather::<L, T, P>(&self.numbers, into);
         }
-        self.opening = match (changed.some_fresh, changed.all_fresh) {
+        self.opening = match (changed.any_at_start, changed.all_at_start) {
             (_, true) => Opening::Open,
             (false, _) => Opening::Join,
             _ => {
-                let fresh: Vec<bool> = seats.iter().map(|seat| seat.made == 0).collect();
-                Opening::Mixed(lanes_of::<L, T, P>(&fresh))
+                let at_start: Vec<bool> = runs.iter().map(|run| run.made == 0).collect();
+                Opening::Mixed(lanes_of::<L, T, P>(&at_start))
             }
         };
     }
@@ -334,21 +334,21 @@ where
 
     /// Loads the drifts of the members into lanes.
     #[inline(always)]
-    fn track<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
+    fn track<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
         // The first followed member determines the quantities; members that differ receive states at their stops.
-        let first = seats.iter().find(|seat| !seat.follows.drifts.is_empty());
-        let drifts = first.map_or(&[][..], |seat| &seat.follows.drifts);
+        let first = runs.iter().find(|run| !run.follows.drifts.is_empty());
+        let drifts = first.map_or(&[][..], |run| &run.follows.drifts);
         for trackers in [&mut self.trackers, &mut self.trackers_before] {
             trackers.truncate(drifts.len());
         }
         if drifts.is_empty() {
             return;
         }
-        let mut begins = vec![false; seats.len()];
+        let mut begins = vec![false; runs.len()];
         for (k, track) in drifts.iter().enumerate() {
-            let mut lanes = [(); 4].map(|()| vec![T::zero(); seats.len()]);
-            for (lane, seat) in seats.iter().enumerate() {
-                let Some(track) = seat.follows.drifts.get(k) else {
+            let mut lanes = [(); 4].map(|()| vec![T::zero(); runs.len()]);
+            for (lane, run) in runs.iter().enumerate() {
+                let Some(track) = run.follows.drifts.get(k) else {
                     continue;
                 };
                 let Some(drift) = &track.drift else {
@@ -376,17 +376,17 @@ where
         }
     }
 
-    /// Writes drifts back into the seats of some lanes.
+    /// Writes drifts back into the runs of some lanes.
     #[inline(always)]
-    fn write_tracks<L: Level>(trackers: &[Tracker<T::Over<P>>], crew: &mut Crew<T, S>) {
+    fn write_tracks<L: Level>(trackers: &[Tracker<T::Over<P>>], occupants: &mut Occupants<T, S>) {
         let mut lanes = [(); 4].map(|()| vec![T::zero(); P::LANES as usize]);
         for (k, tracker) in trackers.iter().enumerate() {
             for (lanes, pack) in lanes.iter_mut().zip(tracker.numbers()) {
                 scatter::<L, T, P>(pack, lanes);
             }
-            crew.write_track(k, &lanes);
+            occupants.write_drift(k, &lanes);
         }
-        crew.tracks_written();
+        occupants.drifts_written();
     }
 
     /// Removes the members that are not finite after a block. They are replayed step by step; after a block of
@@ -397,7 +397,7 @@ where
         &mut self,
         scheme: &M,
         finite: MaskIn<T, P>,
-        crew: &mut Crew<T, S>,
+        occupants: &mut Occupants<T, S>,
         host: &mut dyn Host<T, S>,
     ) {
         let lanes = P::LANES as usize;
@@ -412,49 +412,54 @@ where
             rows: &mut shown,
         });
         store::<L, T, P, _>(&self.carried, &mut self.rows);
-        Self::write_tracks::<L>(&self.trackers_before, crew);
+        Self::write_tracks::<L>(&self.trackers_before, occupants);
         let bad: Vec<bool> = (0..P::LANES).map(|lane| !finite.lane(lane)).collect();
         if !self.watchers.is_empty() {
-            self.write_sections::<L>(&self.watchers_before, crew);
-            self.show::<L>(scheme, self.made, (true, &bad), crew, host);
+            self.write_sections::<L>(&self.watchers_before, occupants);
+            self.show::<L>(scheme, self.made, (true, &bad), occupants, host);
         }
         let bad = (0..lanes).filter(|lane| bad[*lane]);
         for lane in bad {
             let column = |rows: &[T], c: usize| rows[c * lanes + lane];
-            let Some((mut seat, careful)) = crew.take(lane) else {
+            let Some((mut run, replaying)) = occupants.take(lane) else {
                 continue;
             };
-            for (c, word) in seat.words.iter_mut().enumerate() {
+            for (c, word) in run.words.iter_mut().enumerate() {
                 *word = column(&before, c);
             }
-            if !careful {
-                crew.suspect(seat);
+            if !replaying {
+                occupants.add_pending(run);
                 continue;
             }
             let point: Vec<f64> = (0..2 * size).map(|c| column(&shown, c).to_f64()).collect();
-            let alone = (&seat.prepared, &seat.state, seat.step, seat.clock);
-            let made = (seat.made, &*seat.words);
+            let alone = (&run.prepared, &run.state, run.step, run.clock);
+            let made = (run.made, &*run.words);
             let reached = column(&shown, 2 * size).to_f64();
             let error = explain(scheme, alone, made, &point, reached);
-            host.fail(&mut seat, error);
+            host.fail(&mut run, error);
         }
     }
 
     /// Passes members at their stops to the host, which takes back those that leave.
     #[inline(always)]
-    fn arrive<L: Level>(&mut self, scheme: &M, crew: &mut Crew<T, S>, host: &mut dyn Host<T, S>) {
+    fn arrive<L: Level>(
+        &mut self,
+        scheme: &M,
+        occupants: &mut Occupants<T, S>,
+        host: &mut dyn Host<T, S>,
+    ) {
         let lanes = P::LANES as usize;
-        let is_any_due = crew.is_any_due();
-        if !self.trackers.is_empty() && (is_any_due || crew.has_changed()) {
-            Self::write_tracks::<L>(&self.trackers, crew);
+        let is_any_due = occupants.is_any_due();
+        if !self.trackers.is_empty() && (is_any_due || occupants.has_changed()) {
+            Self::write_tracks::<L>(&self.trackers, occupants);
         }
         if !is_any_due {
             return;
         }
         if !self.trackers.is_empty() {
-            crew.for_each_due(|_, seat| {
-                if !seat.follows.drifts.is_empty() {
-                    host.follow(seat.key, &mut seat.follows);
+            occupants.for_each_due(|_, run| {
+                if !run.follows.drifts.is_empty() {
+                    host.follow(run.key, &mut run.follows);
                 }
                 true
             });
@@ -470,29 +475,32 @@ where
             });
             let mut rows = self.passing_rows.chunks_exact(lanes);
             for (c, row) in (0..size).zip(&mut rows) {
-                crew.show(row, |state| state.q.component_mut(c));
+                occupants.write_states(row, |state| state.q.component_mut(c));
             }
             for (c, row) in (0..size).zip(&mut rows) {
-                crew.show(row, |state| state.p.component_mut(c));
+                occupants.write_states(row, |state| state.p.component_mut(c));
             }
             for row in rows.by_ref().take(1) {
-                crew.show(row, |state| &mut state.t);
+                occupants.write_states(row, |state| &mut state.t);
             }
             let durations = rows.next().filter(|_| carries_duration);
-            arrivals(scheme, crew, host, durations);
+            arrivals(scheme, occupants, host, durations);
         } else {
-            crew.for_each_due(|_, _| false);
+            occupants.for_each_due(|_, _| false);
         }
-        if crew.is_any_leaving() {
+        if occupants.is_any_leaving() {
             store::<L, T, P, _>(&self.carried, &mut self.rows);
-            crew.leave(&self.rows, host);
+            occupants.leave(&self.rows, host);
         }
     }
 }
 
 /// A number of each lane.
-fn each<T: Real, S: System<T>>(seats: &[&Seat<T, S>], of: impl Fn(&Seat<T, S>) -> T) -> Vec<T> {
-    seats.iter().map(|seat| of(seat)).collect()
+fn each<T: Real, S: System<T>>(
+    runs: &[&MemberRun<T, S>],
+    of: impl Fn(&MemberRun<T, S>) -> T,
+) -> Vec<T> {
+    runs.iter().map(|run| of(run)).collect()
 }
 
 /// Returns a number of steps as a scalar.

@@ -6,7 +6,8 @@
 //!
 //! The modules follow the data:
 //!
-//! - [`seat`]: a member in its lane; [`crew`]: the members of a pack; [`block`]: a block of steps;
+//! - [`host`]: the run of a member, and its owner; [`occupants`]: the members in the lanes of a pack;
+//!   [`block`]: a block of steps;
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
 //! - [`chunk`], [`swarm`], [`until`]: members in memory;
@@ -17,16 +18,16 @@ mod block;
 mod bound;
 mod chunk;
 mod close;
-mod crew;
 mod drive;
 mod guard;
 pub(crate) mod hash;
+mod host;
 mod lyapunov;
 mod marks;
+mod occupants;
 mod ordered;
 mod record;
 mod saved;
-mod seat;
 #[cfg(feature = "std")]
 mod stored;
 mod swarm;

@@ -3,8 +3,8 @@
 //! Input: numbers of the lanes. Output: states passed to observers, and causes of failures. Invariant: nothing
 //! here depends on the level.
 
-use crate::ensemble::crew::Crew;
-use crate::ensemble::seat::Host;
+use crate::ensemble::host::Host;
+use crate::ensemble::occupants::Occupants;
 use crate::error::Error;
 use crate::failed::Failed;
 use crate::flow::Scratch;
@@ -21,37 +21,37 @@ use hamiltonian_lanes::Real;
 #[inline(never)]
 pub(super) fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,
-    crew: &mut Crew<T, S>,
+    occupants: &mut Occupants<T, S>,
     host: &mut dyn Host<T, S>,
     durations: Option<&[T]>,
 ) {
     let recipe: &dyn Recipe<T, S, M::Map> = scheme;
     let mut follows_other = false;
-    crew.for_each_due(|lane, seat| {
+    occupants.for_each_due(|lane, run| {
         let part = Part {
-            prepared: &seat.prepared,
+            prepared: &run.prepared,
             recipe,
-            state: &seat.state,
-            step: seat.step,
-            clock: seat.clock,
+            state: &run.state,
+            step: run.step,
+            clock: run.clock,
             duration: durations.map(|durations| durations[lane]),
         };
         let view = View {
-            step: seat.made,
-            state: &seat.state,
-            prepared: &seat.prepared,
+            step: run.made,
+            state: &run.state,
+            prepared: &run.prepared,
             between: &part,
         };
-        let follows = !seat.follows.is_empty();
-        let stays = host.arrive(seat.key, &mut seat.stop, &mut seat.follows, &view);
-        if !follows && !seat.follows.is_empty() {
-            (seat.since, seat.seen) = (seat.made, seat.made);
+        let follows = !run.follows.is_empty();
+        let stays = host.arrive(run.key, &mut run.stop, &mut run.follows, &view);
+        if !follows && !run.follows.is_empty() {
+            (run.since, run.seen) = (run.made, run.made);
             follows_other = true;
         }
         stays
     });
     if follows_other {
-        crew.follows_other();
+        occupants.follows_other();
     }
 }
 
@@ -75,40 +75,40 @@ impl<T: Real> Passing<'_, T> {
     pub(super) fn show<S: System<T>, M: Scheme<T, S>>(
         &self,
         scheme: &M,
-        crew: &mut Crew<T, S>,
+        occupants: &mut Occupants<T, S>,
         host: &mut dyn Host<T, S>,
     ) {
         let recipe: &dyn Recipe<T, S, M::Map> = scheme;
-        crew.for_each_watched(|lane, seat| {
-            let step = (seat.made + self.ahead).checked_sub(self.back);
-            let Some(step) = step.filter(|step| self.which[lane] && *step > seat.seen) else {
+        occupants.for_each_watched(|lane, run| {
+            let step = (run.made + self.ahead).checked_sub(self.back);
+            let Some(step) = step.filter(|step| self.which[lane] && *step > run.seen) else {
                 return true;
             };
             let mut rows = self.rows.chunks_exact(self.which.len());
             let mut next = || rows.next().map_or(T::zero(), |row| row[lane]);
-            let State { t, q, p } = &mut seat.state;
+            let State { t, q, p } = &mut run.state;
             for vector in [q, p] {
                 for c in 0..vector.len() {
                     *vector.component_mut(c) = next();
                 }
             }
             *t = next();
-            seat.seen = step;
+            run.seen = step;
             let part = Part {
-                prepared: &seat.prepared,
+                prepared: &run.prepared,
                 recipe,
-                state: &seat.state,
-                step: seat.step,
-                clock: seat.clock,
+                state: &run.state,
+                step: run.step,
+                clock: run.clock,
                 duration: self.carries_duration.then(next),
             };
             let view = View {
                 step,
-                state: &seat.state,
-                prepared: &seat.prepared,
+                state: &run.state,
+                prepared: &run.prepared,
                 between: &part,
             };
-            host.pass(seat.key, &view, self.quiet)
+            host.pass(run.key, &view, self.quiet)
         });
     }
 }

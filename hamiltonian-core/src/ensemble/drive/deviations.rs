@@ -83,7 +83,7 @@ where
     /// The members whose system stands in the map: the first stands for all that are equal to it.
     of: Vec<usize>,
     /// The member of each lane; none for one that is lost, or that repeats another.
-    seats: Vec<Option<usize>>,
+    members: Vec<Option<usize>>,
     /// The first deviation of each lane that is not finite.
     lost: Vec<Option<usize>>,
     /// What is carried for each deviation, and the same before the last steps, and closed.
@@ -118,17 +118,17 @@ where
     M: InPack<T, S, P> + Scheme<T::Over<P>, S>,
 {
     let mut lanes = None;
-    let mut suspects = Vec::new();
+    let mut pending = Vec::new();
     // Members that are not finite after some steps are made again together, step by step.
-    for is_careful in [false, true] {
-        let queue: Vec<usize> = match is_careful {
+    for is_replay in [false, true] {
+        let queue: Vec<usize> = match is_replay {
             false => (0..all.members.len()).collect(),
-            true => core::mem::take(&mut suspects),
+            true => core::mem::take(&mut pending),
         };
-        for crew in queue.chunks(P::LANES as usize) {
-            Lanes::<T, S, P, M>::board::<L>(&mut lanes, scheme, all, crew);
+        for group in queue.chunks(P::LANES as usize) {
+            Lanes::<T, S, P, M>::load_lanes::<L>(&mut lanes, scheme, all, group);
             if let Some(lanes) = &mut lanes {
-                lanes.run::<L>(scheme, all, is_careful, &mut suspects);
+                lanes.run::<L>(scheme, all, is_replay, &mut pending);
             }
         }
     }
@@ -148,16 +148,16 @@ where
 {
     /// Puts members at their starts into lanes; the last of them fills the lanes that are left.
     #[inline(always)]
-    fn board<L: Level>(
+    fn load_lanes<L: Level>(
         lanes: &mut Option<Self>,
         scheme: &M,
         all: &Deviations<'_, T, S>,
-        crew: &[usize],
+        group: &[usize],
     ) {
         let members = &all.members;
         let equals = |a: usize, b: usize| members[a].prepared.equals(&members[b].prepared);
-        let is_uniform = crew.iter().all(|other| equals(crew[0], *other));
-        let of = if is_uniform { &crew[..1] } else { crew };
+        let is_uniform = group.iter().all(|other| equals(group[0], *other));
+        let of = if is_uniform { &group[..1] } else { group };
         let is_prepared =
             |lanes: &Self| is_uniform && lanes.of.len() == 1 && equals(lanes.of[0], of[0]);
         if !lanes.as_ref().is_some_and(is_prepared) {
@@ -167,7 +167,7 @@ where
             match lanes {
                 Some(lanes) => lanes.map = map,
                 None => {
-                    let start = &members[crew[0]].start;
+                    let start = &members[group[0]].start;
                     let begin = Begin::<T, S, P, M>::new(scheme, &prepared, start, &steps);
                     let carried = L::enter_at(begin);
                     let zero = <T::Over<P> as Real>::zero();
@@ -180,7 +180,7 @@ where
                             interval: all.interval.spread::<P>(),
                         },
                         of: Vec::new(),
-                        seats: Vec::new(),
+                        members: Vec::new(),
                         lost: Vec::new(),
                         rows: vec![T::zero(); carried.len() * P::LANES as usize],
                         before: vec![carried.clone(); n],
@@ -197,18 +197,18 @@ where
         }
         let Some(lanes) = lanes else { return };
         lanes.of = of.into();
-        lanes.seats = crew.iter().map(|at| Some(*at)).collect();
-        lanes.seats.resize(P::LANES as usize, None);
+        lanes.members = group.iter().map(|at| Some(*at)).collect();
+        lanes.members.resize(P::LANES as usize, None);
         lanes.lost = vec![None; P::LANES as usize];
-        let starts: Vec<T> = crew.iter().map(|at| members[*at].start.t).collect();
+        let starts: Vec<T> = group.iter().map(|at| members[*at].start.t).collect();
         gather::<L, T, P>(&starts, &mut lanes.clock.start);
-        let last = crew[crew.len() - 1];
+        let last = group[group.len() - 1];
         for (d, carried) in lanes.carried.iter_mut().enumerate() {
             let mut row = lanes.rows.iter_mut();
             let width = members[last].words.len() / all.count;
             for c in d * width..(d + 1) * width {
-                for (seat, number) in lanes.seats.iter().zip(&mut row) {
-                    *number = members[seat.unwrap_or(last)].words[c];
+                for (member, number) in lanes.members.iter().zip(&mut row) {
+                    *number = members[member.unwrap_or(last)].words[c];
                 }
             }
             load::<L, T, P, _>(&lanes.rows, carried);
@@ -219,17 +219,17 @@ where
         lanes.megno = Megno::new();
     }
 
-    /// Advances the members in the lanes to their ends. Those that are not finite become suspects, or, if they
+    /// Advances the members in the lanes to their ends. Those that are not finite become pending, or, if they
     /// are made again with care, have failed.
     #[inline(always)]
     fn run<L: Level>(
         &mut self,
         scheme: &M,
         all: &mut Deviations<'_, T, S>,
-        is_careful: bool,
-        suspects: &mut Vec<usize>,
+        is_replay: bool,
+        pending: &mut Vec<usize>,
     ) {
-        let most = if is_careful { 1 } else { BLOCK };
+        let most = if is_replay { 1 } else { BLOCK };
         // At first no step: deviations are made orthonormal at the start too.
         let (mut made, mut turn, mut last_turn) = (0, 0, 0);
         let is_volume = all.indicator == Indicator::Gali;
@@ -238,7 +238,7 @@ where
                 return;
             }
             let n = most.min(turn - made);
-            if is_careful {
+            if is_replay {
                 self.before.clone_from(&self.carried);
             }
             let (is_finite, reached) = L::enter_at(Round {
@@ -260,13 +260,13 @@ where
                 megno: &mut self.megno,
             });
             if !is_finite {
-                self.note::<L>(scheme, all, (made, is_careful), &reached);
+                self.note::<L>(scheme, all, (made, is_replay), &reached);
             }
             made += n;
             if made < turn {
                 continue;
             }
-            if !is_finite && !self.part_with::<L>(is_careful, suspects) {
+            if !is_finite && !self.part_with::<L>(is_replay, pending) {
                 return;
             }
             if made == all.steps {
@@ -285,7 +285,7 @@ where
         &mut self,
         scheme: &M,
         all: &mut Deviations<'_, T, S>,
-        (made, is_careful): (u64, bool),
+        (made, is_replay): (u64, bool),
         reached: &T::Over<P>,
     ) {
         let lanes = P::LANES as usize;
@@ -293,14 +293,14 @@ where
         scatter::<L, T, P>(reached, &mut times);
         for (d, finite) in self.finite.iter().enumerate() {
             for lane in 0..lanes {
-                let Some(at) = self.seats[lane].filter(|_| !finite.lane(lane as u32)) else {
+                let Some(at) = self.members[lane].filter(|_| !finite.lane(lane as u32)) else {
                     continue;
                 };
                 if self.lost[lane].is_some_and(|first| first <= d) {
                     continue;
                 }
                 self.lost[lane] = Some(d);
-                if !is_careful {
+                if !is_replay {
                     continue;
                 }
                 let member = &mut all.members[at];
@@ -313,8 +313,8 @@ where
                     start: member.start.t,
                     interval: all.interval,
                 };
-                let seat = (&member.prepared, &member.start, all.step, clock);
-                let error = explain(scheme, seat, (made, &words), &point, times[lane].to_f64());
+                let single = (&member.prepared, &member.start, all.step, clock);
+                let error = explain(scheme, single, (made, &words), &point, times[lane].to_f64());
                 member.found = Err(error);
             }
         }
@@ -324,20 +324,20 @@ where
     /// computed there. Returns true if any is left.
     #[cold]
     #[inline(never)]
-    fn part_with<L: Level>(&mut self, is_careful: bool, suspects: &mut Vec<usize>) -> bool {
+    fn part_with<L: Level>(&mut self, is_replay: bool, pending: &mut Vec<usize>) -> bool {
         let lanes = P::LANES as usize;
-        for (seat, lost) in self.seats.iter_mut().zip(&self.lost) {
-            let gone = seat.take_if(|_| lost.is_some());
-            suspects.extend(gone.filter(|_| !is_careful));
+        for (member, lost) in self.members.iter_mut().zip(&self.lost) {
+            let gone = member.take_if(|_| lost.is_some());
+            pending.extend(gone.filter(|_| !is_replay));
         }
-        let Some(stand_in) = self.seats.iter().position(Option::is_some) else {
+        let Some(stand_in) = self.members.iter().position(Option::is_some) else {
             return false;
         };
         for carried in &mut self.carried {
             store::<L, T, P, _>(carried, &mut self.rows);
             for row in self.rows.chunks_exact_mut(lanes) {
                 for lane in 0..lanes {
-                    if self.seats[lane].is_none() {
+                    if self.members[lane].is_none() {
                         row[lane] = row[stand_in];
                     }
                 }
@@ -363,8 +363,8 @@ where
         for (pack, row) in packs.iter().zip(rows.chunks_exact_mut(lanes)) {
             scatter::<L, T, P>(pack, row);
         }
-        for (lane, seat) in self.seats.iter().enumerate() {
-            let Some(member) = seat.map(|at| &mut all.members[at]) else {
+        for (lane, member) in self.members.iter().enumerate() {
+            let Some(member) = member.map(|at| &mut all.members[at]) else {
                 continue;
             };
             let Ok(found) = &mut member.found else {

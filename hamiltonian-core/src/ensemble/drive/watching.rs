@@ -8,8 +8,8 @@ use super::alone::Passing;
 use super::rows::{gather, lanes_of, scatter, store};
 use super::{Lanes, each};
 use crate::ensemble::close::Close;
-use crate::ensemble::crew::Crew;
-use crate::ensemble::seat::{Host, Seat};
+use crate::ensemble::host::{Host, MemberRun};
+use crate::ensemble::occupants::Occupants;
 use crate::observe::{Section, Watcher};
 use crate::scheme::Scheme;
 use crate::system::System;
@@ -32,28 +32,28 @@ where
 {
     /// Loads the functions whose sign is followed for at least one member into lanes.
     #[inline(always)]
-    pub(super) fn watch<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
+    pub(super) fn watch<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
         self.watchers.clear();
         self.watchers_before.clear();
         self.functions.clear();
-        let watched = seats.iter().map(|seat| !seat.follows.sections.is_empty());
+        let watched = runs.iter().map(|run| !run.follows.sections.is_empty());
         if !watched.clone().any(|is_watched| is_watched) {
             self.watched = Mask::splat(false);
             return;
         }
         self.watched = lanes_of::<L, T, P>(&watched.collect::<Vec<bool>>());
-        for section in seats.iter().flat_map(|seat| &seat.follows.sections) {
+        for section in runs.iter().flat_map(|run| &run.follows.sections) {
             if !self.functions.iter().any(|other| other.is_of(section)) {
                 self.functions.push(*section);
             }
         }
         for function in &self.functions {
-            let of = |seat: &Seat<T, S>, number: fn(&Section<T>) -> T| {
-                let mut own = seat.follows.sections.iter();
+            let of = |run: &MemberRun<T, S>, number: fn(&Section<T>) -> T| {
+                let mut own = run.follows.sections.iter();
                 let own = own.find(|section| section.is_of(function));
                 own.map_or(T::zero(), number)
             };
-            let in_lanes = |number: fn(&Section<T>) -> T| each(seats, |seat| of(seat, number));
+            let in_lanes = |number: fn(&Section<T>) -> T| each(runs, |run| of(run, number));
             let period = function.period.map(T::spread::<P>);
             self.watchers
                 .push(Watcher::new(function.observable, period));
@@ -70,12 +70,12 @@ where
         }
     }
 
-    /// Writes the values of the functions back into the seats.
+    /// Writes the values of the functions back into the runs.
     #[inline(always)]
     pub(super) fn write_sections<L: Level>(
         &self,
         watchers: &[Watcher<T::Over<P>>],
-        crew: &mut Crew<T, S>,
+        occupants: &mut Occupants<T, S>,
     ) {
         if self.functions.is_empty() {
             return;
@@ -85,8 +85,8 @@ where
             let [last, one_before] = watcher.last();
             scatter::<L, T, P>(last, &mut values);
             scatter::<L, T, P>(one_before, &mut before);
-            crew.for_each_watched(|lane, seat| {
-                let mut own = seat.follows.sections.iter_mut();
+            occupants.for_each_watched(|lane, run| {
+                let mut own = run.follows.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
                 // A member whose observer has only just received its first state keeps its own values.
                 if let Some(section) = own.filter(|_| self.watched.lane(lane as u32)) {
@@ -104,24 +104,24 @@ where
         &mut self,
         scheme: &M,
         n: u64,
-        crew: &mut Crew<T, S>,
+        occupants: &mut Occupants<T, S>,
         host: &mut dyn Host<T, S>,
     ) {
         let steps = core::mem::take(&mut self.marks.steps);
         for (mark, (step, lanes)) in steps.iter().enumerate() {
             let which: Vec<bool> = (0..P::LANES).map(|lane| lanes.lane(lane)).collect();
             self.three.clone_from(self.marks.states(mark));
-            self.show::<L>(scheme, *step, (false, &which), crew, host);
+            self.show::<L>(scheme, *step, (false, &which), occupants, host);
         }
         self.marks.steps = steps;
-        if crew.is_any_watched_due(n) {
+        if occupants.is_any_watched_due(n) {
             let mut which = vec![false; P::LANES as usize];
-            crew.for_each_watched(|lane, seat| {
-                which[lane] = seat.made + n == seat.stop;
+            occupants.for_each_watched(|lane, run| {
+                which[lane] = run.made + n == run.stop;
                 true
             });
             self.marks.last(&mut self.three);
-            self.show::<L>(scheme, self.made + n, (true, &which), crew, host);
+            self.show::<L>(scheme, self.made + n, (true, &which), occupants, host);
         }
     }
 
@@ -133,7 +133,7 @@ where
         scheme: &M,
         step: u64,
         (quiet, which): (bool, &[bool]),
-        crew: &mut Crew<T, S>,
+        occupants: &mut Occupants<T, S>,
         host: &mut dyn Host<T, S>,
     ) {
         let ahead = step - self.made;
@@ -154,11 +154,11 @@ where
                 back,
                 quiet: quiet || back > 0,
             };
-            passing.show(scheme, crew, host);
+            passing.show(scheme, occupants, host);
         }
-        if crew.is_any_leaving() {
+        if occupants.is_any_leaving() {
             store::<L, T, P, _>(&self.three[2], &mut self.rows);
-            crew.leave(&self.rows, host);
+            occupants.leave(&self.rows, host);
         }
     }
 }

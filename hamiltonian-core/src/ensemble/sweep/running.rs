@@ -7,8 +7,8 @@ use super::{Aim, Sweep};
 use crate::ensemble::Member;
 use crate::ensemble::guard::guard;
 use crate::ensemble::hash::hash_of;
+use crate::ensemble::host::{Host, MemberRun};
 use crate::ensemble::record::{Batch, End, Outcome, Record, Status};
-use crate::ensemble::seat::{Host, Seat};
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
@@ -99,8 +99,8 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         }
     }
 
-    /// Makes the member of that number and puts it into the seat.
-    fn make(&mut self, key: usize, seat: &mut Option<Seat<f64, S>>) -> Result<(), Error> {
+    /// Makes member `key`, and loads its run into the slot.
+    fn make(&mut self, key: usize, slot: &mut Option<MemberRun<f64, S>>) -> Result<(), Error> {
         let sweep = self.sweep;
         let member = Member::new(self.indices.start + key, sweep.seed);
         let (system, start) = guard(|| (sweep.make)(member)).and_then(|made| made)?;
@@ -113,8 +113,8 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         }
         check_step(step)?;
         let prepared = check_start(&system, &start)?;
-        if let Some(seat) = seat
-            && !sweep.engine.fits(&seat.prepared, &prepared)
+        if let Some(run) = slot
+            && !sweep.engine.fits(&run.prepared, &prepared)
         {
             return Err(Error::OtherSizes { system: S::NAME });
         }
@@ -144,9 +144,9 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         // An observer that sees nothing need not be attached.
         let looks = under.observer.interval() < u64::MAX;
         let interval = under.observer.interval();
-        // The storage of the member before is used again.
-        let mut follows = match seat {
-            Some(seat) => core::mem::take(&mut seat.follows),
+        // Reuses the storage of the previous run.
+        let mut follows = match slot {
+            Some(run) => core::mem::take(&mut run.follows),
             None => Follows::default(),
         };
         Follower::take(&mut follows, |with| under.observer.follow(with));
@@ -162,19 +162,19 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         } else {
             0
         };
-        match seat {
-            Some(seat) => {
-                seat.other |= !sweep.engine.equals(&seat.prepared, &prepared);
-                seat.words.copy_from_slice(&self.words);
-                seat.prepared = prepared;
-                seat.state = start;
-                (seat.key, seat.clock, seat.step) = (key, clock, step);
-                (seat.made, seat.stop) = (0, stop);
-                (seat.follows, seat.interval) = (follows, interval);
-                (seat.since, seat.seen) = (0, 0);
+        match slot {
+            Some(run) => {
+                run.other |= !sweep.engine.equals(&run.prepared, &prepared);
+                run.words.copy_from_slice(&self.words);
+                run.prepared = prepared;
+                run.state = start;
+                (run.key, run.clock, run.step) = (key, clock, step);
+                (run.made, run.stop) = (0, stop);
+                (run.follows, run.interval) = (follows, interval);
+                (run.since, run.seen) = (0, 0);
             }
             None => {
-                *seat = Some(Seat {
+                *slot = Some(MemberRun {
                     key,
                     prepared,
                     other: true,
@@ -362,14 +362,14 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
 }
 
 impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O> {
-    fn load(&mut self, seat: &mut Option<Seat<f64, S>>) -> bool {
+    fn load(&mut self, slot: &mut Option<MemberRun<f64, S>>) -> bool {
         while self.next < self.indices.len() {
             if self.is_cancelled() {
                 return false;
             }
             let key = self.next;
             self.next += 1;
-            match self.make(key, seat) {
+            match self.make(key, slot) {
                 Ok(()) => return true,
                 Err(error) => {
                     let status = Status::of(&error, false);
@@ -444,17 +444,17 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O>
         0
     }
 
-    fn leave(&mut self, _: &mut Seat<f64, S>) {}
+    fn leave(&mut self, _: &mut MemberRun<f64, S>) {}
 
-    fn fail(&mut self, seat: &mut Seat<f64, S>, error: Error) {
-        let values = self.under[seat.key].take().map(|under| under.values);
-        let time = seat.clock.at(seat.made);
+    fn fail(&mut self, run: &mut MemberRun<f64, S>, error: Error) {
+        let values = self.under[run.key].take().map(|under| under.values);
+        let time = run.clock.at(run.made);
         let status = Status::of(&error, true);
         self.finish(
-            seat.key,
+            run.key,
             status,
             time,
-            seat.made,
+            run.made,
             &values.unwrap_or_default(),
             Some(error),
         );

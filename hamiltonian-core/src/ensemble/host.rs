@@ -1,8 +1,8 @@
-//! Members in the lanes of a pack, and their host.
+//! The runs of members in the lanes of a pack, and their host.
 //!
-//! Input: members, one after the other. Output: their arrivals, their ends, their failures. Invariant: a
-//! seat stores the complete state of a member over its own scalar. Nothing in it depends on the level, the
-//! lane or the other members.
+//! Input: members, one after the other. Output: their states at stops, their ends and their failures.
+//! Invariant: a run has all that is needed to continue a member in any lane, over the member's own scalar.
+//! Nothing in it depends on the level, the lane or the other members.
 
 use crate::error::Error;
 use crate::map::Clock;
@@ -12,13 +12,13 @@ use crate::system::System;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
-/// A member under way, with all that is needed to continue it in any lane.
-pub struct Seat<T: Real, S: System<T>> {
+/// The run of a member, with all that is needed to continue it in any lane.
+pub struct MemberRun<T: Real, S: System<T>> {
     /// The host's number of the member.
     pub(crate) key: usize,
     /// Its system.
     pub(crate) prepared: S::Prepared,
-    /// True if the system differs from the previous one in this seat.
+    /// True if the system differs from that of the previous run in the same storage.
     pub(crate) other: bool,
     /// Its step.
     pub(crate) step: T,
@@ -42,10 +42,11 @@ pub struct Seat<T: Real, S: System<T>> {
     pub(crate) state: State<S::Vector>,
 }
 
-/// The owner of members, which loads them into seats and receives them at their stops.
+/// The owner of members, which begins their runs and receives their states at stops.
 pub trait Host<T: Real, S: System<T>> {
-    /// Loads the next member into a seat, which may contain one that has left. Returns false if there is none.
-    fn load(&mut self, seat: &mut Option<Seat<T, S>>) -> bool;
+    /// Loads the run of the next member into a slot. A run that is already there has ended, and its storage may
+    /// be reused. Returns false if there is no next member.
+    fn load(&mut self, slot: &mut Option<MemberRun<T, S>>) -> bool;
     /// Receives a member's state at its stop. Returns true if the member stays, with its stop advanced. Lanes
     /// then evaluate the quantities in `follows`.
     fn arrive(
@@ -63,9 +64,9 @@ pub trait Host<T: Real, S: System<T>> {
     /// Returns the number of steps that followed members have made when they are loaded.
     fn phase(&self) -> u64;
     /// Takes back the carried value of a member that leaves.
-    fn leave(&mut self, seat: &mut Seat<T, S>);
+    fn leave(&mut self, run: &mut MemberRun<T, S>);
     /// Takes back a member whose next step failed; `words` are those before that step.
-    fn fail(&mut self, seat: &mut Seat<T, S>, error: Error);
+    fn fail(&mut self, run: &mut MemberRun<T, S>, error: Error);
     /// Returns true if the host receives states. Otherwise members leave at their stops.
     fn looks(&self) -> bool;
     /// Returns true if the work is cancelled, which is checked between blocks. Members under way are abandoned.

@@ -420,8 +420,8 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         true
     }
 
-    fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
-        if quiet {
+    fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
+        if signs_kept {
             self.pass_over(view);
             return ControlFlow::Continue(());
         }

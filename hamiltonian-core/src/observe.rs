@@ -105,9 +105,9 @@ pub trait Observer<T: Real, S: System<T>> {
         false
     }
     /// Shows an observer whose changes of signs lanes follow the state after a step, in the order of the run:
-    /// each at which a sign may have changed, and (`quiet`) at least two before it, at which none did.
+    /// each at which a sign may have changed, and (`signs_kept`) at least two before it, at which none did.
     #[doc(hidden)]
-    fn pass(&mut self, _view: &View<'_, T, S>, _quiet: bool) -> ControlFlow<()> {
+    fn pass(&mut self, _view: &View<'_, T, S>, _signs_kept: bool) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
     /// Writes the data of the observer to a saved run. An observer without data writes its name alone.
@@ -256,8 +256,8 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
         // Signs are followed from step to step alone.
         self.inner.follow(with) && (self.steps == 1 || !with.has_sections())
     }
-    fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
-        self.inner.pass(view, quiet)
+    fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
+        self.inner.pass(view, signs_kept)
     }
 }
 
@@ -283,8 +283,8 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     fn follow(&mut self, with: &mut Follower<T>) -> bool {
         (**self).follow(with)
     }
-    fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
-        (**self).pass(view, quiet)
+    fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
+        (**self).pass(view, signs_kept)
     }
 }
 
@@ -359,9 +359,9 @@ macro_rules! tuple {
                 })+
                 true
             }
-            fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
+            fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
                 let mut control = ControlFlow::Continue(());
-                $(control = both(control, self.$index.pass(view, quiet));)+
+                $(control = both(control, self.$index.pass(view, signs_kept));)+
                 control
             }
         }

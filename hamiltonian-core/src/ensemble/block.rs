@@ -52,14 +52,14 @@ pub(crate) enum Opening<M> {
 
 /// The steps after which each lane's observer receives a state, if the lanes differ in them.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Apart<U> {
+pub(crate) struct LaneSchedule<U> {
     /// The steps to the next state that a lane's observer receives; 0 if it receives none.
     pub(crate) left: U,
     /// The steps between two of them.
     pub(crate) interval: U,
 }
 
-impl<U: Real> Apart<U> {
+impl<U: Real> LaneSchedule<U> {
     /// Returns the lanes whose observers receive a state after `n` more steps.
     #[inline(always)]
     fn due(&mut self, n: u64) -> U::Mask {
@@ -87,7 +87,7 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     /// The steps between two of them.
     pub(crate) interval: u64,
     /// The schedule of each lane, if the lanes differ.
-    pub(crate) apart: Option<&'a mut Apart<U>>,
+    pub(crate) by_lane: Option<&'a mut LaneSchedule<U>>,
     /// The lanes whose observers receive their first state at the end of this block, which then has no steps.
     pub(crate) attach: Option<U::Mask>,
 }
@@ -103,14 +103,14 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
     /// carried value of this step. `shown` is closed if [`closes`](Followed::closes). Returns true if the block
     /// should end.
     #[inline(always)]
-    fn see<C: Carried<Vector = S::Vector, Scalar = U>>(
+    fn evaluate<C: Carried<Vector = S::Vector, Scalar = U>>(
         &mut self,
         (k, t): (u64, U),
         shown: &C,
         marks: &mut Marks<C, U::Mask>,
     ) -> bool {
-        let due = match (&mut self.apart, self.attach) {
-            (Some(apart), None) => Some(apart.due(self.interval)),
+        let due = match (&mut self.by_lane, self.attach) {
+            (Some(lanes), None) => Some(lanes.due(self.interval)),
             _ => None,
         };
         let watches = self.watches();
@@ -124,7 +124,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
                 }
             }
         }
-        let mut is_any_loud = false;
+        let mut is_any_marked = false;
         // A single call evaluates all quantities: each further call would inline a copy of every observable,
         // whose length is proportional to the width of the pack.
         let drifts = self.trackers.len();
@@ -141,15 +141,15 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
                 continue;
             }
             let watcher = &mut self.watchers[at - drifts];
-            if !watcher.is_past(value, self.watched) {
-                let loud = watcher.is_loud(value) & self.watched;
-                if loud.any() {
-                    marks.loud = marks.loud | loud;
-                    is_any_loud = true;
+            if !watcher.try_skip(value, self.watched) {
+                let lanes = watcher.lanes_to_mark(value) & self.watched;
+                if lanes.any() {
+                    marks.to_mark = marks.to_mark | lanes;
+                    is_any_marked = true;
                 }
             }
         }
-        is_any_loud && marks.mark(k)
+        is_any_marked && marks.mark(k)
     }
 }
 
@@ -219,7 +219,7 @@ where
             let opens = if k == made { opening } else { Opening::Join };
             let stops = k == stop;
             // Local to one iteration.
-            let mut seen = shown.take();
+            let mut closed = shown.take();
             if stops {
                 if k == due && followed.watches() {
                     marks.add(&z);
@@ -228,35 +228,35 @@ where
                     carried.copy_from(&z);
                 }
             }
-            seen.copy_from(&z);
+            closed.copy_from(&z);
             if !matches!(opens, Opening::Open) {
                 let closes = stops && (k == end || followed.closes);
-                map.join_and_close(t, &mut z, &mut seen, closes, work);
+                map.join_and_close(t, &mut z, &mut closed, closes, work);
             }
             if stops {
                 if let Opening::Mixed(at_start) = opens {
-                    seen.copy_where(at_start, carried);
+                    closed.copy_where(at_start, carried);
                 }
-                let sees = k == due || followed.attach.is_some();
+                let evaluates = k == due || followed.attach.is_some();
                 due = k.saturating_add(followed.interval);
                 stop = end.min(due);
-                if sees && followed.see((k, t), &seen, marks) && k < end {
+                if evaluates && followed.evaluate((k, t), &closed, marks) && k < end {
                     end = k;
-                    carried.copy_from(marks.present());
+                    carried.copy_from(marks.newest());
                 }
                 if k == end {
-                    *shown = seen;
+                    *shown = closed;
                     break;
                 }
             } else if !matches!(opens, Opening::Join) {
-                map.open(t, &mut seen, work);
+                map.open(t, &mut closed, work);
                 match opens {
-                    Opening::Mixed(at_start) => z.copy_where(at_start, &seen),
-                    _ => z.copy_from(&seen),
+                    Opening::Mixed(at_start) => z.copy_where(at_start, &closed),
+                    _ => z.copy_from(&closed),
                 }
             }
             if const { core::mem::needs_drop::<R::Carried>() } {
-                *shown = seen;
+                *shown = closed;
             }
             // The loop of steps contains nothing else, so that the carried value stays in registers.
             map.go_on(&times, k, stop, &mut z, work);

@@ -54,7 +54,7 @@ impl<A: Clone> Shared<A> {
 
 /// The outcome of a member that has stopped.
 #[derive(Debug, Clone)]
-pub(crate) enum Out<V: Vector> {
+pub(crate) enum Finished<V: Vector> {
     /// The error of the member, and the number of steps made before it.
     Failed(Error, u64),
     /// The state at which its observer ended the member, and the number of steps made.
@@ -72,7 +72,7 @@ pub(crate) struct Chunk<R, V: Vector<Scalar = f64>, O> {
     pub(crate) prepared: Shared<R>,
     /// The times at which they start.
     pub(crate) starts: Shared<f64>,
-    pub(crate) out: BTreeMap<usize, Out<V>>,
+    pub(crate) finished: BTreeMap<usize, Finished<V>>,
     pub(crate) observers: Vec<O>,
 }
 
@@ -87,7 +87,7 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
             words: Vec::new(),
             prepared: Shared::Nothing,
             starts: Shared::Nothing,
-            out: BTreeMap::new(),
+            finished: BTreeMap::new(),
             observers: Vec::new(),
         }
     }
@@ -101,7 +101,7 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
         let (prepared, start) = match member {
             Ok((prepared, start)) => (Some(prepared), Some(start)),
             Err(error) => {
-                self.out.insert(self.count, Out::Failed(error, 0));
+                self.finished.insert(self.count, Finished::Failed(error, 0));
                 (None, None)
             }
         };
@@ -133,7 +133,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
             words: self.words,
             prepared: self.prepared,
             starts: self.starts,
-            out: self.out,
+            finished: self.finished,
             observers,
         }
     }
@@ -148,7 +148,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
             words: self.words[..end * width].into(),
             prepared: self.prepared.clone(),
             starts: self.starts.clone(),
-            out: self.out.clone(),
+            finished: self.finished.clone(),
             observers: alloc::vec![(); end],
         }
     }
@@ -170,43 +170,43 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
     pub(crate) steps: u64,
 }
 
-/// The members of a chunk, advanced from one number of steps to another. At each stop `see` receives the
+/// The members of a chunk, advanced from one number of steps to another. At each stop `receive` receives the
 /// member's observer and its view; it ends the member by returning `Break`.
-pub(crate) struct Going<'a, S: System<f64>, O, F> {
+pub(crate) struct ChunkHost<'a, S: System<f64>, O, F> {
     pub(crate) chunk: &'a mut ChunkOf<S, O>,
     pub(crate) common: &'a Common<S::Vector>,
     /// The number of steps at which members leave their lanes.
     pub(crate) target: u64,
     /// True if observers receive states.
-    pub(crate) looks: bool,
+    pub(crate) observes: bool,
     /// The index of the next member.
     pub(crate) next: usize,
     /// True if observers receive their first state.
     pub(crate) attaches: bool,
     /// True if the lanes evaluate the quantities that observers follow.
     pub(crate) follows: bool,
-    pub(crate) see: F,
+    pub(crate) receive: F,
 }
 
 /// The state at which an observer has ended a member; `None` for the state that it received.
 type EndOf<S> = Result<Option<State<<S as System<f64>>::Vector>>, Error>;
 
 /// The verdict of an observer on a view: `Break` with the final state if the member ends.
-pub(crate) type Seen<S> = ControlFlow<EndOf<S>>;
+pub(crate) type Decision<S> = ControlFlow<EndOf<S>>;
 
 /// Returns the state at which the observer ends its member, see [`EndOf`].
 pub(crate) fn end_of<S: System<f64>, O: Observer<f64, S>>(observer: &O) -> EndOf<S> {
     observer.end().map(Option::<&_>::cloned)
 }
 
-impl<S, O, F> Going<'_, S, O, F>
+impl<S, O, F> ChunkHost<'_, S, O, F>
 where
     S: System<f64>,
     O: Observer<f64, S>,
 {
     /// Returns the next stop of a member that has made `made` steps.
     fn stop(&self, key: usize, made: u64) -> u64 {
-        if !self.looks {
+        if !self.observes {
             return self.target;
         }
         let interval = self.chunk.observers[key].interval().max(1);
@@ -219,17 +219,17 @@ where
         let out = match end {
             Ok(end) => {
                 let end = end.unwrap_or_else(|| view.state.clone());
-                Out::Ended(Box::new(end), view.step)
+                Finished::Ended(Box::new(end), view.step)
             }
-            Err(error) => Out::Failed(error, view.step),
+            Err(error) => Finished::Failed(error, view.step),
         };
-        self.chunk.out.insert(key, out);
+        self.chunk.finished.insert(key, out);
         false
     }
 
     /// Writes the quantities that lanes evaluate for a member whose observer receives states. There are none
     /// unless the lanes evaluate all that the observer follows.
-    fn follows(&mut self, key: usize, into: &mut Follows<f64>) {
+    fn list_followed(&mut self, key: usize, into: &mut Follows<f64>) {
         let observer = &mut self.chunk.observers[key];
         let can = self.follows;
         Follower::take(into, |with| can && observer.follow(with));
@@ -243,14 +243,14 @@ where
     }
 }
 
-impl<S, O, F> Host<f64, S> for Going<'_, S, O, F>
+impl<S, O, F> Host<f64, S> for ChunkHost<'_, S, O, F>
 where
     S: System<f64>,
     O: Observer<f64, S>,
-    F: FnMut(usize, &mut O, &View<'_, f64, S>) -> Seen<S>,
+    F: FnMut(usize, &mut O, &View<'_, f64, S>) -> Decision<S>,
 {
     fn load(&mut self, slot: &mut Option<MemberRun<f64, S>>) -> bool {
-        while self.next < self.chunk.count && self.chunk.out.contains_key(&self.next) {
+        while self.next < self.chunk.count && self.chunk.finished.contains_key(&self.next) {
             self.next += 1;
         }
         let key = self.next;
@@ -260,11 +260,11 @@ where
         self.next += 1;
         // Reuses the storage of the previous run.
         let mut follows = Follows::default();
-        if self.looks {
+        if self.observes {
             if let Some(run) = slot {
                 core::mem::swap(&mut run.follows, &mut follows);
             }
-            self.follows(key, &mut follows);
+            self.list_followed(key, &mut follows);
         }
         let (Some(prepared), Some(start), Some(template)) = (
             self.chunk.prepared.get(key),
@@ -294,7 +294,7 @@ where
                 run.words.copy_from_slice(words);
                 (run.key, run.clock, run.made, run.stop) = (key, clock, made, stop);
                 (run.follows, run.interval) = (follows, interval);
-                (run.since, run.seen) = (made, made);
+                (run.since, run.received) = (made, made);
             }
             None => {
                 *slot = Some(MemberRun {
@@ -309,7 +309,7 @@ where
                     follows,
                     interval,
                     since: made,
-                    seen: made,
+                    received: made,
                     state: template.clone(),
                 });
             }
@@ -317,7 +317,7 @@ where
         true
     }
 
-    fn arrive(
+    fn receive(
         &mut self,
         key: usize,
         stop: &mut u64,
@@ -329,8 +329,8 @@ where
             return false;
         }
         let observer = &mut self.chunk.observers[key];
-        let see = &mut self.see;
-        match guard(|| see(key, observer, view)) {
+        let receive = &mut self.receive;
+        match guard(|| receive(key, observer, view)) {
             Ok(ControlFlow::Continue(())) => {
                 *stop = self.stop(key, view.step);
                 view.step < self.target
@@ -340,9 +340,9 @@ where
         }
     }
 
-    fn pass(&mut self, key: usize, view: &View<'_, f64, S>, quiet: bool) -> bool {
+    fn pass(&mut self, key: usize, view: &View<'_, f64, S>, signs_kept: bool) -> bool {
         let observer = &mut self.chunk.observers[key];
-        let passed = guard(|| match observer.pass(view, quiet) {
+        let passed = guard(|| match observer.pass(view, signs_kept) {
             ControlFlow::Continue(()) => ControlFlow::Continue(()),
             ControlFlow::Break(()) => ControlFlow::Break(end_of(observer)),
         });
@@ -353,7 +353,7 @@ where
         }
     }
 
-    fn follow(&mut self, key: usize, follows: &mut Follows<f64>) {
+    fn take_drifts(&mut self, key: usize, follows: &mut Follows<f64>) {
         let observer = &mut self.chunk.observers[key];
         Follower::give(follows, |with| observer.follow(with));
     }
@@ -368,12 +368,14 @@ where
     }
 
     fn fail(&mut self, run: &mut MemberRun<f64, S>, error: Error) {
-        self.chunk.out.insert(run.key, Out::Failed(error, run.made));
+        self.chunk
+            .finished
+            .insert(run.key, Finished::Failed(error, run.made));
         self.leave(run);
     }
 
-    fn looks(&self) -> bool {
-        self.looks
+    fn observes(&self) -> bool {
+        self.observes
     }
 
     fn is_cancelled(&mut self) -> bool {
@@ -385,7 +387,7 @@ where
 pub(crate) fn observe<S: System<f64>, O: Observer<f64, S>>(
     observer: &mut O,
     view: &View<'_, f64, S>,
-) -> Seen<S> {
+) -> Decision<S> {
     let is_due = view.step.is_multiple_of(observer.interval().max(1));
     if !is_due || observer.observe(view).is_continue() {
         return ControlFlow::Continue(());

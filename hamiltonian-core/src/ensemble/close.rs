@@ -41,21 +41,21 @@ where
         self.map.close(t, self.shown, &mut work);
         let (times, made) = (self.times, self.made);
         let (carried, shown, rows) = (self.carried, &*self.shown, self.rows);
-        let show = Show::<'_, _, T, P> {
+        let write = WriteRows::<'_, _, T, P> {
             times,
             made,
             carried,
             shown,
             rows,
         };
-        let carries_duration = show.write();
+        let carries_duration = write.write();
         let finite = shown.finite() & carried.finite() & shown.time(t).finite();
         (carries_duration, finite)
     }
 }
 
 /// Writes a closed copy of the carried value to rows of lanes, as [`Close`] does.
-pub(crate) struct Show<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> {
+pub(crate) struct WriteRows<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> {
     pub(crate) times: &'a Times<T::Over<P>>,
     pub(crate) made: u64,
     pub(crate) carried: &'a C,
@@ -63,7 +63,7 @@ pub(crate) struct Show<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> {
     pub(crate) rows: &'a mut Vec<T>,
 }
 
-impl<C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> Show<'_, C, T, P> {
+impl<C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> WriteRows<'_, C, T, P> {
     /// Returns true if the duration of a step is carried.
     #[inline(always)]
     fn write(self) -> bool {
@@ -85,7 +85,7 @@ impl<C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> Show<'_, C, T, P> {
     }
 }
 
-impl<L, C, T, P> KernelAt<L> for Show<'_, C, T, P>
+impl<L, C, T, P> KernelAt<L> for WriteRows<'_, C, T, P>
 where
     L: Level,
     C: Carried<Scalar = T::Over<P>>,

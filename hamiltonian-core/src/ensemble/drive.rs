@@ -5,18 +5,18 @@
 //! of blocks only. A failure costs the other members nothing, since the failed one is replayed apart from
 //! them.
 
-mod alone;
 pub(super) mod deviations;
 mod rows;
-mod watching;
+mod scalar;
+mod sections;
 
-use self::alone::{arrivals, explain};
 use self::deviations::Deviations;
 use self::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
-use super::block::{Apart, Block, Followed, Opening, Times};
-use super::close::{Close, Show};
+use self::scalar::{explain, pass_to_host};
+use super::block::{Block, Followed, LaneSchedule, Opening, Times};
+use super::close::{Close, WriteRows};
 use super::host::{Host, MemberRun};
-use super::marks::{Marks, Three};
+use super::marks::{LastThree, Marks};
 use super::occupants::Occupants;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
@@ -85,15 +85,15 @@ where
             let watches = !lanes.watchers.is_empty();
             if watches {
                 lanes.watchers_before.copy_from_slice(&lanes.watchers);
-                lanes.marks.last(&mut lanes.three);
+                lanes.marks.copy_last(&mut lanes.last_three);
                 lanes.marks.steps.clear();
             }
             let schedule = occupants.schedule();
             let closes = lanes.closes();
             let energy = lanes.quantities().any(|one| one == Quantity::Energy);
-            if let Some([left, interval]) = &schedule.apart {
-                gather::<L, T, P>(&counts(left), &mut lanes.apart.left);
-                gather::<L, T, P>(&counts(interval), &mut lanes.apart.interval);
+            if let Some([left, interval]) = &schedule.by_lane {
+                gather::<L, T, P>(&as_scalars(left), &mut lanes.schedule.left);
+                gather::<L, T, P>(&as_scalars(interval), &mut lanes.schedule.interval);
             }
             let followed: Followed<'_, T::Over<P>, S> = Followed {
                 prepared: &lanes.prepared,
@@ -104,7 +104,7 @@ where
                 closes,
                 first: schedule.first,
                 interval: schedule.interval,
-                apart: schedule.apart.map(|_| &mut lanes.apart),
+                by_lane: schedule.by_lane.map(|_| &mut lanes.schedule),
                 attach,
             };
             let (mut finite, end) = L::enter_at(Block {
@@ -115,7 +115,7 @@ where
                 opening: lanes.opening,
                 carried: &mut lanes.carried,
                 shown: &mut lanes.shown,
-                spare: &mut lanes.passing,
+                spare: &mut lanes.passed,
                 work: &mut lanes.work,
                 followed,
                 marks: &mut lanes.marks,
@@ -127,7 +127,7 @@ where
                     made: end,
                     carried: &lanes.carried,
                     shown: &mut lanes.shown,
-                    rows: &mut lanes.passing_rows,
+                    rows: &mut lanes.passed_rows,
                 });
             }
             let n = end - lanes.made;
@@ -138,14 +138,14 @@ where
                 occupants.begin_drifts();
             }
             if !finite.all() {
-                lanes.part_with::<L>(self, finite, &mut occupants, host);
+                lanes.remove_failed::<L>(self, finite, &mut occupants, host);
             }
             if watches {
-                lanes.show_marks::<L>(self, n, &mut occupants, host);
+                lanes.pass_marked::<L>(self, n, &mut occupants, host);
             }
             occupants.made(n);
             lanes.made += n;
-            lanes.arrive::<L>(self, &mut occupants, host);
+            lanes.pass_due::<L>(self, &mut occupants, host);
             if !occupants.fill(host) {
                 return;
             }
@@ -185,14 +185,14 @@ where
     watched: MaskIn<T, P>,
     marks: Marks<CarriedIn<T, S, P, M>, MaskIn<T, P>>,
     /// The carried values after the three steps before the block.
-    three: Three<CarriedIn<T, S, P, M>>,
+    last_three: LastThree<CarriedIn<T, S, P, M>>,
     /// Scratch for the states that observers of signs receive between stops.
-    passing: CarriedIn<T, S, P, M>,
-    passing_rows: Vec<T>,
+    passed: CarriedIn<T, S, P, M>,
+    passed_rows: Vec<T>,
     /// The lanes whose drift begins at their present state.
     attach: Option<MaskIn<T, P>>,
     /// The steps after which the observers of lanes receive states, if the lanes differ.
-    apart: Apart<T::Over<P>>,
+    schedule: LaneSchedule<T::Over<P>>,
     /// True if the map is that of occupants which are not yet loaded into the lanes.
     is_prepared: bool,
     /// The step of each lane for which the map is made.
@@ -221,7 +221,7 @@ where
     #[inline(always)]
     fn new<L: Level>(scheme: &M, occupants: &Occupants<T, S>) -> Self {
         let runs = occupants.runs();
-        let steps = each(&runs, |run| run.step);
+        let steps = number_of_each(&runs, |run| run.step);
         let systems: Vec<_> = runs.iter().map(|run| &run.prepared).collect();
         let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
         let begin = Begin::<T, S, P, M>::new(scheme, &prepared, &runs[0].state, &steps);
@@ -229,16 +229,16 @@ where
         let mut lanes = Lanes {
             map,
             work: Scratch::like(&carried),
-            before: another(&carried),
-            marks: Marks::new([another(&carried), another(&carried), another(&carried)]),
-            three: [another(&carried), another(&carried), another(&carried)],
+            before: cloned(&carried),
+            marks: Marks::new([cloned(&carried), cloned(&carried), cloned(&carried)]),
+            last_three: [cloned(&carried), cloned(&carried), cloned(&carried)],
             watchers: Vec::new(),
             watchers_before: Vec::new(),
             functions: Vec::new(),
-            passing: another(&carried),
-            passing_rows: Vec::new(),
+            passed: cloned(&carried),
+            passed_rows: Vec::new(),
             watched: Mask::splat(false),
-            shown: another(&carried),
+            shown: cloned(&carried),
             rows: vec![T::default(); carried.len() * P::LANES as usize],
             numbers: Vec::with_capacity(runs.len()),
             carried,
@@ -248,7 +248,7 @@ where
             trackers: Vec::new(),
             trackers_before: Vec::new(),
             attach: None,
-            apart: Apart::default(),
+            schedule: LaneSchedule::default(),
             made: 0,
             steps,
             uniform: false,
@@ -286,8 +286,8 @@ where
             self.compare(&runs);
         }
         load::<L, T, P, _>(&self.rows, &mut self.carried);
-        self.track::<L>(&runs);
-        self.watch::<L>(&runs);
+        self.load_drifts::<L>(&runs);
+        self.load_sections::<L>(&runs);
         self.marks.replace(&self.carried);
         self.made = 0;
         let Times {
@@ -299,7 +299,7 @@ where
             self.numbers.clear();
             let number = |run: &&MemberRun<T, S>| {
                 let Clock { start, interval } = run.clock;
-                [start, interval, count(run.made)][at]
+                [start, interval, as_scalar(run.made)][at]
             };
             self.numbers.extend(runs.iter().map(number));
             gather::<L, T, P>(&self.numbers, into);
@@ -334,7 +334,7 @@ where
 
     /// Loads the drifts of the members into lanes.
     #[inline(always)]
-    fn track<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
+    fn load_drifts<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
         // The first followed member determines the quantities; members that differ receive states at their stops.
         let first = runs.iter().find(|run| !run.follows.drifts.is_empty());
         let drifts = first.map_or(&[][..], |run| &run.follows.drifts);
@@ -378,7 +378,7 @@ where
 
     /// Writes drifts back into the runs of some lanes.
     #[inline(always)]
-    fn write_tracks<L: Level>(trackers: &[Tracker<T::Over<P>>], occupants: &mut Occupants<T, S>) {
+    fn write_drifts<L: Level>(trackers: &[Tracker<T::Over<P>>], occupants: &mut Occupants<T, S>) {
         let mut lanes = [(); 4].map(|()| vec![T::zero(); P::LANES as usize]);
         for (k, tracker) in trackers.iter().enumerate() {
             for (lanes, pack) in lanes.iter_mut().zip(tracker.numbers()) {
@@ -393,7 +393,7 @@ where
     /// one step they have failed.
     #[cold]
     #[inline(never)]
-    fn part_with<L: Level>(
+    fn remove_failed<L: Level>(
         &mut self,
         scheme: &M,
         finite: MaskIn<T, P>,
@@ -404,7 +404,7 @@ where
         let mut before = vec![T::default(); self.rows.len()];
         store::<L, T, P, _>(&self.before, &mut before);
         let (mut shown, size) = (Vec::new(), self.shown.point().q.len());
-        L::enter_at(Show::<'_, _, T, P> {
+        L::enter_at(WriteRows::<'_, _, T, P> {
             times: &self.times,
             made: self.made + 1,
             carried: &self.carried,
@@ -412,11 +412,11 @@ where
             rows: &mut shown,
         });
         store::<L, T, P, _>(&self.carried, &mut self.rows);
-        Self::write_tracks::<L>(&self.trackers_before, occupants);
+        Self::write_drifts::<L>(&self.trackers_before, occupants);
         let bad: Vec<bool> = (0..P::LANES).map(|lane| !finite.lane(lane)).collect();
         if !self.watchers.is_empty() {
             self.write_sections::<L>(&self.watchers_before, occupants);
-            self.show::<L>(scheme, self.made, (true, &bad), occupants, host);
+            self.pass_states::<L>(scheme, self.made, (true, &bad), occupants, host);
         }
         let bad = (0..lanes).filter(|lane| bad[*lane]);
         for lane in bad {
@@ -432,17 +432,17 @@ where
                 continue;
             }
             let point: Vec<f64> = (0..2 * size).map(|c| column(&shown, c).to_f64()).collect();
-            let alone = (&run.prepared, &run.state, run.step, run.clock);
+            let single = (&run.prepared, &run.state, run.step, run.clock);
             let made = (run.made, &*run.words);
             let reached = column(&shown, 2 * size).to_f64();
-            let error = explain(scheme, alone, made, &point, reached);
+            let error = explain(scheme, single, made, &point, reached);
             host.fail(&mut run, error);
         }
     }
 
     /// Passes members at their stops to the host, which takes back those that leave.
     #[inline(always)]
-    fn arrive<L: Level>(
+    fn pass_due<L: Level>(
         &mut self,
         scheme: &M,
         occupants: &mut Occupants<T, S>,
@@ -451,7 +451,7 @@ where
         let lanes = P::LANES as usize;
         let is_any_due = occupants.is_any_due();
         if !self.trackers.is_empty() && (is_any_due || occupants.has_changed()) {
-            Self::write_tracks::<L>(&self.trackers, occupants);
+            Self::write_drifts::<L>(&self.trackers, occupants);
         }
         if !is_any_due {
             return;
@@ -459,21 +459,21 @@ where
         if !self.trackers.is_empty() {
             occupants.for_each_due(|_, run| {
                 if !run.follows.drifts.is_empty() {
-                    host.follow(run.key, &mut run.follows);
+                    host.take_drifts(run.key, &mut run.follows);
                 }
                 true
             });
         }
-        if host.looks() {
+        if host.observes() {
             let size = self.shown.point().q.len();
-            let carries_duration = L::enter_at(Show::<'_, _, T, P> {
+            let carries_duration = L::enter_at(WriteRows::<'_, _, T, P> {
                 times: &self.times,
                 made: self.made,
                 carried: &self.carried,
                 shown: &self.shown,
-                rows: &mut self.passing_rows,
+                rows: &mut self.passed_rows,
             });
-            let mut rows = self.passing_rows.chunks_exact(lanes);
+            let mut rows = self.passed_rows.chunks_exact(lanes);
             for (c, row) in (0..size).zip(&mut rows) {
                 occupants.write_states(row, |state| state.q.component_mut(c));
             }
@@ -484,7 +484,7 @@ where
                 occupants.write_states(row, |state| &mut state.t);
             }
             let durations = rows.next().filter(|_| carries_duration);
-            arrivals(scheme, occupants, host, durations);
+            pass_to_host(scheme, occupants, host, durations);
         } else {
             occupants.for_each_due(|_, _| false);
         }
@@ -496,7 +496,7 @@ where
 }
 
 /// A number of each lane.
-fn each<T: Real, S: System<T>>(
+fn number_of_each<T: Real, S: System<T>>(
     runs: &[&MemberRun<T, S>],
     of: impl Fn(&MemberRun<T, S>) -> T,
 ) -> Vec<T> {
@@ -504,17 +504,17 @@ fn each<T: Real, S: System<T>>(
 }
 
 /// Returns a number of steps as a scalar.
-fn count<T: Real>(steps: u64) -> T {
+fn as_scalar<T: Real>(steps: u64) -> T {
     T::constant(steps as i64 as f64, 0.0)
 }
 
 /// Returns numbers of steps as scalars.
-fn counts<T: Real>(steps: &[u64]) -> Vec<T> {
-    steps.iter().map(|n| count(*n)).collect()
+fn as_scalars<T: Real>(steps: &[u64]) -> Vec<T> {
+    steps.iter().map(|n| as_scalar(*n)).collect()
 }
 
 /// Returns a copy. It is made out of line, since a value in lanes is long and is copied in many places.
 #[inline(never)]
-fn another<C: Clone>(of: &C) -> C {
+fn cloned<C: Clone>(of: &C) -> C {
     of.clone()
 }

@@ -37,7 +37,7 @@ pub struct MemberRun<T: Real, S: System<T>> {
     /// The number of steps made when the drifts were up to date.
     pub(crate) since: u64,
     /// The number of steps made when its observer last received a state, if lanes follow signs for it.
-    pub(crate) seen: u64,
+    pub(crate) received: u64,
     /// The start on loading; the state on arrival.
     pub(crate) state: State<S::Vector>,
 }
@@ -49,7 +49,7 @@ pub trait Host<T: Real, S: System<T>> {
     fn load(&mut self, slot: &mut Option<MemberRun<T, S>>) -> bool;
     /// Receives a member's state at its stop. Returns true if the member stays, with its stop advanced. Lanes
     /// then evaluate the quantities in `follows`.
-    fn arrive(
+    fn receive(
         &mut self,
         key: usize,
         stop: &mut u64,
@@ -58,9 +58,9 @@ pub trait Host<T: Real, S: System<T>> {
     ) -> bool;
     /// Passes a state before the next stop to the observer of a member, see
     /// [`Observer::pass`](crate::Observer::pass). Returns true if the member stays.
-    fn pass(&mut self, key: usize, view: &View<'_, T, S>, quiet: bool) -> bool;
+    fn pass(&mut self, key: usize, view: &View<'_, T, S>, signs_kept: bool) -> bool;
     /// Takes the drifts of a member at its stop.
-    fn follow(&mut self, key: usize, follows: &mut Follows<T>);
+    fn take_drifts(&mut self, key: usize, follows: &mut Follows<T>);
     /// Returns the number of steps that followed members have made when they are loaded.
     fn phase(&self) -> u64;
     /// Takes back the carried value of a member that leaves.
@@ -68,7 +68,7 @@ pub trait Host<T: Real, S: System<T>> {
     /// Takes back a member whose next step failed; `words` are those before that step.
     fn fail(&mut self, run: &mut MemberRun<T, S>, error: Error);
     /// Returns true if the host receives states. Otherwise members leave at their stops.
-    fn looks(&self) -> bool;
+    fn observes(&self) -> bool;
     /// Returns true if the work is cancelled, which is checked between blocks. Members under way are abandoned.
     fn is_cancelled(&mut self) -> bool;
 }

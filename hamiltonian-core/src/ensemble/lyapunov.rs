@@ -5,7 +5,7 @@
 
 use super::Member;
 use super::bound::Ensembles;
-use super::drive::deviations::{Deviated, Deviations, Indicator};
+use super::drive::deviations::{DeviatedMember, Deviations, Indicator};
 use super::guard::guard;
 use super::ordered::in_order;
 use super::threads;
@@ -208,7 +208,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     /// An indicator that is one number.
     fn one(&self, indicator: Indicator, count: usize) -> Result<Vec<Result<f64, Error>>, Error> {
         let all = self.compute(indicator, count)?.into_iter();
-        Ok(all.map(|found| Ok(found?[0])).collect())
+        Ok(all.map(|numbers| Ok(numbers?[0])).collect())
     }
 
     /// An indicator of each member, from so many deviations.
@@ -283,11 +283,11 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         if all.is_cancelled() {
             return None;
         }
-        let mut found = all.members.into_iter().map(|member| member.found);
+        let mut results = all.members.into_iter().map(|member| member.result);
         let numbers = indices.zip(errors).map(|(index, error)| {
             let of_member = match error {
                 Some(error) => Err(error),
-                None => found.next().unwrap_or_else(|| Ok(Vec::new())),
+                None => results.next().unwrap_or_else(|| Ok(Vec::new())),
             };
             of_member.map_err(|error| Error::Member {
                 index,
@@ -302,13 +302,13 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         &self,
         index: usize,
         (indicator, count): (Indicator, usize),
-        other: Option<&Deviated<D, S>>,
-    ) -> Result<Deviated<D, S>, Error> {
+        other: Option<&DeviatedMember<D, S>>,
+    ) -> Result<DeviatedMember<D, S>, Error> {
         let (system, start) = guard(|| (self.make)(Member::new(index, 0))).and_then(|made| made)?;
         let lifted = lifted::<f64, S>(&system, &start)?;
         check_deviations(count, lifted.q.len())?;
         let prepared = check_start::<D, S>(&system, &lifted)?;
-        let fits = |other: &Deviated<D, S>| {
+        let fits = |other: &DeviatedMember<D, S>| {
             Ensembles::<S, D>::fits(&self.scheme, &other.prepared, &prepared)
         };
         if !other.is_none_or(fits) {
@@ -326,11 +326,11 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
             words.reserve_exact(count * carried.len());
             words.extend(carried.components());
         }
-        Ok(Deviated {
+        Ok(DeviatedMember {
             prepared,
             words,
             start: lifted,
-            found: Ok(Vec::new()),
+            result: Ok(Vec::new()),
         })
     }
 }

@@ -12,29 +12,29 @@ use hamiltonian_lanes::Mask;
 const MOST: usize = 16;
 
 /// The carried values after three consecutive steps, the last one last.
-pub(crate) type Three<C> = [C; 3];
+pub(crate) type LastThree<C> = [C; 3];
 
 /// The marks of a block.
 pub(crate) struct Marks<C, M> {
     /// The values carried after the last three steps.
-    ring: Three<C>,
+    ring: LastThree<C>,
     /// The index of the last of them in the ring.
-    turn: usize,
+    newest: usize,
     /// The lanes for which the present step is to be marked.
-    pub(crate) loud: M,
+    pub(crate) to_mark: M,
     /// The steps that are marked, and their lanes.
     pub(crate) steps: Vec<(u64, M)>,
     /// The carried values at the marks. The vector is never shortened, so that its storage is reused.
-    states: Vec<Three<C>>,
+    states: Vec<LastThree<C>>,
 }
 
 impl<C: Vector, M: Mask> Marks<C, M> {
     #[inline(always)]
-    pub(crate) fn new(ring: Three<C>) -> Self {
+    pub(crate) fn new(ring: LastThree<C>) -> Self {
         Marks {
             ring,
-            turn: 0,
-            loud: M::splat(false),
+            newest: 0,
+            to_mark: M::splat(false),
             steps: Vec::new(),
             states: Vec::new(),
         }
@@ -43,40 +43,40 @@ impl<C: Vector, M: Mask> Marks<C, M> {
     /// Replaces the last carried value after a refill of lanes.
     #[inline(always)]
     pub(crate) fn replace(&mut self, carried: &C) {
-        self.ring[self.turn].copy_from(carried);
+        self.ring[self.newest].copy_from(carried);
     }
 
     /// Adds the carried value after a step.
     #[inline(always)]
     pub(crate) fn add(&mut self, carried: &C) {
-        self.turn = if self.turn == 2 { 0 } else { self.turn + 1 };
-        self.ring[self.turn].copy_from(carried);
+        self.newest = if self.newest == 2 { 0 } else { self.newest + 1 };
+        self.ring[self.newest].copy_from(carried);
     }
 
     /// Returns the carried value that was added last.
     #[inline(always)]
-    pub(crate) fn present(&self) -> &C {
-        &self.ring[self.turn]
+    pub(crate) fn newest(&self) -> &C {
+        &self.ring[self.newest]
     }
 
     /// Copies the last three carried values, in order.
     #[inline(always)]
-    pub(crate) fn last(&self, to: &mut Three<C>) {
+    pub(crate) fn copy_last(&self, to: &mut LastThree<C>) {
         for (ahead, to) in (1..).zip(to) {
-            to.copy_from(&self.ring[(self.turn + ahead) % 3]);
+            to.copy_from(&self.ring[(self.newest + ahead) % 3]);
         }
     }
 
-    /// Marks the last step for the lanes in `loud`. Returns true if the block should end.
+    /// Marks the last step for the lanes in `to_mark`. Returns true if the block should end.
     #[inline(always)]
     pub(crate) fn mark(&mut self, step: u64) -> bool {
-        let lanes = core::mem::replace(&mut self.loud, M::splat(false));
-        let place = self.steps.len();
-        if place == self.states.len() {
+        let lanes = core::mem::replace(&mut self.to_mark, M::splat(false));
+        let mark = self.steps.len();
+        if mark == self.states.len() {
             self.states.push(self.ring.clone());
         }
-        for (ahead, to) in (1..).zip(&mut self.states[place]) {
-            to.copy_from(&self.ring[(self.turn + ahead) % 3]);
+        for (ahead, to) in (1..).zip(&mut self.states[mark]) {
+            to.copy_from(&self.ring[(self.newest + ahead) % 3]);
         }
         self.steps.push((step, lanes));
         self.steps.len() >= MOST
@@ -84,7 +84,7 @@ impl<C: Vector, M: Mask> Marks<C, M> {
 
     /// Returns the carried values at a mark.
     #[inline(always)]
-    pub(crate) fn states(&self, mark: usize) -> &Three<C> {
+    pub(crate) fn states(&self, mark: usize) -> &LastThree<C> {
         &self.states[mark]
     }
 }

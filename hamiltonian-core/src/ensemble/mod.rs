@@ -11,7 +11,7 @@
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
 //! - [`chunk`], [`swarm`], [`until`]: members in memory;
-//! - [`sweep`], [`sweep::running`], [`record`]: members that leave a record;
+//! - [`sweep`], [`sweep::host`], [`record`]: members that leave a record;
 //! - [`lyapunov`], [`deviations`]: members that leave exponents.
 
 mod block;

@@ -48,7 +48,7 @@ pub(crate) struct Schedule {
     pub(crate) interval: u64,
     /// The steps to the first state and between two states, lane by lane, if the lanes differ; 0 for a lane
     /// whose observer receives none.
-    pub(crate) apart: Option<[Vec<u64>; 2]>,
+    pub(crate) by_lane: Option<[Vec<u64>; 2]>,
 }
 
 /// An interval longer than any run: the observer receives no further state.
@@ -249,7 +249,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
             return Schedule {
                 first,
                 interval,
-                apart: None,
+                by_lane: None,
             };
         }
         let mut lanes = [(); 2].map(|()| alloc::vec![0; self.status.len()]);
@@ -270,7 +270,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         Schedule {
             first: common,
             interval: common,
-            apart: Some(lanes),
+            by_lane: Some(lanes),
         }
     }
 

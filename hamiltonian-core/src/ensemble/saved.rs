@@ -5,7 +5,7 @@
 
 use super::Member;
 use super::bound::Ensembles;
-use super::chunk::Out;
+use super::chunk::Finished;
 use super::hash::Hash;
 use super::swarm::Ensemble;
 use crate::checkpoint::{Checkpoint, Memory};
@@ -55,20 +55,20 @@ impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
                 numbers.number(*word);
             }
             for (key, observer) in chunk.observers.iter().enumerate() {
-                match chunk.out.get(&key) {
+                match chunk.finished.get(&key) {
                     None => numbers.count(ON),
-                    Some(Out::Failed(error, steps)) => {
+                    Some(Finished::Failed(error, steps)) => {
                         numbers.count(FAILED);
                         numbers.text(&error.to_string());
                         numbers.count(*steps);
                     }
-                    Some(Out::Ended(state, steps)) => {
+                    Some(Finished::Ended(state, steps)) => {
                         numbers.count(ENDED);
                         numbers.state(state);
                         numbers.count(*steps);
                     }
                 }
-                if !matches!(chunk.out.get(&key), Some(Out::Failed(..))) {
+                if !matches!(chunk.finished.get(&key), Some(Finished::Failed(..))) {
                     observer.save(&mut observers);
                 }
             }
@@ -129,20 +129,20 @@ impl<S: System<f64>> Ensemble<S> {
                 *word = numbers.read_number()?;
             }
             for key in 0..chunk.count {
-                let out = match (numbers.read_count()?, &swarm.common.template) {
+                let finished = match (numbers.read_count()?, &swarm.common.template) {
                     (ON, _) => continue,
                     (FAILED, _) => {
                         let message = numbers.read_text()?;
-                        Out::Failed(Error::Before { message }, numbers.read_count()?)
+                        Finished::Failed(Error::Before { message }, numbers.read_count()?)
                     }
                     (ENDED, Some(template)) => {
                         let state = numbers.read_state(template)?;
-                        Out::Ended(Box::new(state), numbers.read_count()?)
+                        Finished::Ended(Box::new(state), numbers.read_count()?)
                     }
                     _ => return Err(damaged()),
                 };
                 // The error of a start is there already.
-                chunk.out.entry(key).or_insert(out);
+                chunk.finished.entry(key).or_insert(finished);
             }
         }
         if !numbers.is_empty() {

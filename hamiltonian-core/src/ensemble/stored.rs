@@ -7,7 +7,7 @@ use super::Member;
 use super::guard::guard;
 use super::hash::{Hash, hash_of};
 use super::record::{Batch, Record, Status};
-use super::sweep::{Aim, Sweep};
+use super::sweep::{EndPoint, Sweep};
 use crate::error::Error;
 use crate::observe::Observer;
 use crate::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
@@ -128,12 +128,12 @@ where
             (None, true) => Rows::Any,
             (None, false) => Rows::One,
         };
-        let end: Attribute = match (&record.times, &self.aim) {
+        let end: Attribute = match (&record.times, &self.end) {
             (Some(_), _) => "at the last time".into(),
-            (None, Aim::Steps(n)) => format!("{n} steps").into(),
-            (None, Aim::Until(t)) => (*t).into(),
-            (None, Aim::Each(_)) => "of each member".into(),
-            (None, Aim::Unknown) => "none".into(),
+            (None, EndPoint::Steps(n)) => format!("{n} steps").into(),
+            (None, EndPoint::Until(t)) => (*t).into(),
+            (None, EndPoint::Each(_)) => "of each member".into(),
+            (None, EndPoint::Unknown) => "none".into(),
         };
         let step: Attribute = match self.step_each {
             Some(_) => "of each member".into(),

@@ -4,7 +4,7 @@
 
 use super::Member;
 use super::bound::{Engine, Ensembles};
-use super::chunk::{Chunk, ChunkOf, Common, Going, Out, Seen, end_of, observe};
+use super::chunk::{Chunk, ChunkHost, ChunkOf, Common, Decision, Finished, end_of, observe};
 use super::guard::guard;
 use super::threads;
 use crate::checkpoint::Memory;
@@ -187,9 +187,9 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 let index = chunk.first + key;
                 let made = of(index).or_else(|error| {
                     chunk
-                        .out
+                        .finished
                         .entry(key)
-                        .or_insert(Out::Failed(error.clone(), now));
+                        .or_insert(Finished::Failed(error.clone(), now));
                     if good.is_none() && !is_vain {
                         good = (index + 1..count).find(|other| of(*other).is_ok());
                         is_vain = good.is_none();
@@ -319,8 +319,8 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             .chunks
             .partition_point(|chunk| chunk.first + chunk.count <= index);
         let chunk = self.chunks.get(number)?;
-        Some(match chunk.out.get(&(index - chunk.first)) {
-            Some(Out::Failed(_, steps) | Out::Ended(_, steps)) => *steps,
+        Some(match chunk.finished.get(&(index - chunk.first)) {
+            Some(Finished::Failed(_, steps) | Finished::Ended(_, steps)) => *steps,
             None => self.common.steps,
         })
     }
@@ -337,15 +337,15 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         let mut states: Vec<Option<Result<State<S::Vector>, Error>>> =
             alloc::vec![None; chunk.count];
         let mut copy = chunk.unobserved(keys.end, self.common.width);
-        let mut host = Going {
+        let mut host = ChunkHost {
             chunk: &mut copy,
             common: &self.common,
             target: self.common.steps,
-            looks: true,
+            observes: true,
             attaches: false,
             follows: false,
             next: keys.start,
-            see: |key: usize, (): &mut (), view: &View<'_, f64, S>| {
+            receive: |key: usize, (): &mut (), view: &View<'_, f64, S>| {
                 states[key] = Some(match t {
                     Some(t) => view.state_at(t),
                     None => Ok(view.state.clone()),
@@ -358,9 +358,9 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             index: chunk.first + key,
             error: Box::new(error),
         };
-        keys.map(|key| match (chunk.out.get(&key), states[key].take()) {
-            (Some(Out::Failed(error, _)), _) => Err(member(key, error.clone())),
-            (Some(Out::Ended(state, _)), _) => Ok((**state).clone()),
+        keys.map(|key| match (chunk.finished.get(&key), states[key].take()) {
+            (Some(Finished::Failed(error, _)), _) => Err(member(key, error.clone())),
+            (Some(Finished::Ended(state, _)), _) => Ok((**state).clone()),
             (None, Some(state)) => state.map_err(|error| member(key, error)),
             (None, None) => Err(Error::NoMembers),
         })
@@ -374,18 +374,20 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     {
         for chunk in &mut self.chunks {
             // Those that ended have memories too. A state is of use for its shape.
-            let out = core::mem::take(&mut chunk.out);
-            let failed = out.iter().filter(|(_, out)| matches!(out, Out::Failed(..)));
-            chunk.out = failed.map(|(key, out)| (*key, out.clone())).collect();
-            let mut host = Going {
+            let out = core::mem::take(&mut chunk.finished);
+            let failed = out
+                .iter()
+                .filter(|(_, out)| matches!(out, Finished::Failed(..)));
+            chunk.finished = failed.map(|(key, out)| (*key, out.clone())).collect();
+            let mut host = ChunkHost {
                 chunk,
                 common: &self.common,
                 target: self.common.steps,
-                looks: true,
+                observes: true,
                 attaches: false,
                 follows: false,
                 next: 0,
-                see: |_: usize, observer: &mut O, view: &View<'_, f64, S>| match observer
+                receive: |_: usize, observer: &mut O, view: &View<'_, f64, S>| match observer
                     .restore(view, memory)
                 {
                     Ok(()) => ControlFlow::Continue(()),
@@ -393,7 +395,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 },
             };
             self.engine.drive(&mut host, self.fuses);
-            chunk.out.extend(out);
+            chunk.finished.extend(out);
         }
     }
 
@@ -402,22 +404,22 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         &mut self,
         target: u64,
         attaches: bool,
-        see: impl Fn(usize, &mut O, &View<'_, f64, S>) -> Seen<S> + Sync,
+        receive: impl Fn(usize, &mut O, &View<'_, f64, S>) -> Decision<S> + Sync,
     ) where
         O: Observer<f64, S> + Send,
     {
         let (engine, common, fuses) = (&*self.engine, &self.common, self.fuses);
         threads::for_each(&mut self.chunks, self.threads, |chunk| {
-            let looks = attaches || chunk.observers.iter().any(|one| one.interval() < u64::MAX);
-            let mut host = Going {
+            let observes = attaches || chunk.observers.iter().any(|one| one.interval() < u64::MAX);
+            let mut host = ChunkHost {
                 chunk,
                 common,
                 target,
-                looks,
+                observes,
                 attaches,
                 follows: true,
                 next: 0,
-                see: &see,
+                receive: &receive,
             };
             engine.drive(&mut host, fuses);
         });

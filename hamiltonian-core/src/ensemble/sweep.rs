@@ -3,7 +3,7 @@
 //! Input: a system and a start for each index, a scheme, a step, an end, a record. Output: rows in the
 //! order of the index. Invariant: only chunks in work are in memory.
 
-mod running;
+mod host;
 
 use super::Member;
 use super::bound::{Engine, Ensembles};
@@ -22,16 +22,16 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
-use running::Running;
+use host::SweepHost;
 
 /// Makes the system and the start of a member.
 type Make<'a, S> =
     Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
 /// A number of each member.
-type Each<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
+type PerMember<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
 
 /// Where members end.
-pub(crate) enum Aim<'a> {
+pub(crate) enum EndPoint<'a> {
     /// Nowhere yet.
     Unknown,
     /// After so many steps.
@@ -39,7 +39,7 @@ pub(crate) enum Aim<'a> {
     /// At this time.
     Until(f64),
     /// Each at its own time.
-    Each(Each<'a>),
+    Each(PerMember<'a>),
 }
 
 /// Members that are made from their index, run to their end and recorded. Their states are not kept, so memory does
@@ -72,8 +72,8 @@ pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
     pub(crate) engine: Arc<dyn Engine<S>>,
     pub(crate) make: Make<'a, S>,
     pub(crate) step: f64,
-    pub(crate) step_each: Option<Each<'a>>,
-    pub(crate) aim: Aim<'a>,
+    pub(crate) step_each: Option<PerMember<'a>>,
+    pub(crate) end: EndPoint<'a>,
     pub(crate) observer: Arc<dyn Fn(Member) -> O + Send + Sync + 'a>,
     pub(crate) record: R,
     pub(crate) seed: u64,
@@ -115,7 +115,7 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
             make: Box::new(make),
             step,
             step_each: None,
-            aim: Aim::Unknown,
+            end: EndPoint::Unknown,
             observer: Arc::new(|_| ()),
             record: (),
             seed: 0,
@@ -213,7 +213,7 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
             make: self.make,
             step: self.step,
             step_each: self.step_each,
-            aim: self.aim,
+            end: self.end,
             observer,
             record,
             seed: self.seed,
@@ -229,7 +229,7 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
     /// Ends members after `n` steps.
     #[must_use]
     pub fn steps(mut self, n: u64) -> Self {
-        self.aim = Aim::Steps(n);
+        self.end = EndPoint::Steps(n);
         self
     }
 
@@ -237,14 +237,14 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
     /// [`advance_until`](crate::Integrator::advance_until).
     #[must_use]
     pub fn until(mut self, t: f64) -> Self {
-        self.aim = Aim::Until(t);
+        self.end = EndPoint::Until(t);
         self
     }
 
     /// Ends each member at its own time.
     #[must_use]
     pub fn until_each(mut self, t: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
-        self.aim = Aim::Each(Box::new(t));
+        self.end = EndPoint::Each(Box::new(t));
         self
     }
 
@@ -418,9 +418,9 @@ where
         if self.count == 0 {
             return Err(Error::NoMembers);
         }
-        match (&self.record.times, &self.aim) {
+        match (&self.record.times, &self.end) {
             (Some(times), _) if times.is_empty() => Err(Error::NoEnd),
-            (None, Aim::Unknown) => Err(Error::NoEnd),
+            (None, EndPoint::Unknown) => Err(Error::NoEnd),
             _ => Ok(()),
         }
     }
@@ -436,7 +436,7 @@ where
         let of = chunks.iter().map(Range::len).sum();
         let mut done = 0;
         let mut result = Ok(());
-        let work = |job: usize| Running::new(self, chunks[job].clone(), hashes).batch();
+        let work = |job: usize| SweepHost::new(self, chunks[job].clone(), hashes).batch();
         in_order(chunks.len(), self.threads, work, |_, batch| {
             if batch.cancelled {
                 result = Err(Error::Cancelled { done, of });

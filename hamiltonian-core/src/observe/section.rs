@@ -39,10 +39,10 @@ pub(crate) struct Watcher<U> {
     /// The number of the function among the observables.
     pub(crate) observable: usize,
     pub(crate) period: Option<U>,
-    /// The value after the last step, at the place `turn`, and the one before, counted back from it if there is a
+    /// The value after the last step, at the place `newest`, and the one before, counted back from it if there is a
     /// period. No value moves from one place to the other, since packs are long.
     values: [U; 2],
-    turn: usize,
+    newest: usize,
     /// True if all lanes that are watched were far from 0 after the last step.
     is_far: bool,
 }
@@ -61,7 +61,7 @@ impl<U: Real> Watcher<U> {
             observable,
             period,
             values: [U::zero(); 2],
-            turn: 0,
+            newest: 0,
             is_far: false,
         }
     }
@@ -69,31 +69,31 @@ impl<U: Real> Watcher<U> {
     /// The value after the last step and the one before, to be written.
     #[inline(always)]
     pub(crate) fn values_mut(&mut self) -> &mut [U; 2] {
-        self.turn = 0;
+        self.newest = 0;
         &mut self.values
     }
 
     /// The value after the last step.
     #[inline(always)]
     fn value(&self) -> &U {
-        &self.values[self.turn & 1]
+        &self.values[self.newest & 1]
     }
 
     /// The value after the last step, and the one before.
     #[inline(always)]
     pub(crate) fn last(&self) -> [&U; 2] {
-        [self.value(), &self.values[(self.turn + 1) & 1]]
+        [self.value(), &self.values[(self.newest + 1) & 1]]
     }
 
     /// Accepts the value after the next step and returns true if nothing can have happened in the
-    /// watched lanes: a short form of [`is_loud`](Watcher::is_loud) for the usual step.
+    /// watched lanes: a short form of [`lanes_to_mark`](Watcher::lanes_to_mark) for the usual step.
     #[inline(always)]
-    pub(crate) fn is_past(&mut self, value: U, watched: U::Mask) -> bool {
+    pub(crate) fn try_skip(&mut self, value: U, watched: U::Mask) -> bool {
         if self.period.is_some() {
             return false;
         }
         // The ratio of the last value to this one is between a small number and 1.476. Then the
-        // sign is the same, and the function decreases by less than half of its value, so `is_loud`
+        // sign is the same, and the function decreases by less than half of its value, so `lanes_to_mark`
         // finds nothing in the next step either.
         let least = U::constant(1.0 / 262_144.0, 0.0);
         let above = least.fma(-value, *self.value());
@@ -102,8 +102,8 @@ impl<U: Real> Watcher<U> {
         let is_far = !(!is_far & watched).any();
         let was_far = core::mem::replace(&mut self.is_far, is_far);
         if is_far && was_far {
-            self.turn = (self.turn + 1) & 1;
-            self.values[self.turn] = value;
+            self.newest = (self.newest + 1) & 1;
+            self.values[self.newest] = value;
         }
         is_far && was_far
     }
@@ -115,7 +115,7 @@ impl<U: Real> Watcher<U> {
     /// step and at the next, if its value is so small relative to its change that the rounding of
     /// either might decide the sign.
     #[inline(always)]
-    pub(crate) fn is_loud(&mut self, value: U) -> U::Mask {
+    pub(crate) fn lanes_to_mark(&mut self, value: U) -> U::Mask {
         let [&from, &before] = self.last();
         let changed = from - before;
         let (value, counted) = match self.period {
@@ -127,7 +127,7 @@ impl<U: Real> Watcher<U> {
             }
         };
         let change = counted - from;
-        (self.values, self.turn) = ([value, value - change], 0);
+        (self.values, self.newest) = ([value, value - change], 0);
         // from·counted is above a small part of the square of the change.
         let least = U::constant(1.0 / 1_048_576.0, 0.0);
         let product = change.fma(from, from * from);
@@ -136,9 +136,9 @@ impl<U: Real> Watcher<U> {
         // As in `Events`, times the value before; the factor allows for rounding.
         let fell = changed * U::constant(-2.002, 0.0);
         let is_near = (from * from).lt(from * fell);
-        let loud = !steady | is_near;
+        let to_mark = !steady | is_near;
         if !is_near.any() {
-            return loud;
+            return to_mark;
         }
         let falls = change * U::constant(-4.0, 0.0);
         !steady | (is_near & (from * falls).lt(from * fell))

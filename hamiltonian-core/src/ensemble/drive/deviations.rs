@@ -5,8 +5,8 @@
 //! numbers; a lane does what [`Tangent`](crate::tangents::Tangent) does, in the same order, so its bits depend on
 //! its member and on the arithmetic of the pack alone.
 
-use super::alone::explain;
 use super::rows::{Begin, Prepare, gather, load, scatter, store};
+use super::scalar::explain;
 use super::{CarriedIn, InPack, MapIn};
 use crate::error::Error;
 use crate::flow::Scratch;
@@ -26,14 +26,14 @@ use hamiltonian_lanes::{KernelAt, Level, Mask, Pack, Real};
 const BLOCK: u64 = 1024;
 
 /// A member with its deviations.
-pub(crate) struct Deviated<T: Real, S: System<T>> {
+pub(crate) struct DeviatedMember<T: Real, S: System<T>> {
     pub(crate) prepared: S::Prepared,
     /// All that the scheme carries, deviation after deviation.
     pub(crate) words: Vec<T>,
     /// The state at its start.
     pub(crate) start: State<S::Vector>,
     /// The numbers of its indicator, or its error.
-    pub(crate) found: Result<Vec<f64>, Error>,
+    pub(crate) result: Result<Vec<f64>, Error>,
 }
 
 /// What is computed from the deviations of a member.
@@ -49,7 +49,7 @@ pub(crate) enum Indicator {
 
 /// Members on their way to an indicator of chaos.
 pub struct Deviations<'r, T: Real, S: System<T>> {
-    pub(crate) members: Vec<Deviated<T, S>>,
+    pub(crate) members: Vec<DeviatedMember<T, S>>,
     pub(crate) indicator: Indicator,
     /// The number of deviations of each.
     pub(crate) count: usize,
@@ -81,11 +81,11 @@ where
     work: <MapIn<T, S, P, M> as Map>::Work,
     clock: Clock<T::Over<P>>,
     /// The members whose system stands in the map: the first stands for all that are equal to it.
-    of: Vec<usize>,
+    prepared_for: Vec<usize>,
     /// The member of each lane; none for one that is lost, or that repeats another.
     members: Vec<Option<usize>>,
     /// The first deviation of each lane that is not finite.
-    lost: Vec<Option<usize>>,
+    first_failed: Vec<Option<usize>>,
     /// What is carried for each deviation, and the same before the last steps, and closed.
     carried: Vec<CarriedIn<T, S, P, M>>,
     before: Vec<CarriedIn<T, S, P, M>>,
@@ -158,8 +158,9 @@ where
         let equals = |a: usize, b: usize| members[a].prepared.equals(&members[b].prepared);
         let is_uniform = group.iter().all(|other| equals(group[0], *other));
         let of = if is_uniform { &group[..1] } else { group };
-        let is_prepared =
-            |lanes: &Self| is_uniform && lanes.of.len() == 1 && equals(lanes.of[0], of[0]);
+        let is_prepared = |lanes: &Self| {
+            is_uniform && lanes.prepared_for.len() == 1 && equals(lanes.prepared_for[0], of[0])
+        };
         if !lanes.as_ref().is_some_and(is_prepared) {
             let systems: Vec<_> = of.iter().map(|at| &members[*at].prepared).collect();
             let steps = [all.step];
@@ -179,9 +180,9 @@ where
                             start: zero,
                             interval: all.interval.spread::<P>(),
                         },
-                        of: Vec::new(),
+                        prepared_for: Vec::new(),
                         members: Vec::new(),
-                        lost: Vec::new(),
+                        first_failed: Vec::new(),
                         rows: vec![T::zero(); carried.len() * P::LANES as usize],
                         before: vec![carried.clone(); n],
                         shown: vec![carried.clone(); n],
@@ -196,10 +197,10 @@ where
             }
         }
         let Some(lanes) = lanes else { return };
-        lanes.of = of.into();
+        lanes.prepared_for = of.into();
         lanes.members = group.iter().map(|at| Some(*at)).collect();
         lanes.members.resize(P::LANES as usize, None);
-        lanes.lost = vec![None; P::LANES as usize];
+        lanes.first_failed = vec![None; P::LANES as usize];
         let starts: Vec<T> = group.iter().map(|at| members[*at].start.t).collect();
         gather::<L, T, P>(&starts, &mut lanes.clock.start);
         let last = group[group.len() - 1];
@@ -231,25 +232,26 @@ where
     ) {
         let most = if is_replay { 1 } else { BLOCK };
         // At first no step: deviations are made orthonormal at the start too.
-        let (mut made, mut turn, mut last_turn) = (0, 0, 0);
-        let is_volume = all.indicator == Indicator::Gali;
+        let (mut made, mut next_renormalisation, mut last_renormalisation) = (0, 0, 0);
+        let is_gali = all.indicator == Indicator::Gali;
         loop {
             if all.is_cancelled() {
                 return;
             }
-            let n = most.min(turn - made);
+            let n = most.min(next_renormalisation - made);
             if is_replay {
                 self.before.clone_from(&self.carried);
             }
-            let (is_finite, reached) = L::enter_at(Round {
+            let (is_finite, reached) = L::enter_at(DeviationBlock {
                 map: &self.map,
                 clock: self.clock,
                 made,
                 n,
                 // The volume is that of the deviations as they are at the end.
-                turns: made + n == turn && !(is_volume && turn == all.steps),
-                orthogonal: !is_volume,
-                last_turn,
+                renormalises: made + n == next_renormalisation
+                    && !(is_gali && next_renormalisation == all.steps),
+                orthogonal: !is_gali,
+                last_renormalisation,
                 carried: &mut self.carried,
                 shown: &mut self.shown,
                 work: &mut self.work,
@@ -260,20 +262,20 @@ where
                 megno: &mut self.megno,
             });
             if !is_finite {
-                self.note::<L>(scheme, all, (made, is_replay), &reached);
+                self.record_failures::<L>(scheme, all, (made, is_replay), &reached);
             }
             made += n;
-            if made < turn {
+            if made < next_renormalisation {
                 continue;
             }
-            if !is_finite && !self.part_with::<L>(is_replay, pending) {
+            if !is_finite && !self.remove_failed::<L>(is_replay, pending) {
                 return;
             }
             if made == all.steps {
-                return self.arrive::<L>(all, &reached);
+                return self.write_results::<L>(all, &reached);
             }
-            last_turn = turn;
-            turn = made.saturating_add(all.every).min(all.steps);
+            last_renormalisation = next_renormalisation;
+            next_renormalisation = made.saturating_add(all.every).min(all.steps);
         }
     }
 
@@ -281,7 +283,7 @@ where
     /// run, the first deviation counts that is not finite when they are made orthonormal next.
     #[cold]
     #[inline(never)]
-    fn note<L: Level>(
+    fn record_failures<L: Level>(
         &mut self,
         scheme: &M,
         all: &mut Deviations<'_, T, S>,
@@ -296,10 +298,10 @@ where
                 let Some(at) = self.members[lane].filter(|_| !finite.lane(lane as u32)) else {
                     continue;
                 };
-                if self.lost[lane].is_some_and(|first| first <= d) {
+                if self.first_failed[lane].is_some_and(|first| first <= d) {
                     continue;
                 }
-                self.lost[lane] = Some(d);
+                self.first_failed[lane] = Some(d);
                 if !is_replay {
                     continue;
                 }
@@ -315,7 +317,7 @@ where
                 };
                 let single = (&member.prepared, &member.start, all.step, clock);
                 let error = explain(scheme, single, (made, &words), &point, times[lane].to_f64());
-                member.found = Err(error);
+                member.result = Err(error);
             }
         }
     }
@@ -324,11 +326,11 @@ where
     /// computed there. Returns true if any is left.
     #[cold]
     #[inline(never)]
-    fn part_with<L: Level>(&mut self, is_replay: bool, pending: &mut Vec<usize>) -> bool {
+    fn remove_failed<L: Level>(&mut self, is_replay: bool, pending: &mut Vec<usize>) -> bool {
         let lanes = P::LANES as usize;
-        for (member, lost) in self.members.iter_mut().zip(&self.lost) {
-            let gone = member.take_if(|_| lost.is_some());
-            pending.extend(gone.filter(|_| !is_replay));
+        for (member, failed) in self.members.iter_mut().zip(&self.first_failed) {
+            let removed = member.take_if(|_| failed.is_some());
+            pending.extend(removed.filter(|_| !is_replay));
         }
         let Some(stand_in) = self.members.iter().position(Option::is_some) else {
             return false;
@@ -349,7 +351,7 @@ where
 
     /// Gives the members their numbers.
     #[inline(always)]
-    fn arrive<L: Level>(&mut self, all: &mut Deviations<'_, T, S>, reached: &T::Over<P>) {
+    fn write_results<L: Level>(&mut self, all: &mut Deviations<'_, T, S>, reached: &T::Over<P>) {
         let lanes = P::LANES as usize;
         let mut times = vec![T::zero(); lanes];
         scatter::<L, T, P>(reached, &mut times);
@@ -367,17 +369,17 @@ where
             let Some(member) = member.map(|at| &mut all.members[at]) else {
                 continue;
             };
-            let Ok(found) = &mut member.found else {
+            let Ok(result) = &mut member.result else {
                 continue;
             };
             let numbers = rows.chunks_exact(lanes).map(|row| row[lane].to_f64());
             let time = times[lane].to_f64() - member.start.t.to_f64();
             match all.indicator {
-                Indicator::Rates => found.extend(numbers.map(|sum| sum / time)),
-                Indicator::Megno => found.extend(numbers.map(|area| Megno::mean(area, all.steps))),
+                Indicator::Rates => result.extend(numbers.map(|sum| sum / time)),
+                Indicator::Megno => result.extend(numbers.map(|area| Megno::mean(area, all.steps))),
                 Indicator::Gali => {
                     let mut matrix: Vec<f64> = numbers.collect();
-                    found.push(volume(&mut matrix, all.count));
+                    result.push(volume(&mut matrix, all.count));
                 }
             }
         }
@@ -385,16 +387,16 @@ where
 }
 
 /// Some steps of all deviations in lanes, compiled at a level, out of line.
-struct Round<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
+struct DeviationBlock<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
     map: &'a R,
     clock: Clock<U>,
     made: u64,
     n: u64,
     /// True if deviations are made orthonormal after them, or of length 1.
-    turns: bool,
+    renormalises: bool,
     orthogonal: bool,
     /// The step at which they were so last.
-    last_turn: u64,
+    last_renormalisation: u64,
     carried: &'a mut [R::Carried],
     shown: &'a mut [R::Carried],
     work: &'a mut R::Work,
@@ -405,7 +407,7 @@ struct Round<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
     megno: &'a mut Megno<U>,
 }
 
-impl<L, R, U> KernelAt<L> for Round<'_, R, U>
+impl<L, R, U> KernelAt<L> for DeviationBlock<'_, R, U>
 where
     L: Level,
     R: Map<Carried: Carried<Scalar = U>>,
@@ -441,8 +443,8 @@ where
                 }
             }
         }
-        if self.turns {
-            let mut carried = InLanes(self.carried);
+        if self.renormalises {
+            let mut carried = CarriedColumns(self.carried);
             gram_schmidt(self.matrix, self.lengths, self.orthogonal, &mut carried);
             carried.align();
             if end > 0 {
@@ -450,7 +452,7 @@ where
                     let logarithm = length.ln().with_derivative(U::zero());
                     *sum += logarithm;
                     if d == 0 {
-                        self.megno.add([self.last_turn, end], logarithm);
+                        self.megno.add([self.last_renormalisation, end], logarithm);
                     }
                 }
             }
@@ -460,9 +462,9 @@ where
 }
 
 /// All that is carried for the deviations of lanes; derivative parts are linear in the deviation.
-struct InLanes<'a, C>(&'a mut [C]);
+struct CarriedColumns<'a, C>(&'a mut [C]);
 
-impl<C: Vector> InLanes<'_, C> {
+impl<C: Vector> CarriedColumns<'_, C> {
     /// Makes all values those of the first deviation, see
     /// [`Tangent::orthonormalise`](crate::tangents::Tangent::orthonormalise).
     #[inline(always)]
@@ -480,7 +482,7 @@ impl<C: Vector> InLanes<'_, C> {
     }
 }
 
-impl<C: Vector> Columns<C::Scalar> for InLanes<'_, C> {
+impl<C: Vector> Columns<C::Scalar> for CarriedColumns<'_, C> {
     #[inline(always)]
     fn combine(&mut self, to: usize, scale: C::Scalar, less: Option<(usize, C::Scalar)>) {
         let (before, carried) = self.0.split_at_mut(to);

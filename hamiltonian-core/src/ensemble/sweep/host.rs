@@ -3,7 +3,7 @@
 //! Input: indices. Output: a [`Batch`] of records. Invariant: a member's numbers depend on its index, the
 //! sweep and its seed alone.
 
-use super::{Aim, Sweep};
+use super::{EndPoint, Sweep};
 use crate::ensemble::Member;
 use crate::ensemble::guard::guard;
 use crate::ensemble::hash::hash_of;
@@ -20,7 +20,7 @@ use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
 /// A member on its way.
-struct Under<O> {
+struct ActiveMember<O> {
     member: Member,
     observer: O,
     is_attached: bool,
@@ -36,15 +36,15 @@ struct Under<O> {
 }
 
 /// `Break` if a member has come to its end: its state there, and true if its observer ended it.
-type Seen<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
+type Decision<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
 
 /// The members.
-pub(crate) struct Running<'r, 'a, S: System<f64>, O> {
+pub(crate) struct SweepHost<'r, 'a, S: System<f64>, O> {
     sweep: &'r Sweep<'a, S, O, Record<'a, S, O>>,
     indices: Range<usize>,
     /// The next one, counted from the first.
     next: usize,
-    under: Vec<Option<Under<O>>>,
+    active: Vec<Option<ActiveMember<O>>>,
     outcomes: Vec<Option<Outcome>>,
     /// A hash of each member made.
     hashes: Vec<u64>,
@@ -55,17 +55,17 @@ pub(crate) struct Running<'r, 'a, S: System<f64>, O> {
     cancelled: bool,
 }
 
-impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
+impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
     pub(crate) fn new(
         sweep: &'r Sweep<'a, S, O, Record<'a, S, O>>,
         indices: Range<usize>,
         hashes: bool,
     ) -> Self {
         let none = |_| None;
-        Running {
+        SweepHost {
             sweep,
             next: 0,
-            under: indices.clone().map(|_| None).collect(),
+            active: indices.clone().map(|_| None).collect(),
             outcomes: indices.clone().map(none).collect(),
             hashes: alloc::vec![0; if hashes { indices.len() } else { 0 }],
             indices,
@@ -125,12 +125,12 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
             interval: step * duration::<f64>(&sweep.engine.entry()),
         };
         self.varies = sweep.engine.varies(&prepared, &start, step);
-        let end = match &sweep.aim {
-            Aim::Each(end) => guard(|| end(member))?,
-            Aim::Until(end) => *end,
-            Aim::Steps(_) | Aim::Unknown => f64::NAN,
+        let end = match &sweep.end {
+            EndPoint::Each(end) => guard(|| end(member))?,
+            EndPoint::Until(end) => *end,
+            EndPoint::Steps(_) | EndPoint::Unknown => f64::NAN,
         };
-        let mut under = Under {
+        let mut active = ActiveMember {
             member,
             observer: guard(|| (sweep.observer)(member))?,
             is_attached: false,
@@ -140,25 +140,25 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
             recorded: 0,
             values: Vec::new(),
         };
-        self.aim(&mut under, clock, 0)?;
+        self.set_target(&mut active, clock, 0)?;
         // An observer that sees nothing need not be attached.
-        let looks = under.observer.interval() < u64::MAX;
-        let interval = under.observer.interval();
+        let observes = active.observer.interval() < u64::MAX;
+        let interval = active.observer.interval();
         // Reuses the storage of the previous run.
         let mut follows = match slot {
             Some(run) => core::mem::take(&mut run.follows),
             None => Follows::default(),
         };
-        Follower::take(&mut follows, |with| under.observer.follow(with));
+        Follower::take(&mut follows, |with| active.observer.follow(with));
         // Observers of signs have yet to find where functions come from.
         if !follows.sections.is_empty() {
             follows = Follows::default();
         }
         (follows.drifts.iter_mut()).for_each(|track| track.drift = None);
-        under.is_followed = !follows.is_empty();
-        under.is_attached = !looks || under.is_followed;
-        let stop = if under.is_attached {
-            self.stop(&under, 0)
+        active.is_followed = !follows.is_empty();
+        active.is_attached = !observes || active.is_followed;
+        let stop = if active.is_attached {
+            self.stop(&active, 0)
         } else {
             0
         };
@@ -171,7 +171,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
                 (run.key, run.clock, run.step) = (key, clock, step);
                 (run.made, run.stop) = (0, stop);
                 (run.follows, run.interval) = (follows, interval);
-                (run.since, run.seen) = (0, 0);
+                (run.since, run.received) = (0, 0);
             }
             None => {
                 *slot = Some(MemberRun {
@@ -186,61 +186,71 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
                     follows,
                     interval,
                     since: 0,
-                    seen: 0,
+                    received: 0,
                     state: start,
                 });
             }
         }
-        self.under[key] = Some(under);
+        self.active[key] = Some(active);
         Ok(())
     }
 
     /// The time at which a member is recorded next, if it is a time.
-    fn time(&self, under: &Under<O>) -> Option<f64> {
-        match (&self.sweep.record.times, &self.sweep.aim) {
-            (Some(times), _) => times.get(under.recorded).copied(),
-            (None, Aim::Steps(_)) => None,
-            (None, _) => Some(under.end),
+    fn time(&self, active: &ActiveMember<O>) -> Option<f64> {
+        match (&self.sweep.record.times, &self.sweep.end) {
+            (Some(times), _) => times.get(active.recorded).copied(),
+            (None, EndPoint::Steps(_)) => None,
+            (None, _) => Some(active.end),
         }
     }
 
     /// Sets the number of whole steps after which a member is recorded next.
-    fn aim(&self, under: &mut Under<O>, clock_of: Clock<f64>, made: u64) -> Result<(), Error> {
-        under.target = match (self.time(under), &self.sweep.aim) {
+    fn set_target(
+        &self,
+        active: &mut ActiveMember<O>,
+        clock_of: Clock<f64>,
+        made: u64,
+    ) -> Result<(), Error> {
+        active.target = match (self.time(active), &self.sweep.end) {
             (Some(t), _) if self.varies && t.is_finite() => None,
             (Some(t), _) => {
                 let (before, after) = clock_of.whole_steps(made, t, clock::<f64, S>())?;
                 Some(made + before.unwrap_or(after))
             }
-            (None, Aim::Steps(n)) => Some(*n),
+            (None, EndPoint::Steps(n)) => Some(*n),
             (None, _) => Some(made),
         };
         Ok(())
     }
 
     /// The next stop of a member.
-    fn stop(&self, under: &Under<O>, made: u64) -> u64 {
-        let interval = match under.is_followed {
+    fn stop(&self, active: &ActiveMember<O>, made: u64) -> u64 {
+        let interval = match active.is_followed {
             true => u64::MAX,
-            false => under.observer.interval().max(1),
+            false => active.observer.interval().max(1),
         };
         let due = (made / interval).saturating_add(1).saturating_mul(interval);
-        due.min(under.target.unwrap_or(made + 1))
+        due.min(active.target.unwrap_or(made + 1))
     }
 
     /// Shows a member its state. Returns its end, if it has come to one.
-    fn see(&self, under: &mut Under<O>, view: &View<'_, f64, S>) -> Result<Seen<S>, Error> {
-        let verdict = if !under.is_attached {
-            under.is_attached = true;
-            under.observer.attach(view)
-        } else if !under.is_followed && (view.step).is_multiple_of(under.observer.interval().max(1))
+    fn decide(
+        &self,
+        active: &mut ActiveMember<O>,
+        view: &View<'_, f64, S>,
+    ) -> Result<Decision<S>, Error> {
+        let verdict = if !active.is_attached {
+            active.is_attached = true;
+            active.observer.attach(view)
+        } else if !active.is_followed
+            && (view.step).is_multiple_of(active.observer.interval().max(1))
         {
-            under.observer.observe(view)
+            active.observer.observe(view)
         } else {
             ControlFlow::Continue(())
         };
         if verdict.is_break() {
-            let end = under.observer.end()?.unwrap_or(view.state).clone();
+            let end = active.observer.end()?.unwrap_or(view.state).clone();
             return Ok(ControlFlow::Break((end, true)));
         }
         let clock_of = Clock {
@@ -248,15 +258,15 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
             interval: view.between.interval(),
         };
         loop {
-            let Some(t) = self.time(under) else {
-                let is_there = under.target == Some(view.step);
+            let Some(t) = self.time(active) else {
+                let is_there = active.target == Some(view.step);
                 return Ok(match is_there {
                     true => ControlFlow::Break((view.state.clone(), false)),
                     false => ControlFlow::Continue(()),
                 });
             };
             let forward = view.between.interval() > 0.0;
-            let is_passed = match under.target {
+            let is_passed = match active.target {
                 Some(target) => target == view.step,
                 None if forward => view.state.t >= t,
                 None => view.state.t <= t,
@@ -264,7 +274,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
             if !is_passed {
                 return Ok(ControlFlow::Continue(()));
             }
-            let meets = match under.target {
+            let meets = match active.target {
                 Some(_) => clock_of.whole_steps(view.step, t, "")?.0.is_none(),
                 None => view.state.t.to_bits() == t.to_bits(),
             };
@@ -275,43 +285,43 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
             let Some(times) = &self.sweep.record.times else {
                 return Ok(ControlFlow::Break((state, false)));
             };
-            under.recorded += 1;
-            if under.recorded >= times.len() {
+            active.recorded += 1;
+            if active.recorded >= times.len() {
                 return Ok(ControlFlow::Break((state, false)));
             }
-            self.write(under, view, &state, false);
-            self.aim(under, clock_of, view.step)?;
+            self.write(active, view, &state, false);
+            self.set_target(active, clock_of, view.step)?;
         }
     }
 
     /// Writes the numbers of a member at a state.
     fn write(
         &self,
-        under: &mut Under<O>,
+        active: &mut ActiveMember<O>,
         view: &View<'_, f64, S>,
         state: &State<S::Vector>,
         stopped: bool,
     ) {
         let end = End {
-            member: under.member,
+            member: active.member,
             state,
-            observer: &under.observer,
+            observer: &active.observer,
             steps: view.step,
             stopped,
             prepared: view.prepared,
         };
-        (self.sweep.record.write)(&end, &mut under.values);
+        (self.sweep.record.write)(&end, &mut active.values);
     }
 
     /// Notes where a member has ended, and whether its observer did that. Returns that it does not go on.
     fn end(
         &mut self,
         key: usize,
-        under: &Under<O>,
+        active: &ActiveMember<O>,
         view: &View<'_, f64, S>,
         end: Result<(State<S::Vector>, bool), Error>,
     ) -> bool {
-        let values = &under.values;
+        let values = &active.values;
         match end {
             Ok((state, stopped)) => {
                 let status = match stopped {
@@ -361,7 +371,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
     }
 }
 
-impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O> {
+impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for SweepHost<'_, '_, S, O> {
     fn load(&mut self, slot: &mut Option<MemberRun<f64, S>>) -> bool {
         while self.next < self.indices.len() {
             if self.is_cancelled() {
@@ -380,63 +390,63 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O>
         false
     }
 
-    fn arrive(
+    fn receive(
         &mut self,
         key: usize,
         stop: &mut u64,
         follows: &mut Follows<f64>,
         view: &View<'_, f64, S>,
     ) -> bool {
-        let Some(mut under) = self.under[key].take() else {
+        let Some(mut active) = self.active[key].take() else {
             return false;
         };
-        let seen = guard(|| {
-            let seen = self.see(&mut under, view)?;
-            if let ControlFlow::Break((state, stopped)) = &seen {
-                self.write(&mut under, view, state, *stopped);
+        let decision = guard(|| {
+            let decision = self.decide(&mut active, view)?;
+            if let ControlFlow::Break((state, stopped)) = &decision {
+                self.write(&mut active, view, state, *stopped);
             }
-            Ok(seen)
+            Ok(decision)
         });
-        match seen.and_then(|seen| seen) {
+        match decision.and_then(|decision| decision) {
             Ok(ControlFlow::Continue(())) => {
-                if !under.is_followed && view.step == 0 {
-                    Follower::take(follows, |with| under.observer.follow(with));
-                    under.is_followed = !follows.is_empty();
+                if !active.is_followed && view.step == 0 {
+                    Follower::take(follows, |with| active.observer.follow(with));
+                    active.is_followed = !follows.is_empty();
                 }
-                *stop = self.stop(&under, view.step);
-                self.under[key] = Some(under);
+                *stop = self.stop(&active, view.step);
+                self.active[key] = Some(active);
                 true
             }
-            Ok(ControlFlow::Break(end)) => self.end(key, &under, view, Ok(end)),
-            Err(error) => self.end(key, &under, view, Err(error)),
+            Ok(ControlFlow::Break(end)) => self.end(key, &active, view, Ok(end)),
+            Err(error) => self.end(key, &active, view, Err(error)),
         }
     }
 
-    fn pass(&mut self, key: usize, view: &View<'_, f64, S>, quiet: bool) -> bool {
-        let Some(mut under) = self.under[key].take() else {
+    fn pass(&mut self, key: usize, view: &View<'_, f64, S>, signs_kept: bool) -> bool {
+        let Some(mut active) = self.active[key].take() else {
             return false;
         };
-        let passed = guard(|| match under.observer.pass(view, quiet) {
+        let passed = guard(|| match active.observer.pass(view, signs_kept) {
             ControlFlow::Continue(()) => Ok(None),
             ControlFlow::Break(()) => {
-                let end = under.observer.end()?.unwrap_or(view.state).clone();
-                self.write(&mut under, view, &end, true);
+                let end = active.observer.end()?.unwrap_or(view.state).clone();
+                self.write(&mut active, view, &end, true);
                 Ok(Some((end, true)))
             }
         });
         match passed.and_then(|passed| passed) {
             Ok(None) => {
-                self.under[key] = Some(under);
+                self.active[key] = Some(active);
                 true
             }
-            Ok(Some(end)) => self.end(key, &under, view, Ok(end)),
-            Err(error) => self.end(key, &under, view, Err(error)),
+            Ok(Some(end)) => self.end(key, &active, view, Ok(end)),
+            Err(error) => self.end(key, &active, view, Err(error)),
         }
     }
 
-    fn follow(&mut self, key: usize, follows: &mut Follows<f64>) {
-        if let Some(under) = &mut self.under[key] {
-            Follower::give(follows, |with| under.observer.follow(with));
+    fn take_drifts(&mut self, key: usize, follows: &mut Follows<f64>) {
+        if let Some(active) = &mut self.active[key] {
+            Follower::give(follows, |with| active.observer.follow(with));
         }
     }
 
@@ -447,7 +457,7 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O>
     fn leave(&mut self, _: &mut MemberRun<f64, S>) {}
 
     fn fail(&mut self, run: &mut MemberRun<f64, S>, error: Error) {
-        let values = self.under[run.key].take().map(|under| under.values);
+        let values = self.active[run.key].take().map(|active| active.values);
         let time = run.clock.at(run.made);
         let status = Status::of(&error, true);
         self.finish(
@@ -460,7 +470,7 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O>
         );
     }
 
-    fn looks(&self) -> bool {
+    fn observes(&self) -> bool {
         true
     }
 

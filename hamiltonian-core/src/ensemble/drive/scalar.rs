@@ -19,7 +19,7 @@ use hamiltonian_lanes::Real;
 
 /// Passes the members at their stops to the host.
 #[inline(never)]
-pub(super) fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
+pub(super) fn pass_to_host<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,
     occupants: &mut Occupants<T, S>,
     host: &mut dyn Host<T, S>,
@@ -43,9 +43,9 @@ pub(super) fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
             between: &part,
         };
         let follows = !run.follows.is_empty();
-        let stays = host.arrive(run.key, &mut run.stop, &mut run.follows, &view);
+        let stays = host.receive(run.key, &mut run.stop, &mut run.follows, &view);
         if !follows && !run.follows.is_empty() {
-            (run.since, run.seen) = (run.made, run.made);
+            (run.since, run.received) = (run.made, run.made);
             follows_other = true;
         }
         stays
@@ -56,7 +56,7 @@ pub(super) fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
 }
 
 /// States of lanes, for observers that follow signs.
-pub(super) struct Passing<'a, T> {
+pub(super) struct PassedStates<'a, T> {
     /// As [`Close`] writes them.
     pub(super) rows: &'a [T],
     pub(super) carries_duration: bool,
@@ -66,13 +66,13 @@ pub(super) struct Passing<'a, T> {
     pub(super) ahead: u64,
     /// The steps between these states and the last one.
     pub(super) back: u64,
-    pub(super) quiet: bool,
+    pub(super) signs_kept: bool,
 }
 
-impl<T: Real> Passing<'_, T> {
+impl<T: Real> PassedStates<'_, T> {
     /// Passes the states to the observers.
     #[inline(never)]
-    pub(super) fn show<S: System<T>, M: Scheme<T, S>>(
+    pub(super) fn pass<S: System<T>, M: Scheme<T, S>>(
         &self,
         scheme: &M,
         occupants: &mut Occupants<T, S>,
@@ -81,7 +81,7 @@ impl<T: Real> Passing<'_, T> {
         let recipe: &dyn Recipe<T, S, M::Map> = scheme;
         occupants.for_each_watched(|lane, run| {
             let step = (run.made + self.ahead).checked_sub(self.back);
-            let Some(step) = step.filter(|step| self.which[lane] && *step > run.seen) else {
+            let Some(step) = step.filter(|step| self.which[lane] && *step > run.received) else {
                 return true;
             };
             let mut rows = self.rows.chunks_exact(self.which.len());
@@ -93,7 +93,7 @@ impl<T: Real> Passing<'_, T> {
                 }
             }
             *t = next();
-            run.seen = step;
+            run.received = step;
             let part = Part {
                 prepared: &run.prepared,
                 recipe,
@@ -108,13 +108,13 @@ impl<T: Real> Passing<'_, T> {
                 prepared: &run.prepared,
                 between: &part,
             };
-            host.pass(run.key, &view, self.quiet)
+            host.pass(run.key, &view, self.signs_kept)
         });
     }
 }
 
 /// A member over its own scalar: its system, a state of its shape, its step, its time.
-pub(in crate::ensemble) type Alone<'a, T, S> = (
+pub(in crate::ensemble) type ScalarMember<'a, T, S> = (
     &'a <S as System<T>>::Prepared,
     &'a State<<S as System<T>>::Vector>,
     T,
@@ -126,7 +126,7 @@ pub(in crate::ensemble) type Alone<'a, T, S> = (
 #[inline(never)]
 pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,
-    (prepared, state, step, clock): Alone<'_, T, S>,
+    (prepared, state, step, clock): ScalarMember<'_, T, S>,
     (made, words): (u64, &[T]),
     point: &[f64],
     reached: f64,

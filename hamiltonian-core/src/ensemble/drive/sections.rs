@@ -4,9 +4,9 @@
 //! changed and the two before each. Invariant: the observers end in the state that they would have if they
 //! received every state.
 
-use super::alone::Passing;
 use super::rows::{gather, lanes_of, scatter, store};
-use super::{Lanes, each};
+use super::scalar::PassedStates;
+use super::{Lanes, number_of_each};
 use crate::ensemble::close::Close;
 use crate::ensemble::host::{Host, MemberRun};
 use crate::ensemble::occupants::Occupants;
@@ -32,7 +32,7 @@ where
 {
     /// Loads the functions whose sign is followed for at least one member into lanes.
     #[inline(always)]
-    pub(super) fn watch<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
+    pub(super) fn load_sections<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
         self.watchers.clear();
         self.watchers_before.clear();
         self.functions.clear();
@@ -53,7 +53,8 @@ where
                 let own = own.find(|section| section.is_of(function));
                 own.map_or(T::zero(), number)
             };
-            let in_lanes = |number: fn(&Section<T>) -> T| each(runs, |run| of(run, number));
+            let in_lanes =
+                |number: fn(&Section<T>) -> T| number_of_each(runs, |run| of(run, number));
             let period = function.period.map(T::spread::<P>);
             self.watchers
                 .push(Watcher::new(function.observable, period));
@@ -100,7 +101,7 @@ where
     /// Passes the marked steps of a block of `n`, in their order, to the observers that follow signs, and the
     /// last step to those of members at their stops.
     #[inline(always)]
-    pub(super) fn show_marks<L: Level>(
+    pub(super) fn pass_marked<L: Level>(
         &mut self,
         scheme: &M,
         n: u64,
@@ -110,8 +111,8 @@ where
         let steps = core::mem::take(&mut self.marks.steps);
         for (mark, (step, lanes)) in steps.iter().enumerate() {
             let which: Vec<bool> = (0..P::LANES).map(|lane| lanes.lane(lane)).collect();
-            self.three.clone_from(self.marks.states(mark));
-            self.show::<L>(scheme, *step, (false, &which), occupants, host);
+            self.last_three.clone_from(self.marks.states(mark));
+            self.pass_states::<L>(scheme, *step, (false, &which), occupants, host);
         }
         self.marks.steps = steps;
         if occupants.is_any_watched_due(n) {
@@ -120,44 +121,44 @@ where
                 which[lane] = run.made + n == run.stop;
                 true
             });
-            self.marks.last(&mut self.three);
-            self.show::<L>(scheme, self.made + n, (true, &which), occupants, host);
+            self.marks.copy_last(&mut self.last_three);
+            self.pass_states::<L>(scheme, self.made + n, (true, &which), occupants, host);
         }
     }
 
     /// Passes the states after a step and the two before to the observers of some lanes, except those already
-    /// received. `three` has their carried values; `quiet` is true if no sign changed at the last.
+    /// received. `last_three` has their carried values; `signs_kept` is true if no sign changed at the last.
     #[inline(never)]
-    pub(super) fn show<L: Level>(
+    pub(super) fn pass_states<L: Level>(
         &mut self,
         scheme: &M,
         step: u64,
-        (quiet, which): (bool, &[bool]),
+        (signs_kept, which): (bool, &[bool]),
         occupants: &mut Occupants<T, S>,
         host: &mut dyn Host<T, S>,
     ) {
         let ahead = step - self.made;
-        for (back, carried) in [2, 1, 0].into_iter().zip(&self.three) {
+        for (back, carried) in [2, 1, 0].into_iter().zip(&self.last_three) {
             let (carries_duration, _) = L::enter_at(Close::<'_, _, T, P> {
                 map: &self.map,
                 times: &self.times,
                 made: step.wrapping_sub(back),
                 carried,
-                shown: &mut self.passing,
-                rows: &mut self.passing_rows,
+                shown: &mut self.passed,
+                rows: &mut self.passed_rows,
             });
-            let passing = Passing {
-                rows: &self.passing_rows,
+            let passed = PassedStates {
+                rows: &self.passed_rows,
                 carries_duration,
                 which,
                 ahead,
                 back,
-                quiet: quiet || back > 0,
+                signs_kept: signs_kept || back > 0,
             };
-            passing.show(scheme, occupants, host);
+            passed.pass(scheme, occupants, host);
         }
         if occupants.is_any_leaving() {
-            store::<L, T, P, _>(&self.three[2], &mut self.rows);
+            store::<L, T, P, _>(&self.last_three[2], &mut self.rows);
             occupants.leave(&self.rows, host);
         }
     }

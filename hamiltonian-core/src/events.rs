@@ -11,7 +11,7 @@ pub use event::Event;
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
-use crate::observe::{Follower, Observer, Section, View, one_trajectory};
+use crate::observe::{FollowVisitor, Observer, Section, View, one_trajectory};
 use crate::root::{Sample, dip, root, side};
 use crate::state::State;
 use crate::system::{Dynamics, Observable, System};
@@ -84,12 +84,12 @@ pub struct Located<V: Vector> {
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,
     /// The history of each function: as many as there are events, once attached.
-    tracks: Vec<Track<V::Scalar>>,
+    histories: Vec<History<V::Scalar>>,
     /// The last step and the state after it.
     before: Option<(u64, State<V>)>,
     located: Vec<Located<V>>,
     /// Events of the last step after the one that ended the run.
-    left: VecDeque<Located<V>>,
+    pending: VecDeque<Located<V>>,
     end: Option<State<V>>,
     failure: Option<Error>,
 }
@@ -97,7 +97,7 @@ pub struct Events<V: Vector> {
 /// A function's value after a step, and its past: besides the last sign that is not 0, the values after two
 /// steps alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Track<T> {
+struct History<T> {
     /// The index of an observable; none for a closure.
     observable: Option<usize>,
     /// The value of the event there.
@@ -110,11 +110,11 @@ struct Track<T> {
     count: u64,
 }
 
-impl<T: Real> Track<T> {
+impl<T: Real> History<T> {
     /// Goes on to a value after the next step.
-    fn move_on<V: Vector<Scalar = T>>(&mut self, event: &Event<V>, value: T) {
-        let counted = event.counted(self.value, value);
-        self.change = counted - self.value;
+    fn advance<V: Vector<Scalar = T>>(&mut self, event: &Event<V>, value: T) {
+        let unwrapped = event.unwrapped(self.value, value);
+        self.change = unwrapped - self.value;
         self.value = event.difference(value);
         match side(self.value) {
             0 if value.is_finite() => {}
@@ -142,10 +142,10 @@ impl<V: Vector> Events<V> {
     pub fn new(events: impl IntoIterator<Item = Event<V>>) -> Self {
         Events {
             events: events.into_iter().collect(),
-            tracks: Vec::new(),
+            histories: Vec::new(),
             before: None,
             located: Vec::new(),
-            left: VecDeque::new(),
+            pending: VecDeque::new(),
             end: None,
             failure: None,
         }
@@ -164,9 +164,9 @@ impl<V: Vector> Events<V> {
 
     /// The number of located events of that name.
     pub fn count(&self, name: &str) -> u64 {
-        let events = self.events.iter().zip(&self.tracks);
+        let events = self.events.iter().zip(&self.histories);
         let of_name = events.filter(|(event, _)| event.name == name);
-        of_name.map(|(_, track)| track.count).sum()
+        of_name.map(|(_, history)| history.count).sum()
     }
 
     /// The value of an event at a state.
@@ -191,24 +191,24 @@ impl<V: Vector> Events<V> {
         // A step back tells where functions come from; a run may begin where there is none.
         let back = V::Scalar::zero() - view.between.interval();
         let before = view.between.part(view.state, back).ok();
-        self.tracks.clear();
+        self.histories.clear();
         for (number, event) in self.events.iter().enumerate() {
             let observable = S::observable_index(&event.name);
             if event.function.is_none() && observable.is_none() {
-                return Err(self.refuse(number, unknown(&event.name, S::OBSERVABLES)));
+                return Err(self.error(number, unknown(&event.name, S::OBSERVABLES)));
             }
             if event
                 .period
                 .is_some_and(|period| side(period) <= 0 || !period.is_finite())
             {
-                return Err(self.refuse(number, "its period is not positive and finite"));
+                return Err(self.error(number, "its period is not positive and finite"));
             }
             let at = |state| Self::value::<S>(event, observable, view.prepared, state);
             let value = event.difference(at(view.state));
             let before = before
                 .as_ref()
                 .map(|before| event.difference(value - at(before)));
-            self.tracks.push(Track {
+            self.histories.push(History {
                 observable,
                 value,
                 change: (before.filter(|change| change.is_finite())).unwrap_or(V::Scalar::zero()),
@@ -219,7 +219,7 @@ impl<V: Vector> Events<V> {
         Ok(())
     }
 
-    fn refuse(&self, event: usize, reason: impl Into<String>) -> Error {
+    fn error(&self, event: usize, reason: impl Into<String>) -> Error {
         let name = self.events.get(event).map(|event| event.name.clone());
         Error::Event {
             name: name.unwrap_or_default(),
@@ -252,24 +252,25 @@ impl<V: Vector> Events<V> {
             Ok(state)
         };
         let mut found: Vec<(V::Scalar, Located<V>)> = Vec::new();
-        for (number, (event, track)) in self.events.iter().zip(&mut self.tracks).enumerate() {
-            let at =
-                |state: &State<V>| Self::value::<S>(event, track.observable, view.prepared, state);
+        for (number, (event, history)) in self.events.iter().zip(&mut self.histories).enumerate() {
+            let at = |state: &State<V>| {
+                Self::value::<S>(event, history.observable, view.prepared, state)
+            };
             // Counted on from the value before, angles do not jump.
-            let from = track.value;
-            let counted = |value| event.counted(from, value);
+            let from = history.value;
+            let unwrapped = |value| event.unwrapped(from, value);
             let here = at(view.state);
-            let value = counted(here);
-            let mut function = |theta| Ok(counted(at(&part(theta)?)));
+            let value = unwrapped(here);
+            let mut function = |theta| Ok(unwrapped(at(&part(theta)?)));
             let start = Sample {
                 at: zero,
                 value: from,
             };
             let end = Sample { at: one, value };
-            let (now, was) = (side(value), track.side);
+            let (now, was) = (side(value), history.side);
             // Towards 0, in two steps.
             let towards = V::Scalar::constant(-2.0 * f64::from(was), 0.0);
-            let (fell, falls) = (towards * track.change, towards * (value - from));
+            let (fell, falls) = (towards * history.change, towards * (value - from));
             let is_convex = (falls + falls).lt(fell).any();
             let may_dip = was != 0 && now == was && is_convex && from.abs().lt(fell).any();
             let mut ends = Vec::new();
@@ -304,21 +305,21 @@ impl<V: Vector> Events<V> {
                 };
                 found.push((sample.at, located));
             }
-            track.move_on(event, here);
+            history.advance(event, here);
         }
         // Stable: simultaneous events come in their own order.
         found.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
-        self.left
+        self.pending
             .extend(found.into_iter().map(|(_, located)| located));
         Ok(())
     }
 
     /// Counts what happened, up to an event that ends the run.
-    fn count_up(&mut self) -> ControlFlow<()> {
-        while let Some(located) = self.left.pop_front() {
+    fn record(&mut self) -> ControlFlow<()> {
+        while let Some(located) = self.pending.pop_front() {
             let number = located.event;
-            self.tracks[number].count += 1;
-            let ends = self.events[number].ends_after == Some(self.tracks[number].count);
+            self.histories[number].count += 1;
+            let ends = self.events[number].ends_after == Some(self.histories[number].count);
             self.end = ends.then(|| located.state.clone());
             self.located.push(located);
             if ends {
@@ -334,10 +335,10 @@ impl<V: Vector> Events<V> {
     }
 
     /// Goes on to a state at whose step nothing happened.
-    fn pass_over<S: System<V::Scalar, Vector = V>>(&mut self, view: &View<'_, V::Scalar, S>) {
-        for (event, track) in self.events.iter().zip(&mut self.tracks) {
-            let value = Self::value::<S>(event, track.observable, view.prepared, view.state);
-            track.move_on(event, value);
+    fn skip<S: System<V::Scalar, Vector = V>>(&mut self, view: &View<'_, V::Scalar, S>) {
+        for (event, history) in self.events.iter().zip(&mut self.histories) {
+            let value = Self::value::<S>(event, history.observable, view.prepared, view.state);
+            history.advance(event, value);
         }
         match &mut self.before {
             Some((step, state)) => {
@@ -375,45 +376,47 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         // A run that ended between two steps may begin anew there, with another step.
         let is_there = |end: &State<S::Vector>| end.t.equals(view.between.start()).all();
         if let Some(end) = self.end.take().filter(is_there) {
-            self.left.clear();
+            self.pending.clear();
             let last = self.located.last().map(|located| located.event);
-            for (number, (event, track)) in self.events.iter().zip(&mut self.tracks).enumerate() {
-                let value = Self::value::<S>(event, track.observable, view.prepared, &end);
-                (track.value, track.change) = (event.difference(value), T::zero());
+            for (number, (event, history)) in
+                self.events.iter().zip(&mut self.histories).enumerate()
+            {
+                let value = Self::value::<S>(event, history.observable, view.prepared, &end);
+                (history.value, history.change) = (event.difference(value), T::zero());
                 if last != Some(number) {
-                    track.side = side(track.value);
+                    history.side = side(history.value);
                 }
             }
             before = end;
         }
         let made = match view.step == step + 1 {
             true => self.step(view, &before),
-            false => Err(self.refuse(0, "it is shown less than every step")),
+            false => Err(self.error(0, "it is shown less than every step")),
         };
         before.clone_from(view.state);
         self.before = Some((view.step, before));
         match made {
-            Ok(()) => self.count_up(),
+            Ok(()) => self.record(),
             Err(error) => self.fail(error),
         }
     }
 
-    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
         // A closure is a function of one member's state. Where functions come from at the first state is found by
         // a step back.
         let is_named = self.events.iter().all(|event| event.function.is_none());
-        if !is_named || self.failure.is_some() || self.tracks.len() != self.events.len() {
+        if !is_named || self.failure.is_some() || self.histories.len() != self.events.len() {
             return false;
         }
-        for (event, track) in self.events.iter().zip(&self.tracks) {
-            let Some(observable) = track.observable else {
+        for (event, history) in self.events.iter().zip(&self.histories) {
+            let Some(observable) = history.observable else {
                 return false;
             };
-            with.section(Section {
+            visitor.section(Section {
                 observable,
                 period: event.period,
-                value: track.value,
-                change: track.change,
+                value: history.value,
+                change: history.change,
                 ends: event.ends_after.is_some(),
             });
         }
@@ -422,7 +425,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
 
     fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
         if signs_kept {
-            self.pass_over(view);
+            self.skip(view);
             return ControlFlow::Continue(());
         }
         <Self as Observer<T, S>>::observe(self, view)
@@ -430,22 +433,22 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
 
     fn save(&self, to: &mut Memory) {
         to.begin("Events");
-        to.count(self.tracks.len() as u64);
-        for (event, track) in self.events.iter().zip(&self.tracks) {
+        to.count(self.histories.len() as u64);
+        for (event, history) in self.events.iter().zip(&self.histories) {
             to.text(&event.text());
-            to.scalar(track.value);
-            to.scalar(track.change);
-            to.number(f64::from(track.side));
-            to.count(track.count);
+            to.scalar(history.value);
+            to.scalar(history.change);
+            to.number(f64::from(history.side));
+            to.count(history.count);
         }
         let before = self.before.as_ref();
         to.count(before.map_or(0, |(step, _)| *step));
         to.option(before.map(|(_, state)| state));
         to.option(self.end.as_ref());
-        for list in [self.located.len(), self.left.len()] {
+        for list in [self.located.len(), self.pending.len()] {
             to.count(list as u64);
         }
-        for located in self.located.iter().chain(&self.left) {
+        for located in self.located.iter().chain(&self.pending) {
             to.count(located.event as u64);
             to.count(u64::from(located.rising));
             to.state(&located.state);
@@ -455,13 +458,13 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
     fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Events")?;
         self.begin(view)?;
-        from.expect_count("number of events", self.tracks.len())?;
-        for (event, track) in self.events.iter().zip(&mut self.tracks) {
+        from.expect_count("number of events", self.histories.len())?;
+        for (event, history) in self.events.iter().zip(&mut self.histories) {
             from.expect_text("event", &event.text())?;
-            track.value = from.read_scalar()?;
-            track.change = from.read_scalar()?;
-            track.side = from.read_number()? as i8;
-            track.count = from.read_count()?;
+            history.value = from.read_scalar()?;
+            history.change = from.read_scalar()?;
+            history.side = from.read_number()? as i8;
+            history.count = from.read_count()?;
         }
         let step = from.read_count()?;
         self.before = from.read_option(view.state)?.map(|state| (step, state));
@@ -478,7 +481,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
             (0..count).map(one).collect::<Result<Vec<_>, Error>>()
         };
         self.located = read(lists[0])?;
-        self.left = read(lists[1])?.into();
+        self.pending = read(lists[1])?.into();
         Ok(())
     }
 

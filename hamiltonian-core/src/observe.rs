@@ -13,12 +13,12 @@ mod section;
 pub use deviation::Deviation;
 pub use drift::{EnergyDrift, Monitor, Monitors};
 
-pub(crate) use follow::Tracker;
+pub(crate) use follow::LaneDrift;
 #[doc(hidden)]
-pub use follow::{Follower, Follows};
+pub use follow::{FollowVisitor, FollowedQuantities};
 #[doc(hidden)]
 pub use quantity::Quantity;
-pub(crate) use section::{Section, Watcher};
+pub(crate) use section::{LaneSection, Section};
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
@@ -101,7 +101,7 @@ pub trait Observer<T: Real, S: System<T>> {
     /// at multiples of its interval, and the changes of their signs. Ensembles then follow them in
     /// lanes.
     #[doc(hidden)]
-    fn follow(&mut self, _: &mut Follower<T>) -> bool {
+    fn follow(&mut self, _: &mut FollowVisitor<T>) -> bool {
         false
     }
     /// Shows an observer whose changes of signs lanes follow the state after a step, in the order of the run:
@@ -252,9 +252,9 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
         self.inner.end()
     }
-    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
         // Signs are followed from step to step alone.
-        self.inner.follow(with) && (self.steps == 1 || !with.has_sections())
+        self.inner.follow(visitor) && (self.steps == 1 || !visitor.has_sections())
     }
     fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
         self.inner.pass(view, signs_kept)
@@ -280,8 +280,8 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
         (**self).end()
     }
-    fn follow(&mut self, with: &mut Follower<T>) -> bool {
-        (**self).follow(with)
+    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
+        (**self).follow(visitor)
     }
     fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
         (**self).pass(view, signs_kept)
@@ -299,7 +299,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for () {
     fn restore(&mut self, _: &View<'_, T, S>, _: &mut Memory) -> Result<(), Error> {
         Ok(())
     }
-    fn follow(&mut self, _: &mut Follower<T>) -> bool {
+    fn follow(&mut self, _: &mut FollowVisitor<T>) -> bool {
         true
     }
 }
@@ -351,10 +351,10 @@ macro_rules! tuple {
                 $(end = end.or(self.$index.end()?);)+
                 Ok(end)
             }
-            fn follow(&mut self, with: &mut Follower<T>) -> bool {
+            fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
                 let interval = <Self as Observer<T, S>>::interval(self);
                 let same = |of: u64| of == interval || of == u64::MAX;
-                $(if !same(self.$index.interval()) || !self.$index.follow(with) {
+                $(if !same(self.$index.interval()) || !self.$index.follow(visitor) {
                     return false;
                 })+
                 true

@@ -6,7 +6,7 @@
 
 use super::marks::Marks;
 use crate::map::{self, Map};
-use crate::observe::{Quantity, Tracker, Watcher};
+use crate::observe::{LaneDrift, LaneSection, Quantity};
 use crate::state::Carried;
 use crate::system::{Dynamics, System, declared_energy_at};
 use crate::vector::Vector;
@@ -73,11 +73,11 @@ impl<U: Real> LaneSchedule<U> {
 /// The quantities that a block evaluates for observers.
 pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) prepared: &'a S::Prepared,
-    pub(crate) trackers: &'a mut [Tracker<U>],
+    pub(crate) drifts: &'a mut [LaneDrift<U>],
     /// The functions whose sign is followed. If there are any, states are evaluated after every step.
-    pub(crate) watchers: &'a mut [Watcher<U>],
+    pub(crate) sections: &'a mut [LaneSection<U>],
     /// The lanes whose observers follow signs.
-    pub(crate) watched: U::Mask,
+    pub(crate) section_lanes: U::Mask,
     /// True if H is followed.
     pub(crate) energy: bool,
     /// True if any of them depends on what the closing piece changes.
@@ -95,8 +95,8 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
 impl<U: Real, S: System<U>> Followed<'_, U, S> {
     /// Returns true if signs are followed in this block.
     #[inline(always)]
-    fn watches(&self) -> bool {
-        !self.watchers.is_empty() && self.attach.is_none()
+    fn has_sections(&self) -> bool {
+        !self.sections.is_empty() && self.attach.is_none()
     }
 
     /// Evaluates the followed quantities after step `k`, at the time `t`. If signs are followed, `marks` has the
@@ -113,36 +113,36 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             (Some(lanes), None) => Some(lanes.due(self.interval)),
             _ => None,
         };
-        let watches = self.watches();
+        let has_sections = self.has_sections();
         let (t, point) = (shown.time(t), shown.point());
         // Outside the loop: the compiler would hoist H out of it, and evaluate it for all quantities.
         if self.energy {
             let value = declared_energy_at::<U, S>(self.prepared, t, &point.q, &point.p);
-            for tracker in &mut *self.trackers {
-                if tracker.quantity == Quantity::Energy {
-                    tracker.follow(self.attach, due, value);
+            for drift in &mut *self.drifts {
+                if drift.quantity == Quantity::Energy {
+                    drift.follow(self.attach, due, value);
                 }
             }
         }
         let mut is_any_marked = false;
         // A single call evaluates all quantities: each further call would inline a copy of every observable,
         // whose length is proportional to the width of the pack.
-        let drifts = self.trackers.len();
-        let all = drifts + if watches { self.watchers.len() } else { 0 };
+        let count = self.drifts.len();
+        let all = count + if has_sections { self.sections.len() } else { 0 };
         for at in 0..all {
-            let index = match self.trackers.get(at).map(|tracker| tracker.quantity) {
+            let index = match self.drifts.get(at).map(|drift| drift.quantity) {
                 Some(Quantity::Energy) => continue,
                 Some(Quantity::Observable(index)) => index,
-                None => self.watchers[at - drifts].observable,
+                None => self.sections[at - count].observable,
             };
             let value = self.prepared.observable(index, t, &point.q, &point.p);
-            if at < drifts {
-                self.trackers[at].follow(self.attach, due, value);
+            if at < count {
+                self.drifts[at].follow(self.attach, due, value);
                 continue;
             }
-            let watcher = &mut self.watchers[at - drifts];
-            if !watcher.try_skip(value, self.watched) {
-                let lanes = watcher.lanes_to_mark(value) & self.watched;
+            let section = &mut self.sections[at - count];
+            if !section.try_skip(value, self.section_lanes) {
+                let lanes = section.lanes_to_mark(value) & self.section_lanes;
                 if lanes.any() {
                     marks.to_mark = marks.to_mark | lanes;
                     is_any_marked = true;
@@ -199,14 +199,14 @@ where
         } = self;
         let times = *times;
         let mut end = made + n;
-        let watches = !followed.watchers.is_empty();
-        let follows = watches || !followed.trackers.is_empty();
+        let has_sections = !followed.sections.is_empty();
+        let follows_any = has_sections || !followed.drifts.is_empty();
         // A local variable stays in registers in the loop.
         let mut z = spare.take();
         z.copy_from(carried);
         let mut k = made;
         // The next step whose state observers receive.
-        let mut due = match n > 0 && follows {
+        let mut due = match n > 0 && follows_any {
             true => made.saturating_add(followed.first),
             false => u64::MAX,
         };
@@ -221,7 +221,7 @@ where
             // Local to one iteration.
             let mut closed = shown.take();
             if stops {
-                if k == due && followed.watches() {
+                if k == due && followed.has_sections() {
                     marks.add(&z);
                 }
                 if k == end {

@@ -8,7 +8,7 @@ use super::guard::guard;
 use super::host::{Host, MemberRun};
 use crate::error::Error;
 use crate::map::Clock;
-use crate::observe::{Follower, Follows, Observer, View};
+use crate::observe::{FollowVisitor, FollowedQuantities, Observer, View};
 use crate::state::State;
 use crate::system::System;
 use crate::vector::Vector;
@@ -184,7 +184,7 @@ pub(crate) struct ChunkHost<'a, S: System<f64>, O, F> {
     /// True if observers receive their first state.
     pub(crate) attaches: bool,
     /// True if the lanes evaluate the quantities that observers follow.
-    pub(crate) follows: bool,
+    pub(crate) evaluates_in_lanes: bool,
     pub(crate) receive: F,
 }
 
@@ -229,13 +229,13 @@ where
 
     /// Writes the quantities that lanes evaluate for a member whose observer receives states. There are none
     /// unless the lanes evaluate all that the observer follows.
-    fn list_followed(&mut self, key: usize, into: &mut Follows<f64>) {
+    fn list_followed(&mut self, key: usize, into: &mut FollowedQuantities<f64>) {
         let observer = &mut self.chunk.observers[key];
-        let can = self.follows;
-        Follower::take(into, |with| can && observer.follow(with));
+        let evaluates = self.evaluates_in_lanes;
+        FollowVisitor::list(into, |visitor| evaluates && observer.follow(visitor));
         // An observer without its first state has no previous values of the functions whose sign it follows.
         if self.attaches && !into.sections.is_empty() {
-            *into = Follows::default();
+            *into = FollowedQuantities::default();
         }
         if self.attaches {
             into.drifts.iter_mut().for_each(|track| track.drift = None);
@@ -259,12 +259,12 @@ where
         }
         self.next += 1;
         // Reuses the storage of the previous run.
-        let mut follows = Follows::default();
+        let mut followed = FollowedQuantities::default();
         if self.observes {
             if let Some(run) = slot {
-                core::mem::swap(&mut run.follows, &mut follows);
+                core::mem::swap(&mut run.followed, &mut followed);
             }
-            self.list_followed(key, &mut follows);
+            self.list_followed(key, &mut followed);
         }
         let (Some(prepared), Some(start), Some(template)) = (
             self.chunk.prepared.get(key),
@@ -275,7 +275,7 @@ where
         };
         let made = self.common.steps;
         let interval = self.chunk.observers[key].interval();
-        let stop = match follows.is_empty() {
+        let stop = match followed.is_empty() {
             true => self.stop(key, made),
             false => self.target,
         };
@@ -293,7 +293,7 @@ where
                 }
                 run.words.copy_from_slice(words);
                 (run.key, run.clock, run.made, run.stop) = (key, clock, made, stop);
-                (run.follows, run.interval) = (follows, interval);
+                (run.followed, run.interval) = (followed, interval);
                 (run.since, run.received) = (made, made);
             }
             None => {
@@ -306,7 +306,7 @@ where
                     made,
                     stop,
                     words: words.into(),
-                    follows,
+                    followed,
                     interval,
                     since: made,
                     received: made,
@@ -321,11 +321,11 @@ where
         &mut self,
         key: usize,
         stop: &mut u64,
-        follows: &mut Follows<f64>,
+        followed: &mut FollowedQuantities<f64>,
         view: &View<'_, f64, S>,
     ) -> bool {
         // The lanes have evaluated its quantities up to the target.
-        if !follows.is_empty() {
+        if !followed.is_empty() {
             return false;
         }
         let observer = &mut self.chunk.observers[key];
@@ -353,9 +353,9 @@ where
         }
     }
 
-    fn take_drifts(&mut self, key: usize, follows: &mut Follows<f64>) {
+    fn take_drifts(&mut self, key: usize, followed: &mut FollowedQuantities<f64>) {
         let observer = &mut self.chunk.observers[key];
-        Follower::give(follows, |with| observer.follow(with));
+        FollowVisitor::write_back(followed, |visitor| observer.follow(visitor));
     }
 
     fn phase(&self) -> u64 {

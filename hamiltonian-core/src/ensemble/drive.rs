@@ -20,7 +20,7 @@ use super::marks::{LastThree, Marks};
 use super::occupants::Occupants;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
-use crate::observe::{Quantity, Section, Tracker, Watcher};
+use crate::observe::{LaneDrift, LaneSection, Quantity, Section};
 use crate::scheme::Scheme;
 use crate::state::Carried;
 use crate::system::System;
@@ -81,10 +81,10 @@ where
                 None => occupants.steps(BLOCK, host),
             };
             lanes.before.copy_from(&lanes.carried);
-            lanes.trackers_before.copy_from_slice(&lanes.trackers);
-            let watches = !lanes.watchers.is_empty();
-            if watches {
-                lanes.watchers_before.copy_from_slice(&lanes.watchers);
+            lanes.drifts_before.copy_from_slice(&lanes.drifts);
+            let has_sections = !lanes.sections.is_empty();
+            if has_sections {
+                lanes.sections_before.copy_from_slice(&lanes.sections);
                 lanes.marks.copy_last(&mut lanes.last_three);
                 lanes.marks.steps.clear();
             }
@@ -97,9 +97,9 @@ where
             }
             let followed: Followed<'_, T::Over<P>, S> = Followed {
                 prepared: &lanes.prepared,
-                trackers: &mut lanes.trackers,
-                watchers: &mut lanes.watchers,
-                watched: lanes.watched,
+                drifts: &mut lanes.drifts,
+                sections: &mut lanes.sections,
+                section_lanes: lanes.section_lanes,
                 energy,
                 closes,
                 first: schedule.first,
@@ -140,7 +140,7 @@ where
             if !finite.all() {
                 lanes.remove_failed::<L>(self, finite, &mut occupants, host);
             }
-            if watches {
+            if has_sections {
                 lanes.pass_marked::<L>(self, n, &mut occupants, host);
             }
             occupants.made(n);
@@ -174,15 +174,15 @@ where
     /// Steps since the occupants last changed.
     made: u64,
     /// The drifts that are followed, and those at the beginning of the block.
-    trackers: Vec<Tracker<T::Over<P>>>,
-    trackers_before: Vec<Tracker<T::Over<P>>>,
+    drifts: Vec<LaneDrift<T::Over<P>>>,
+    drifts_before: Vec<LaneDrift<T::Over<P>>>,
     /// The functions whose sign is followed, and those at the beginning of the block.
-    watchers: Vec<Watcher<T::Over<P>>>,
-    watchers_before: Vec<Watcher<T::Over<P>>>,
+    sections: Vec<LaneSection<T::Over<P>>>,
+    sections_before: Vec<LaneSection<T::Over<P>>>,
     /// The same functions over the members' scalar.
-    functions: Vec<Section<T>>,
+    member_sections: Vec<Section<T>>,
     /// The lanes whose observers follow signs.
-    watched: MaskIn<T, P>,
+    section_lanes: MaskIn<T, P>,
     marks: Marks<CarriedIn<T, S, P, M>, MaskIn<T, P>>,
     /// The carried values after the three steps before the block.
     last_three: LastThree<CarriedIn<T, S, P, M>>,
@@ -232,12 +232,12 @@ where
             before: cloned(&carried),
             marks: Marks::new([cloned(&carried), cloned(&carried), cloned(&carried)]),
             last_three: [cloned(&carried), cloned(&carried), cloned(&carried)],
-            watchers: Vec::new(),
-            watchers_before: Vec::new(),
-            functions: Vec::new(),
+            sections: Vec::new(),
+            sections_before: Vec::new(),
+            member_sections: Vec::new(),
             passed: cloned(&carried),
             passed_rows: Vec::new(),
-            watched: Mask::splat(false),
+            section_lanes: Mask::splat(false),
             shown: cloned(&carried),
             rows: vec![T::default(); carried.len() * P::LANES as usize],
             numbers: Vec::with_capacity(runs.len()),
@@ -245,8 +245,8 @@ where
             times: Times::default(),
             opening: Opening::Open,
             prepared,
-            trackers: Vec::new(),
-            trackers_before: Vec::new(),
+            drifts: Vec::new(),
+            drifts_before: Vec::new(),
             attach: None,
             schedule: LaneSchedule::default(),
             made: 0,
@@ -270,7 +270,7 @@ where
         let Some(changed) = occupants.changed() else {
             return;
         };
-        self.write_sections::<L>(&self.watchers, occupants);
+        self.write_sections::<L>(&self.sections, occupants);
         store::<L, T, P, _>(&self.carried, &mut self.rows);
         occupants.write_columns(&mut self.rows);
         let runs = occupants.runs();
@@ -316,10 +316,10 @@ where
 
     /// The quantities that are followed.
     fn quantities(&self) -> impl Iterator<Item = Quantity> {
-        let trackers = self.trackers.iter().map(|tracker| tracker.quantity);
-        let watchers = self.watchers.iter().map(|watcher| watcher.observable);
-        let watchers = watchers.map(Quantity::Observable);
-        trackers.chain(watchers)
+        let drifts = self.drifts.iter().map(|drift| drift.quantity);
+        let sections = self.sections.iter().map(|section| section.observable);
+        let sections = sections.map(Quantity::Observable);
+        drifts.chain(sections)
     }
 
     /// Returns true if any followed quantity depends on what the closing piece of a step changes.
@@ -336,10 +336,10 @@ where
     #[inline(always)]
     fn load_drifts<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
         // The first followed member determines the quantities; members that differ receive states at their stops.
-        let first = runs.iter().find(|run| !run.follows.drifts.is_empty());
-        let drifts = first.map_or(&[][..], |run| &run.follows.drifts);
-        for trackers in [&mut self.trackers, &mut self.trackers_before] {
-            trackers.truncate(drifts.len());
+        let first = runs.iter().find(|run| !run.followed.drifts.is_empty());
+        let drifts = first.map_or(&[][..], |run| &run.followed.drifts);
+        for lane_drifts in [&mut self.drifts, &mut self.drifts_before] {
+            lane_drifts.truncate(drifts.len());
         }
         if drifts.is_empty() {
             return;
@@ -348,7 +348,7 @@ where
         for (k, track) in drifts.iter().enumerate() {
             let mut lanes = [(); 4].map(|()| vec![T::zero(); runs.len()]);
             for (lane, run) in runs.iter().enumerate() {
-                let Some(track) = run.follows.drifts.get(k) else {
+                let Some(track) = run.followed.drifts.get(k) else {
                     continue;
                 };
                 let Some(drift) = &track.drift else {
@@ -361,13 +361,13 @@ where
                 lanes[2][lane] = number(drift.sum_of_sizes);
                 lanes[3][lane] = number(drift.sum);
             }
-            if k == self.trackers.len() {
-                self.trackers.push(Tracker::new(track.quantity));
-                self.trackers_before.push(Tracker::new(track.quantity));
+            if k == self.drifts.len() {
+                self.drifts.push(LaneDrift::new(track.quantity));
+                self.drifts_before.push(LaneDrift::new(track.quantity));
             }
-            let tracker = &mut self.trackers[k];
-            tracker.quantity = track.quantity;
-            for (numbers, into) in lanes.iter().zip(tracker.numbers_mut()) {
+            let lane_drift = &mut self.drifts[k];
+            lane_drift.quantity = track.quantity;
+            for (numbers, into) in lanes.iter().zip(lane_drift.numbers_mut()) {
                 gather::<L, T, P>(numbers, into);
             }
         }
@@ -378,10 +378,10 @@ where
 
     /// Writes drifts back into the runs of some lanes.
     #[inline(always)]
-    fn write_drifts<L: Level>(trackers: &[Tracker<T::Over<P>>], occupants: &mut Occupants<T, S>) {
+    fn write_drifts<L: Level>(drifts: &[LaneDrift<T::Over<P>>], occupants: &mut Occupants<T, S>) {
         let mut lanes = [(); 4].map(|()| vec![T::zero(); P::LANES as usize]);
-        for (k, tracker) in trackers.iter().enumerate() {
-            for (lanes, pack) in lanes.iter_mut().zip(tracker.numbers()) {
+        for (k, lane_drift) in drifts.iter().enumerate() {
+            for (lanes, pack) in lanes.iter_mut().zip(lane_drift.numbers()) {
                 scatter::<L, T, P>(pack, lanes);
             }
             occupants.write_drift(k, &lanes);
@@ -412,10 +412,10 @@ where
             rows: &mut shown,
         });
         store::<L, T, P, _>(&self.carried, &mut self.rows);
-        Self::write_drifts::<L>(&self.trackers_before, occupants);
+        Self::write_drifts::<L>(&self.drifts_before, occupants);
         let bad: Vec<bool> = (0..P::LANES).map(|lane| !finite.lane(lane)).collect();
-        if !self.watchers.is_empty() {
-            self.write_sections::<L>(&self.watchers_before, occupants);
+        if !self.sections.is_empty() {
+            self.write_sections::<L>(&self.sections_before, occupants);
             self.pass_states::<L>(scheme, self.made, (true, &bad), occupants, host);
         }
         let bad = (0..lanes).filter(|lane| bad[*lane]);
@@ -450,16 +450,16 @@ where
     ) {
         let lanes = P::LANES as usize;
         let is_any_due = occupants.is_any_due();
-        if !self.trackers.is_empty() && (is_any_due || occupants.has_changed()) {
-            Self::write_drifts::<L>(&self.trackers, occupants);
+        if !self.drifts.is_empty() && (is_any_due || occupants.has_changed()) {
+            Self::write_drifts::<L>(&self.drifts, occupants);
         }
         if !is_any_due {
             return;
         }
-        if !self.trackers.is_empty() {
+        if !self.drifts.is_empty() {
             occupants.for_each_due(|_, run| {
-                if !run.follows.drifts.is_empty() {
-                    host.take_drifts(run.key, &mut run.follows);
+                if !run.followed.drifts.is_empty() {
+                    host.take_drifts(run.key, &mut run.followed);
                 }
                 true
             });

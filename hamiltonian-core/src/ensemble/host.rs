@@ -6,7 +6,7 @@
 
 use crate::error::Error;
 use crate::map::Clock;
-use crate::observe::{Follows, View};
+use crate::observe::{FollowedQuantities, View};
 use crate::state::State;
 use crate::system::System;
 use alloc::vec::Vec;
@@ -31,7 +31,7 @@ pub struct MemberRun<T: Real, S: System<T>> {
     /// The carried value of the scheme, up to date on loading and on leaving only.
     pub(crate) words: Vec<T>,
     /// The quantities that lanes evaluate for its observer. Drifts are up to date at stops and on leaving.
-    pub(crate) follows: Follows<T>,
+    pub(crate) followed: FollowedQuantities<T>,
     /// The number of steps between two states whose drift it follows.
     pub(crate) interval: u64,
     /// The number of steps made when the drifts were up to date.
@@ -48,19 +48,19 @@ pub trait Host<T: Real, S: System<T>> {
     /// be reused. Returns false if there is no next member.
     fn load(&mut self, slot: &mut Option<MemberRun<T, S>>) -> bool;
     /// Receives a member's state at its stop. Returns true if the member stays, with its stop advanced. Lanes
-    /// then evaluate the quantities in `follows`.
+    /// then evaluate the quantities in `followed`.
     fn receive(
         &mut self,
         key: usize,
         stop: &mut u64,
-        follows: &mut Follows<T>,
+        followed: &mut FollowedQuantities<T>,
         view: &View<'_, T, S>,
     ) -> bool;
     /// Passes a state before the next stop to the observer of a member, see
     /// [`Observer::pass`](crate::Observer::pass). Returns true if the member stays.
     fn pass(&mut self, key: usize, view: &View<'_, T, S>, signs_kept: bool) -> bool;
     /// Takes the drifts of a member at its stop.
-    fn take_drifts(&mut self, key: usize, follows: &mut Follows<T>);
+    fn take_drifts(&mut self, key: usize, followed: &mut FollowedQuantities<T>);
     /// Returns the number of steps that followed members have made when they are loaded.
     fn phase(&self) -> u64;
     /// Takes back the carried value of a member that leaves.

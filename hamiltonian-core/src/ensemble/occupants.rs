@@ -97,7 +97,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
             if *status == LaneStatus::Empty && (is_aligned || is_empty) {
                 self.has_more = self.has_more && host.load(run);
                 if let Some(run) = run.as_ref().filter(|_| self.has_more) {
-                    self.any_followed |= !run.follows.is_empty();
+                    self.any_followed |= !run.followed.is_empty();
                     *status = LaneStatus::Loaded;
                     self.change.get_or_insert_default();
                 }
@@ -219,7 +219,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
             .then(|| self.running())
             .into_iter()
             .flatten();
-        any.filter(|run| !run.follows.drifts.is_empty())
+        any.filter(|run| !run.followed.drifts.is_empty())
     }
 
     /// Returns the steps between two states of the first member whose drift is followed.
@@ -242,9 +242,9 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
             [interval - run.made % interval, interval]
         };
         // Signs are followed from step to step.
-        let watches =
-            self.any_followed && self.running().any(|run| !run.follows.sections.is_empty());
-        let is_due = !watches || (first, interval) == (1, 1);
+        let has_sections =
+            self.any_followed && self.running().any(|run| !run.followed.sections.is_empty());
+        let is_due = !has_sections || (first, interval) == (1, 1);
         if is_due && self.followed().all(|run| ahead(run) == [first, interval]) {
             return Schedule {
                 first,
@@ -253,12 +253,12 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
             };
         }
         let mut lanes = [(); 2].map(|()| alloc::vec![0; self.status.len()]);
-        let mut common = u64::from(watches);
+        let mut common = u64::from(has_sections);
         for (lane, (run, status)) in self.runs.iter().zip(&self.status).enumerate() {
             let Some(run) = run.as_ref().filter(|_| *status == LaneStatus::Running) else {
                 continue;
             };
-            if run.follows.drifts.is_empty() || run.interval >= NEVER {
+            if run.followed.drifts.is_empty() || run.interval >= NEVER {
                 continue;
             }
             for (lanes, steps) in lanes.iter_mut().zip(ahead(run)) {
@@ -277,7 +277,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
     /// Records that drifts have begun.
     pub(crate) fn begin_drifts(&mut self) {
         for run in self.runs.iter_mut().flatten() {
-            for track in &mut run.follows.drifts {
+            for track in &mut run.followed.drifts {
                 track.drift.get_or_insert_with(|| Deviation {
                     count: 1,
                     ..Deviation::new(T::zero())
@@ -292,7 +292,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
             let Some(run) = run.as_mut().filter(|_| *status == LaneStatus::Running) else {
                 continue;
             };
-            let Some(Some(drift)) = run.follows.drifts.get_mut(k).map(|track| &mut track.drift)
+            let Some(Some(drift)) = run.followed.drifts.get_mut(k).map(|track| &mut track.drift)
             else {
                 continue;
             };
@@ -363,20 +363,20 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
     }
 
     /// Returns true if a member at its stop after `n` more steps has an observer of signs.
-    pub(crate) fn is_any_watched_due(&self, n: u64) -> bool {
+    pub(crate) fn is_any_due_with_sections(&self, n: u64) -> bool {
         let mut due = self.running().filter(|run| run.made + n == run.stop);
-        due.any(|run| !run.follows.sections.is_empty())
+        due.any(|run| !run.followed.sections.is_empty())
     }
 
     /// Calls a function with each member under way whose observer follows signs. The function returns true if
     /// the member stays.
-    pub(crate) fn for_each_watched(
+    pub(crate) fn for_each_with_sections(
         &mut self,
         mut of: impl FnMut(usize, &mut MemberRun<T, S>) -> bool,
     ) {
         for (lane, (run, status)) in self.runs.iter_mut().zip(&mut self.status).enumerate() {
             let running = run.as_mut().filter(|_| *status == LaneStatus::Running);
-            if let Some(run) = running.filter(|run| !run.follows.sections.is_empty())
+            if let Some(run) = running.filter(|run| !run.followed.sections.is_empty())
                 && !of(lane, run)
             {
                 *status = LaneStatus::Leaving;
@@ -385,7 +385,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
     }
 
     /// Records that the followed quantities of a member have changed.
-    pub(crate) fn follows_other(&mut self) {
+    pub(crate) fn followed_changed(&mut self) {
         self.any_followed = true;
         self.change.get_or_insert_default();
     }

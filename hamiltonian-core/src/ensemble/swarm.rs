@@ -343,7 +343,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             target: self.common.steps,
             observes: true,
             attaches: false,
-            follows: false,
+            evaluates_in_lanes: false,
             next: keys.start,
             receive: |key: usize, (): &mut (), view: &View<'_, f64, S>| {
                 states[key] = Some(match t {
@@ -385,7 +385,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 target: self.common.steps,
                 observes: true,
                 attaches: false,
-                follows: false,
+                evaluates_in_lanes: false,
                 next: 0,
                 receive: |_: usize, observer: &mut O, view: &View<'_, f64, S>| match observer
                     .restore(view, memory)
@@ -417,7 +417,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 target,
                 observes,
                 attaches,
-                follows: true,
+                evaluates_in_lanes: true,
                 next: 0,
                 receive: &receive,
             };

@@ -114,14 +114,14 @@ impl<V: Vector> Event<V> {
             return value;
         };
         let turns = (value / period).to_f64();
-        let below = turns as i64 as f64;
+        let whole = turns as i64 as f64;
         // Halves are rounded away from 0.
-        let turns = (2.0 * (turns - below)) as i64 as f64 + below;
+        let turns = (2.0 * (turns - whole)) as i64 as f64 + whole;
         value - V::Scalar::constant(turns, 0.0) * period
     }
 
     /// A value, continued from the one before without jumps of the period.
-    pub(super) fn counted(&self, from: V::Scalar, value: V::Scalar) -> V::Scalar {
+    pub(super) fn unwrapped(&self, from: V::Scalar, value: V::Scalar) -> V::Scalar {
         match self.period {
             None => value,
             Some(_) => from + self.difference(value - from),

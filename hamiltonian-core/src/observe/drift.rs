@@ -4,7 +4,7 @@
 //! observables ([`Monitors`]). Invariant: only sums are stored.
 
 use super::deviation::Deviation;
-use super::follow::Follower;
+use super::follow::FollowVisitor;
 use super::quantity::Quantity;
 use super::{Observer, View, one_trajectory};
 use crate::checkpoint::Memory;
@@ -73,8 +73,8 @@ impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
             drift.save(to);
         }
     }
-    fn follow(&mut self, with: &mut Follower<T>) -> bool {
-        with.drift(Quantity::Energy, &mut self.drift);
+    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
+        visitor.drift(Quantity::Energy, &mut self.drift);
         true
     }
     fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
@@ -152,10 +152,10 @@ impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
             monitor.drift.save(to);
         }
     }
-    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
         for (index, observable) in S::OBSERVABLES.iter().enumerate() {
             let mut drift = self.monitors.get(index).map(|one| one.drift.clone());
-            with.drift(Quantity::Observable(index), &mut drift);
+            visitor.drift(Quantity::Observable(index), &mut drift);
             let Some(drift) = drift else { continue };
             match self.monitors.get_mut(index) {
                 Some(monitor) => monitor.drift = drift,

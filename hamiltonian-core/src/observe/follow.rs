@@ -11,7 +11,7 @@ use hamiltonian_lanes::Real;
 
 /// A quantity of a member, and its drift so far.
 #[derive(Debug, Clone)]
-pub struct Track<T> {
+pub struct FollowedDrift<T> {
     pub(crate) quantity: Quantity,
     /// None before the first state.
     pub(crate) drift: Option<Deviation<T>>,
@@ -19,21 +19,21 @@ pub struct Track<T> {
 
 /// All that lanes follow for an observer.
 #[derive(Debug, Clone)]
-pub struct Follows<T> {
-    pub(crate) drifts: Vec<Track<T>>,
+pub struct FollowedQuantities<T> {
+    pub(crate) drifts: Vec<FollowedDrift<T>>,
     pub(crate) sections: Vec<Section<T>>,
 }
 
-impl<T> Default for Follows<T> {
+impl<T> Default for FollowedQuantities<T> {
     fn default() -> Self {
-        Follows {
+        FollowedQuantities {
             drifts: Vec::new(),
             sections: Vec::new(),
         }
     }
 }
 
-impl<T> Follows<T> {
+impl<T> FollowedQuantities<T> {
     pub(crate) fn is_empty(&self) -> bool {
         self.drifts.is_empty() && self.sections.is_empty()
     }
@@ -41,66 +41,69 @@ impl<T> Follows<T> {
 
 /// A visitor of what an observer follows, see [`Observer::follow`](crate::Observer::follow).
 #[derive(Debug)]
-pub struct Follower<T> {
-    follows: Follows<T>,
+pub struct FollowVisitor<T> {
+    followed: FollowedQuantities<T>,
     /// The drift that is given back next; none while they are taken.
-    back: Option<usize>,
+    next_written: Option<usize>,
 }
 
-impl<T: Real> Follower<T> {
+impl<T: Real> FollowVisitor<T> {
     /// Takes all that an observer follows, if lanes can follow it: nothing otherwise. The storage of `into` is
     /// used again.
-    pub(crate) fn take(into: &mut Follows<T>, follow: impl FnOnce(&mut Self) -> bool) {
-        let mut follows = core::mem::take(into);
-        follows.drifts.clear();
-        follows.sections.clear();
-        let mut follower = Follower {
-            follows,
-            back: None,
+    pub(crate) fn list(into: &mut FollowedQuantities<T>, follow: impl FnOnce(&mut Self) -> bool) {
+        let mut followed = core::mem::take(into);
+        followed.drifts.clear();
+        followed.sections.clear();
+        let mut visitor = FollowVisitor {
+            followed,
+            next_written: None,
         };
-        let is_all = follow(&mut follower);
-        let Follows { drifts, sections } = &mut follower.follows;
+        let is_all = follow(&mut visitor);
+        let FollowedQuantities { drifts, sections } = &mut visitor.followed;
         // Lanes go on for some steps after an event that ends a member, and drifts would too.
-        let outlive = !drifts.is_empty() && sections.iter().any(|section| section.ends);
-        if !is_all || outlive {
+        let would_overrun = !drifts.is_empty() && sections.iter().any(|section| section.ends);
+        if !is_all || would_overrun {
             drifts.clear();
             sections.clear();
         }
-        *into = follower.follows;
+        *into = visitor.followed;
     }
 
     /// Gives the drifts back.
-    pub(crate) fn give(follows: &mut Follows<T>, follow: impl FnOnce(&mut Self) -> bool) {
-        let mut follower = Follower {
-            follows: core::mem::take(follows),
-            back: Some(0),
+    pub(crate) fn write_back(
+        followed: &mut FollowedQuantities<T>,
+        follow: impl FnOnce(&mut Self) -> bool,
+    ) {
+        let mut visitor = FollowVisitor {
+            followed: core::mem::take(followed),
+            next_written: Some(0),
         };
-        follow(&mut follower);
-        *follows = follower.follows;
+        follow(&mut visitor);
+        *followed = visitor.followed;
     }
 
     /// Visits a function whose sign is followed.
     pub(crate) fn section(&mut self, section: Section<T>) {
-        if self.back.is_none() {
-            self.follows.sections.push(section);
+        if self.next_written.is_none() {
+            self.followed.sections.push(section);
         }
     }
 
     /// Returns true if signs are followed.
     pub(crate) fn has_sections(&self) -> bool {
-        !self.follows.sections.is_empty()
+        !self.followed.sections.is_empty()
     }
 
     /// Visits a drift.
     pub(crate) fn drift(&mut self, quantity: Quantity, drift: &mut Option<Deviation<T>>) {
-        match &mut self.back {
+        match &mut self.next_written {
             Some(index) => {
-                if let Some(track) = self.follows.drifts.get(*index) {
+                if let Some(track) = self.followed.drifts.get(*index) {
                     drift.clone_from(&track.drift);
                 }
                 *index += 1;
             }
-            None => self.follows.drifts.push(Track {
+            None => self.followed.drifts.push(FollowedDrift {
                 quantity,
                 drift: drift.clone(),
             }),
@@ -110,22 +113,22 @@ impl<T: Real> Follower<T> {
 
 /// The drifts of a quantity in lanes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Tracker<U> {
+pub(crate) struct LaneDrift<U> {
     pub(crate) quantity: Quantity,
     pub(crate) start: U,
     pub(crate) max: U,
-    pub(crate) sizes: U,
+    pub(crate) sum_of_sizes: U,
     pub(crate) sum: U,
 }
 
-impl<U: Real> Tracker<U> {
+impl<U: Real> LaneDrift<U> {
     /// A drift whose numbers are yet to be written.
     pub(crate) fn new(quantity: Quantity) -> Self {
-        Tracker {
+        LaneDrift {
             quantity,
             start: U::zero(),
             max: U::zero(),
-            sizes: U::zero(),
+            sum_of_sizes: U::zero(),
             sum: U::zero(),
         }
     }
@@ -133,7 +136,7 @@ impl<U: Real> Tracker<U> {
     /// Its numbers: the first value, the largest size, the sum of sizes, the sum.
     #[inline(always)]
     pub(crate) fn numbers(&self) -> [&U; 4] {
-        [&self.start, &self.max, &self.sizes, &self.sum]
+        [&self.start, &self.max, &self.sum_of_sizes, &self.sum]
     }
 
     /// Its numbers, to be written.
@@ -142,7 +145,7 @@ impl<U: Real> Tracker<U> {
         [
             &mut self.start,
             &mut self.max,
-            &mut self.sizes,
+            &mut self.sum_of_sizes,
             &mut self.sum,
         ]
     }
@@ -160,7 +163,7 @@ impl<U: Real> Tracker<U> {
     #[inline(always)]
     fn begin(&mut self, lanes: U::Mask, value: U) {
         self.start = U::select(lanes, value, self.start);
-        for sum in [&mut self.max, &mut self.sizes, &mut self.sum] {
+        for sum in [&mut self.max, &mut self.sum_of_sizes, &mut self.sum] {
             *sum = U::select(lanes, U::zero(), *sum);
         }
     }
@@ -176,7 +179,7 @@ impl<U: Real> Tracker<U> {
         let size = change.abs();
         // A NaN is lost here, and stays in the sum of sizes.
         self.max = U::select(self.max.lt(size), size, self.max);
-        self.sizes += size;
+        self.sum_of_sizes += size;
         self.sum += change;
     }
 }

@@ -35,7 +35,7 @@ impl<T: Real> Section<T> {
 
 /// A function in lanes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Watcher<U> {
+pub(crate) struct LaneSection<U> {
     /// The number of the function among the observables.
     pub(crate) observable: usize,
     pub(crate) period: Option<U>,
@@ -43,7 +43,7 @@ pub(crate) struct Watcher<U> {
     /// period. No value moves from one place to the other, since packs are long.
     values: [U; 2],
     newest: usize,
-    /// True if all lanes that are watched were far from 0 after the last step.
+    /// True if all `section_lanes` were far from 0 after the last step.
     is_far: bool,
 }
 
@@ -54,10 +54,10 @@ fn nearest<U: Real>(x: U) -> U {
     (x + large) - large
 }
 
-impl<U: Real> Watcher<U> {
+impl<U: Real> LaneSection<U> {
     /// Creates a function whose values are to be written.
     pub(crate) fn new(observable: usize, period: Option<U>) -> Self {
-        Watcher {
+        LaneSection {
             observable,
             period,
             values: [U::zero(); 2],
@@ -86,9 +86,9 @@ impl<U: Real> Watcher<U> {
     }
 
     /// Accepts the value after the next step and returns true if nothing can have happened in the
-    /// watched lanes: a short form of [`lanes_to_mark`](Watcher::lanes_to_mark) for the usual step.
+    /// `section_lanes`: a short form of [`lanes_to_mark`](LaneSection::lanes_to_mark) for the usual step.
     #[inline(always)]
-    pub(crate) fn try_skip(&mut self, value: U, watched: U::Mask) -> bool {
+    pub(crate) fn try_skip(&mut self, value: U, section_lanes: U::Mask) -> bool {
         if self.period.is_some() {
             return false;
         }
@@ -99,7 +99,7 @@ impl<U: Real> Watcher<U> {
         let above = least.fma(-value, *self.value());
         let below = U::constant(3.1, 0.0).fma(value, U::constant(-2.1, 0.0) * *self.value());
         let is_far = U::zero().lt(above * below);
-        let is_far = !(!is_far & watched).any();
+        let is_far = !(!is_far & section_lanes).any();
         let was_far = core::mem::replace(&mut self.is_far, is_far);
         if is_far && was_far {
             self.newest = (self.newest + 1) & 1;
@@ -118,7 +118,7 @@ impl<U: Real> Watcher<U> {
     pub(crate) fn lanes_to_mark(&mut self, value: U) -> U::Mask {
         let [&from, &before] = self.last();
         let changed = from - before;
-        let (value, counted) = match self.period {
+        let (value, unwrapped) = match self.period {
             None => (value, value),
             Some(period) => {
                 let value = value - nearest(value / period) * period;
@@ -126,9 +126,9 @@ impl<U: Real> Watcher<U> {
                 (value, from + (change - nearest(change / period) * period))
             }
         };
-        let change = counted - from;
+        let change = unwrapped - from;
         (self.values, self.newest) = ([value, value - change], 0);
-        // from·counted is above a small part of the square of the change.
+        // from·unwrapped is above a small part of the square of the change.
         let least = U::constant(1.0 / 1_048_576.0, 0.0);
         let product = change.fma(from, from * from);
         let is_steady = (least * change).fma(-change, product);

@@ -26,7 +26,7 @@ pub(super) fn pass_to_host<T: Real, S: System<T>, M: Scheme<T, S>>(
     durations: Option<&[T]>,
 ) {
     let recipe: &dyn Recipe<T, S, M::Map> = scheme;
-    let mut follows_other = false;
+    let mut is_any_changed = false;
     occupants.for_each_due(|lane, run| {
         let part = Part {
             prepared: &run.prepared,
@@ -42,16 +42,16 @@ pub(super) fn pass_to_host<T: Real, S: System<T>, M: Scheme<T, S>>(
             prepared: &run.prepared,
             between: &part,
         };
-        let follows = !run.follows.is_empty();
-        let stays = host.receive(run.key, &mut run.stop, &mut run.follows, &view);
-        if !follows && !run.follows.is_empty() {
+        let was_followed = !run.followed.is_empty();
+        let stays = host.receive(run.key, &mut run.stop, &mut run.followed, &view);
+        if !was_followed && !run.followed.is_empty() {
             (run.since, run.received) = (run.made, run.made);
-            follows_other = true;
+            is_any_changed = true;
         }
         stays
     });
-    if follows_other {
-        occupants.follows_other();
+    if is_any_changed {
+        occupants.followed_changed();
     }
 }
 
@@ -79,7 +79,7 @@ impl<T: Real> PassedStates<'_, T> {
         host: &mut dyn Host<T, S>,
     ) {
         let recipe: &dyn Recipe<T, S, M::Map> = scheme;
-        occupants.for_each_watched(|lane, run| {
+        occupants.for_each_with_sections(|lane, run| {
             let step = (run.made + self.ahead).checked_sub(self.back);
             let Some(step) = step.filter(|step| self.which[lane] && *step > run.received) else {
                 return true;

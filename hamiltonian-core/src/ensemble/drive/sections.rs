@@ -10,7 +10,7 @@ use super::{Lanes, number_of_each};
 use crate::ensemble::close::Close;
 use crate::ensemble::host::{Host, MemberRun};
 use crate::ensemble::occupants::Occupants;
-use crate::observe::{Section, Watcher};
+use crate::observe::{LaneSection, Section};
 use crate::scheme::Scheme;
 use crate::system::System;
 use crate::system::gather::{Gather, VectorOver};
@@ -33,38 +33,39 @@ where
     /// Loads the functions whose sign is followed for at least one member into lanes.
     #[inline(always)]
     pub(super) fn load_sections<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
-        self.watchers.clear();
-        self.watchers_before.clear();
-        self.functions.clear();
-        let watched = runs.iter().map(|run| !run.follows.sections.is_empty());
-        if !watched.clone().any(|is_watched| is_watched) {
-            self.watched = Mask::splat(false);
+        self.sections.clear();
+        self.sections_before.clear();
+        self.member_sections.clear();
+        let has_sections = runs.iter().map(|run| !run.followed.sections.is_empty());
+        if !has_sections.clone().any(|has| has) {
+            self.section_lanes = Mask::splat(false);
             return;
         }
-        self.watched = lanes_of::<L, T, P>(&watched.collect::<Vec<bool>>());
-        for section in runs.iter().flat_map(|run| &run.follows.sections) {
-            if !self.functions.iter().any(|other| other.is_of(section)) {
-                self.functions.push(*section);
+        self.section_lanes = lanes_of::<L, T, P>(&has_sections.collect::<Vec<bool>>());
+        for section in runs.iter().flat_map(|run| &run.followed.sections) {
+            let mut known = self.member_sections.iter();
+            if !known.any(|other| other.is_of(section)) {
+                self.member_sections.push(*section);
             }
         }
-        for function in &self.functions {
+        for function in &self.member_sections {
             let of = |run: &MemberRun<T, S>, number: fn(&Section<T>) -> T| {
-                let mut own = run.follows.sections.iter();
+                let mut own = run.followed.sections.iter();
                 let own = own.find(|section| section.is_of(function));
                 own.map_or(T::zero(), number)
             };
             let in_lanes =
                 |number: fn(&Section<T>) -> T| number_of_each(runs, |run| of(run, number));
             let period = function.period.map(T::spread::<P>);
-            self.watchers
-                .push(Watcher::new(function.observable, period));
-            self.watchers_before
-                .push(Watcher::new(function.observable, period));
+            self.sections
+                .push(LaneSection::new(function.observable, period));
+            self.sections_before
+                .push(LaneSection::new(function.observable, period));
             let numbers: [fn(&Section<T>) -> T; 2] = [
                 |section| section.value,
                 |section| section.value - section.change,
             ];
-            let last = self.watchers.last_mut().map(Watcher::values_mut);
+            let last = self.sections.last_mut().map(LaneSection::values_mut);
             for (number, value) in numbers.into_iter().zip(last.into_iter().flatten()) {
                 gather::<L, T, P>(&in_lanes(number), value);
             }
@@ -75,22 +76,22 @@ where
     #[inline(always)]
     pub(super) fn write_sections<L: Level>(
         &self,
-        watchers: &[Watcher<T::Over<P>>],
+        sections: &[LaneSection<T::Over<P>>],
         occupants: &mut Occupants<T, S>,
     ) {
-        if self.functions.is_empty() {
+        if self.member_sections.is_empty() {
             return;
         }
         let [mut values, mut before] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
-        for (function, watcher) in self.functions.iter().zip(watchers) {
-            let [last, one_before] = watcher.last();
+        for (function, lane_section) in self.member_sections.iter().zip(sections) {
+            let [last, one_before] = lane_section.last();
             scatter::<L, T, P>(last, &mut values);
             scatter::<L, T, P>(one_before, &mut before);
-            occupants.for_each_watched(|lane, run| {
-                let mut own = run.follows.sections.iter_mut();
+            occupants.for_each_with_sections(|lane, run| {
+                let mut own = run.followed.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
                 // A member whose observer has only just received its first state keeps its own values.
-                if let Some(section) = own.filter(|_| self.watched.lane(lane as u32)) {
+                if let Some(section) = own.filter(|_| self.section_lanes.lane(lane as u32)) {
                     (section.value, section.change) = (values[lane], values[lane] - before[lane]);
                 }
                 true
@@ -115,9 +116,9 @@ where
             self.pass_states::<L>(scheme, *step, (false, &which), occupants, host);
         }
         self.marks.steps = steps;
-        if occupants.is_any_watched_due(n) {
+        if occupants.is_any_due_with_sections(n) {
             let mut which = vec![false; P::LANES as usize];
-            occupants.for_each_watched(|lane, run| {
+            occupants.for_each_with_sections(|lane, run| {
                 which[lane] = run.made + n == run.stop;
                 true
             });

@@ -12,7 +12,7 @@ use crate::ensemble::record::{Batch, End, Outcome, Record, Status};
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
-use crate::observe::{Follower, Follows, Observer, View};
+use crate::observe::{FollowVisitor, FollowedQuantities, Observer, View};
 use crate::state::State;
 use crate::system::{System, clock};
 use alloc::boxed::Box;
@@ -145,17 +145,17 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         let observes = active.observer.interval() < u64::MAX;
         let interval = active.observer.interval();
         // Reuses the storage of the previous run.
-        let mut follows = match slot {
-            Some(run) => core::mem::take(&mut run.follows),
-            None => Follows::default(),
+        let mut followed = match slot {
+            Some(run) => core::mem::take(&mut run.followed),
+            None => FollowedQuantities::default(),
         };
-        Follower::take(&mut follows, |with| active.observer.follow(with));
+        FollowVisitor::list(&mut followed, |visitor| active.observer.follow(visitor));
         // Observers of signs have yet to find where functions come from.
-        if !follows.sections.is_empty() {
-            follows = Follows::default();
+        if !followed.sections.is_empty() {
+            followed = FollowedQuantities::default();
         }
-        (follows.drifts.iter_mut()).for_each(|track| track.drift = None);
-        active.is_followed = !follows.is_empty();
+        (followed.drifts.iter_mut()).for_each(|track| track.drift = None);
+        active.is_followed = !followed.is_empty();
         active.is_attached = !observes || active.is_followed;
         let stop = if active.is_attached {
             self.stop(&active, 0)
@@ -170,7 +170,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
                 run.state = start;
                 (run.key, run.clock, run.step) = (key, clock, step);
                 (run.made, run.stop) = (0, stop);
-                (run.follows, run.interval) = (follows, interval);
+                (run.followed, run.interval) = (followed, interval);
                 (run.since, run.received) = (0, 0);
             }
             None => {
@@ -183,7 +183,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
                     made: 0,
                     stop,
                     words: self.words.clone(),
-                    follows,
+                    followed,
                     interval,
                     since: 0,
                     received: 0,
@@ -394,7 +394,7 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for SweepHost<'_, '_, S, 
         &mut self,
         key: usize,
         stop: &mut u64,
-        follows: &mut Follows<f64>,
+        followed: &mut FollowedQuantities<f64>,
         view: &View<'_, f64, S>,
     ) -> bool {
         let Some(mut active) = self.active[key].take() else {
@@ -410,8 +410,8 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for SweepHost<'_, '_, S, 
         match decision.and_then(|decision| decision) {
             Ok(ControlFlow::Continue(())) => {
                 if !active.is_followed && view.step == 0 {
-                    Follower::take(follows, |with| active.observer.follow(with));
-                    active.is_followed = !follows.is_empty();
+                    FollowVisitor::list(followed, |visitor| active.observer.follow(visitor));
+                    active.is_followed = !followed.is_empty();
                 }
                 *stop = self.stop(&active, view.step);
                 self.active[key] = Some(active);
@@ -444,9 +444,9 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for SweepHost<'_, '_, S, 
         }
     }
 
-    fn take_drifts(&mut self, key: usize, follows: &mut Follows<f64>) {
+    fn take_drifts(&mut self, key: usize, followed: &mut FollowedQuantities<f64>) {
         if let Some(active) = &mut self.active[key] {
-            Follower::give(follows, |with| active.observer.follow(with));
+            FollowVisitor::write_back(followed, |visitor| active.observer.follow(visitor));
         }
     }
 

@@ -55,14 +55,14 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
 }
 
 /// Work on members, to be done at a level.
-pub struct Members<'a, T, S, M, W> {
+pub struct WorkAtLevel<'a, T, S, M, W> {
     scheme: &'a M,
     work: W,
     fuses: bool,
     of: PhantomData<fn(T, S)>,
 }
 
-impl<L, T, S, M, W> KernelAt<L> for Members<'_, T, S, M, W>
+impl<L, T, S, M, W> KernelAt<L> for WorkAtLevel<'_, T, S, M, W>
 where
     L: Level,
     T: Real,
@@ -77,7 +77,7 @@ where
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let Members {
+        let WorkAtLevel {
             scheme,
             work,
             fuses,
@@ -85,7 +85,7 @@ where
         } = self;
         // The widths differ in speed only. Constant conditions are evaluated before code is emitted, so that the
         // compiler spends no time on the other width. Levels without fused products have one arithmetic only.
-        if const { is_small::<T, S, M>() } {
+        if const { fits_in_registers::<T, S, M>() } {
             if fuses || const { !L::FUSES } {
                 work.at::<L, L::Wide, M>(scheme);
             } else {
@@ -103,10 +103,10 @@ where
 type W2<L> = W<<L as Level>::Pack, 2>;
 
 /// Members of a host that are driven to their ends.
-pub struct Driven<'a, T: Real, S: System<T>>(&'a mut dyn Host<T, S>);
+pub struct DriveMembers<'a, T: Real, S: System<T>>(&'a mut dyn Host<T, S>);
 
 /// Members with deviations that are advanced to their ends.
-pub struct Deviating<'a, 'r, T: Real, S: System<T>>(&'a mut Deviations<'r, T, S>);
+pub struct DeviateMembers<'a, 'r, T: Real, S: System<T>>(&'a mut Deviations<'r, T, S>);
 
 /// Work on members in the lanes of one pack type.
 pub trait Work<T: Real, S: System<T>> {
@@ -114,14 +114,14 @@ pub trait Work<T: Real, S: System<T>> {
     fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M);
 }
 
-impl<T: Real, S: System<T>> Work<T, S> for Driven<'_, T, S> {
+impl<T: Real, S: System<T>> Work<T, S> for DriveMembers<'_, T, S> {
     #[inline(always)]
     fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M) {
         scheme.drive::<L>(self.0);
     }
 }
 
-impl<T: Real, S: System<T>> Work<T, S> for Deviating<'_, '_, T, S> {
+impl<T: Real, S: System<T>> Work<T, S> for DeviateMembers<'_, '_, T, S> {
     #[inline(always)]
     fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M) {
         scheme.deviate::<L>(self.0);
@@ -129,7 +129,7 @@ impl<T: Real, S: System<T>> Work<T, S> for Deviating<'_, '_, T, S> {
 }
 /// Returns true if a step has few enough numbers for several registers in lock-step to hide its latency. With
 /// more numbers, registers spill.
-const fn is_small<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
+const fn fits_in_registers<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
     const MOST: usize = 4 * size_of::<f64>();
     size_of::<<M::Map as Map>::Carried>() + size_of::<<M::Map as Map>::Work>() <= MOST
 }
@@ -139,13 +139,13 @@ where
     T: Real,
     S: System<T, Prepared: Gather<T>>,
     M: Scheme<T, S>,
-    for<'a> Members<'a, T, S, M, Driven<'a, T, S>>: OnEveryLevel<Output = ()>,
-    for<'a, 'r> Members<'a, T, S, M, Deviating<'a, 'r, T, S>>: OnEveryLevel<Output = ()>,
+    for<'a> WorkAtLevel<'a, T, S, M, DriveMembers<'a, T, S>>: OnEveryLevel<Output = ()>,
+    for<'a, 'r> WorkAtLevel<'a, T, S, M, DeviateMembers<'a, 'r, T, S>>: OnEveryLevel<Output = ()>,
 {
     fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool) {
-        let (scheme, work) = (self, Driven(host));
+        let (scheme, work) = (self, DriveMembers(host));
         let of = PhantomData::<fn(T, S)>;
-        Members {
+        WorkAtLevel {
             scheme,
             work,
             fuses,
@@ -154,9 +154,9 @@ where
         .dispatch();
     }
     fn deviate(&self, all: &mut Deviations<'_, T, S>, fuses: bool) {
-        let (scheme, work) = (self, Deviating(all));
+        let (scheme, work) = (self, DeviateMembers(all));
         let of = PhantomData::<fn(T, S)>;
-        Members {
+        WorkAtLevel {
             scheme,
             work,
             fuses,
@@ -173,7 +173,7 @@ where
 }
 
 /// A scheme for ensembles of `S`, with its type erased.
-pub(crate) trait Engine<S: System<f64>>: Send + Sync {
+pub(crate) trait ErasedScheme<S: System<f64>>: Send + Sync {
     /// See [`Ensembles::drive`].
     fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool);
     /// See [`Ensembles::fits`].
@@ -196,7 +196,7 @@ pub(crate) trait Engine<S: System<f64>>: Send + Sync {
     fn describe(&self) -> String;
 }
 
-impl<S: System<f64>, M: Ensembles<S>> Engine<S> for M {
+impl<S: System<f64>, M: Ensembles<S>> ErasedScheme<S> for M {
     fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool) {
         Ensembles::<S>::drive(self, host, fuses);
     }

@@ -10,7 +10,7 @@
 //!   [`block`]: a block of steps;
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
-//! - [`chunk`], [`swarm`], [`until`]: members in memory;
+//! - [`chunk`], [`in_memory`], [`until`]: members in memory;
 //! - [`sweep`], [`sweep::host`], [`record`]: members that leave a record;
 //! - [`lyapunov`], [`deviations`]: members that leave exponents.
 
@@ -22,6 +22,7 @@ mod drive;
 mod guard;
 pub(crate) mod hash;
 mod host;
+mod in_memory;
 mod lyapunov;
 mod marks;
 mod occupants;
@@ -30,15 +31,14 @@ mod record;
 mod saved;
 #[cfg(feature = "std")]
 mod stored;
-mod swarm;
 mod sweep;
 mod threads;
 mod until;
 
 pub use bound::Ensembles;
+pub use in_memory::Ensemble;
 pub use lyapunov::Lyapunov;
 pub use record::{End, Record, Row, Status};
-pub use swarm::Ensemble;
 pub use sweep::Sweep;
 
 /// A member of an ensemble: its index and its seed, from which its system and its start are made.

@@ -7,7 +7,7 @@ use super::Member;
 use super::bound::Ensembles;
 use super::chunk::Finished;
 use super::hash::Hash;
-use super::swarm::Ensemble;
+use super::in_memory::Ensemble;
 use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::{CheckpointError, Error};
 use crate::observe::Observer;
@@ -76,7 +76,7 @@ impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
         Checkpoint {
             system: self.formula(),
             parameters: self.members_hash(),
-            scheme: self.engine.describe(),
+            scheme: self.scheme.describe(),
             scalar: core::any::type_name::<f64>().to_owned(),
             counts: [self.common.steps, 0, 0],
             numbers,
@@ -121,7 +121,7 @@ impl<S: System<f64>> Ensemble<S> {
         let mut swarm = Self::new(count, make, scheme, step)?;
         Checkpoint::same("system", &checkpoint.system, &swarm.formula())?;
         Checkpoint::same("parameter", &checkpoint.parameters, &swarm.members_hash())?;
-        Checkpoint::same("scheme", &checkpoint.scheme, &swarm.engine.describe())?;
+        Checkpoint::same("scheme", &checkpoint.scheme, &swarm.scheme.describe())?;
         swarm.fuses = fuses;
         swarm.common.steps = checkpoint.counts[0];
         for chunk in &mut swarm.chunks {

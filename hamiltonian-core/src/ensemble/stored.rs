@@ -148,7 +148,7 @@ where
         let attributes = vec![
             ("system".to_string(), S::NAME.into()),
             ("hamiltonian".to_string(), S::FORMULA.into()),
-            ("scheme".to_string(), self.engine.describe().into()),
+            ("scheme".to_string(), self.scheme.describe().into()),
             ("step".to_string(), step),
             ("end".to_string(), end),
             ("seed".to_string(), self.seed.into()),

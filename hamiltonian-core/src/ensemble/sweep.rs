@@ -6,7 +6,7 @@
 mod host;
 
 use super::Member;
-use super::bound::{Engine, Ensembles};
+use super::bound::{Ensembles, ErasedScheme};
 use super::ordered::in_order;
 use super::record::{Batch, End, Record, Row};
 use super::threads;
@@ -69,7 +69,7 @@ pub(crate) enum EndPoint<'a> {
 /// over `f64`, without fused products, in both modes.
 pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
     pub(crate) count: usize,
-    pub(crate) engine: Arc<dyn Engine<S>>,
+    pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
     pub(crate) make: Make<'a, S>,
     pub(crate) step: f64,
     pub(crate) step_each: Option<PerMember<'a>>,
@@ -111,7 +111,7 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
     ) -> Self {
         Sweep {
             count,
-            engine: Arc::new(scheme),
+            scheme: Arc::new(scheme),
             make: Box::new(make),
             step,
             step_each: None,
@@ -209,7 +209,7 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
     ) -> Sweep<'a, S, N, Q> {
         Sweep {
             count: self.count,
-            engine: self.engine,
+            scheme: self.scheme,
             make: self.make,
             step: self.step,
             step_each: self.step_each,
@@ -460,7 +460,7 @@ impl<S: System<f64>, O, R> core::fmt::Debug for Sweep<'_, S, O, R> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Sweep")
             .field("system", &S::NAME)
-            .field("scheme", &self.engine.describe())
+            .field("scheme", &self.scheme.describe())
             .field("members", &self.count)
             .field("step", &self.step)
             .field("seed", &self.seed)

@@ -4,7 +4,7 @@
 //! the state between two steps is made on a copy, by a part of a step.
 
 use super::chunk::Shared;
-use super::swarm::Ensemble;
+use super::in_memory::Ensemble;
 use crate::error::Error;
 use crate::map::Clock;
 use crate::observe::Observer;

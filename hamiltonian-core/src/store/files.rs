@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Names of temporary files, different in every process on every machine.
 #[derive(Debug)]
-pub(super) struct Parts {
+pub(super) struct TemporaryFiles {
     directory: PathBuf,
     /// A number that is different in every process: numbers of processes are unique on one machine
     /// only.
@@ -23,9 +23,9 @@ pub(super) struct Parts {
     next: AtomicU64,
 }
 
-impl Parts {
+impl TemporaryFiles {
     pub(super) fn of(root: &Path) -> Self {
-        Parts {
+        TemporaryFiles {
             directory: root.join(super::layout::STATUS).join("parts"),
             process: RandomState::new().build_hasher().finish(),
             next: AtomicU64::new(0),
@@ -33,7 +33,7 @@ impl Parts {
     }
 
     /// A path that no other process uses.
-    pub(super) fn fresh(&self) -> io::Result<PathBuf> {
+    pub(super) fn new_path(&self) -> io::Result<PathBuf> {
         fs::create_dir_all(&self.directory)?;
         let number = self.next.fetch_add(1, Ordering::Relaxed);
         let name = format!("{:016x}-{number}", self.process);
@@ -48,7 +48,7 @@ impl Parts {
 
     /// Writes a file: afterwards `place` has all bytes, or is unchanged.
     pub(super) fn write(&self, place: &Path, bytes: &[u8]) -> io::Result<()> {
-        let part = self.fresh()?;
+        let part = self.new_path()?;
         let written = write_new(&part, bytes).and_then(|()| {
             if let Some(directory) = place.parent() {
                 fs::create_dir_all(directory)?;

@@ -19,7 +19,7 @@ use crate::checkpoint::differing;
 use crate::error::{Error, StoreError};
 use core::fmt;
 use core::ops::Range;
-use files::{Parts, failed};
+use files::{TemporaryFiles, failed};
 use layout::{Array, COUNT, HASHES, Kind, MEMBER, ROWS, STATUS, STEPS, TIME};
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -68,7 +68,7 @@ pub struct Store {
     root: PathBuf,
     layout: Layout,
     arrays: Vec<Array>,
-    parts: Parts,
+    temporary: TemporaryFiles,
 }
 
 /// The results of the members of one chunk.
@@ -99,7 +99,7 @@ impl Store {
     /// [`StoreError::Full`] and [`StoreError::File`].
     pub fn open_or_create(path: impl AsRef<Path>, layout: &Layout) -> Result<Self, Error> {
         let store = Self::at(path.as_ref(), layout)?;
-        if store.is_there()? {
+        if store.exists()? {
             return Ok(store);
         }
         // That of the group is the last, so that a store has the metadata of all arrays.
@@ -120,7 +120,7 @@ impl Store {
     /// Those of [`open_or_create`](Store::open_or_create).
     pub fn open(path: impl AsRef<Path>, layout: &Layout) -> Result<Option<Self>, Error> {
         let store = Self::at(path.as_ref(), layout)?;
-        Ok(store.is_there()?.then_some(store))
+        Ok(store.exists()?.then_some(store))
     }
 
     /// The store of a layout at a place, where it may not be yet.
@@ -129,7 +129,7 @@ impl Store {
         Ok(Store {
             arrays: layout.arrays(),
             layout: layout.clone(),
-            parts: Parts::of(root),
+            temporary: TemporaryFiles::of(root),
             root: root.to_path_buf(),
         })
     }
@@ -141,16 +141,16 @@ impl Store {
 
     /// Returns true if the store is there. A store of another layout, and a directory of something else, are
     /// errors.
-    fn is_there(&self) -> Result<bool, Error> {
+    fn exists(&self) -> Result<bool, Error> {
         let top = self.top();
         let Some(saved) = files::read(&self.root, &top)? else {
             self.refuse_foreign()?;
             return Ok(false);
         };
-        self.same(&top, &saved, &self.layout.group().to_string())?;
+        self.check_same(&top, &saved, &self.layout.group().to_string())?;
         for (path, metadata) in self.metadata() {
             let saved = files::read(&self.root, &path)?.unwrap_or_default();
-            self.same(&path, &saved, &metadata)?;
+            self.check_same(&path, &saved, &metadata)?;
         }
         Ok(true)
     }
@@ -226,7 +226,7 @@ impl Store {
     fn write_rows(&self, chunk: u64, data: &ChunkData) -> Result<(), Error> {
         let place = self.root.join(ROWS).join(chunk.to_string());
         let write = || -> io::Result<()> {
-            let part = self.parts.fresh()?;
+            let part = self.temporary.new_path()?;
             fs::create_dir(&part)?;
             let arrays = self.layout.rows_arrays(data.member.len() as u64);
             let group = layout::consolidated(json::Json::Object(Vec::new()), &arrays).to_string();
@@ -333,7 +333,7 @@ impl Store {
             }
         }
         if missing.is_empty() {
-            self.parts.remove();
+            self.temporary.remove();
         }
         Ok(Completeness {
             chunks: self.layout.chunks(),
@@ -389,7 +389,7 @@ impl Store {
         Ok(())
     }
 
-    fn same(&self, path: &Path, saved: &[u8], given: &str) -> Result<(), Error> {
+    fn check_same(&self, path: &Path, saved: &[u8], given: &str) -> Result<(), Error> {
         let saved = String::from_utf8_lossy(saved);
         let Some((saved, given)) = differing(&saved, given) else {
             return Ok(());
@@ -404,7 +404,7 @@ impl Store {
     }
 
     fn write_file(&self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
-        (self.parts.write(path, bytes)).map_err(|error| failed(&self.root, path, &error))
+        (self.temporary.write(path, bytes)).map_err(|error| failed(&self.root, path, &error))
     }
 
     /// The bytes of a file of a known length.

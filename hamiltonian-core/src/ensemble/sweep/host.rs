@@ -79,7 +79,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
     /// Drives all to their ends.
     pub(crate) fn batch(mut self) -> Batch {
         let sweep = self.sweep;
-        sweep.engine.drive(&mut self, sweep.fuses);
+        sweep.scheme.drive(&mut self, sweep.fuses);
         let missing = |outcome: Option<Outcome>| {
             outcome.unwrap_or(Outcome {
                 status: Status::Missing,
@@ -114,17 +114,17 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         check_step(step)?;
         let prepared = check_start(&system, &start)?;
         if let Some(run) = slot
-            && !sweep.engine.fits(&run.prepared, &prepared)
+            && !sweep.scheme.fits(&run.prepared, &prepared)
         {
             return Err(Error::OtherSizes { system: S::NAME });
         }
         self.words.clear();
-        (sweep.engine).begin(&prepared, &start, step, &mut self.words)?;
+        (sweep.scheme).begin(&prepared, &start, step, &mut self.words)?;
         let clock = Clock {
             start: start.t,
-            interval: step * duration::<f64>(&sweep.engine.entry()),
+            interval: step * duration::<f64>(&sweep.scheme.entry()),
         };
-        self.varies = sweep.engine.varies(&prepared, &start, step);
+        self.varies = sweep.scheme.varies(&prepared, &start, step);
         let end = match &sweep.end {
             EndPoint::Each(end) => guard(|| end(member))?,
             EndPoint::Until(end) => *end,
@@ -164,7 +164,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         };
         match slot {
             Some(run) => {
-                run.other |= !sweep.engine.equals(&run.prepared, &prepared);
+                run.other |= !sweep.scheme.equals(&run.prepared, &prepared);
                 run.words.copy_from_slice(&self.words);
                 run.prepared = prepared;
                 run.state = start;

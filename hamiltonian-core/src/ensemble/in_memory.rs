@@ -3,7 +3,7 @@
 //! Input: a system and a start for each index, a scheme, a step. Output: all of them so many steps later.
 
 use super::Member;
-use super::bound::{Engine, Ensembles};
+use super::bound::{Ensembles, ErasedScheme};
 use super::chunk::{Chunk, ChunkHost, ChunkOf, Common, Decision, Finished, end_of, observe};
 use super::guard::guard;
 use super::threads;
@@ -43,7 +43,7 @@ use core::ops::ControlFlow;
 /// default products and sums fuse where the CPU fuses them. With [`reproducible`](Ensemble::reproducible)
 /// nothing fuses: a member then has the bits of a single [`Integrator`](crate::Integrator) on every CPU.
 pub struct Ensemble<S: System<f64>, O = ()> {
-    pub(crate) engine: Arc<dyn Engine<S>>,
+    pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
     pub(crate) chunks: Vec<ChunkOf<S, O>>,
     pub(crate) common: Common<S::Vector>,
     threads: usize,
@@ -88,12 +88,12 @@ impl<S: System<f64>> Ensemble<S> {
             return Err(Error::NoMembers);
         }
         check_step(step)?;
-        let engine: Arc<dyn Engine<S>> = Arc::new(scheme);
+        let scheme: Arc<dyn ErasedScheme<S>> = Arc::new(scheme);
         let mut common = Common {
             template: None,
             width: 0,
             step,
-            interval: step * duration::<f64>(&engine.entry()),
+            interval: step * duration::<f64>(&scheme.entry()),
             varies: false,
             steps: 0,
         };
@@ -109,12 +109,12 @@ impl<S: System<f64>> Ensemble<S> {
                 let begun = made.and_then(|(system, start)| {
                     let prepared = check_start(&system, &start)?;
                     if let Some(first) = &first_of_all
-                        && !engine.fits(first, &prepared)
+                        && !scheme.fits(first, &prepared)
                     {
                         return Err(Error::OtherSizes { system: S::NAME });
                     }
-                    engine.begin(&prepared, &start, step, &mut chunk.words)?;
-                    common.varies |= engine.varies(&prepared, &start, step);
+                    scheme.begin(&prepared, &start, step, &mut chunk.words)?;
+                    common.varies |= scheme.varies(&prepared, &start, step);
                     Ok((prepared, start))
                 });
                 let member = begun.map(|(prepared, start)| {
@@ -128,7 +128,7 @@ impl<S: System<f64>> Ensemble<S> {
                     }
                     (prepared, t)
                 });
-                chunk.push(member, |a, b| engine.equals(a, b));
+                chunk.push(member, |a, b| scheme.equals(a, b));
             }
             chunk.words.resize(chunk.count * common.width, 0.0);
             chunk.words.shrink_to_fit();
@@ -136,7 +136,7 @@ impl<S: System<f64>> Ensemble<S> {
             chunks.push(chunk);
         }
         Ok(Ensemble {
-            engine,
+            scheme,
             chunks,
             common,
             threads: threads::available(),
@@ -204,7 +204,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             chunk.with_observers(observers)
         });
         let mut observed = Ensemble {
-            engine: self.engine,
+            scheme: self.scheme,
             chunks: chunks.collect(),
             common: self.common,
             threads: self.threads,
@@ -353,7 +353,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 ControlFlow::Continue(())
             },
         };
-        self.engine.drive(&mut host, self.fuses);
+        self.scheme.drive(&mut host, self.fuses);
         let member = |key: usize, error: Error| Error::Member {
             index: chunk.first + key,
             error: Box::new(error),
@@ -394,7 +394,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                     Err(error) => ControlFlow::Break(Err(error)),
                 },
             };
-            self.engine.drive(&mut host, self.fuses);
+            self.scheme.drive(&mut host, self.fuses);
             chunk.finished.extend(out);
         }
     }
@@ -408,7 +408,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     ) where
         O: Observer<f64, S> + Send,
     {
-        let (engine, common, fuses) = (&*self.engine, &self.common, self.fuses);
+        let (scheme, common, fuses) = (&*self.scheme, &self.common, self.fuses);
         threads::for_each(&mut self.chunks, self.threads, |chunk| {
             let observes = attaches || chunk.observers.iter().any(|one| one.interval() < u64::MAX);
             let mut host = ChunkHost {
@@ -421,7 +421,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 next: 0,
                 receive: &receive,
             };
-            engine.drive(&mut host, fuses);
+            scheme.drive(&mut host, fuses);
         });
     }
 }
@@ -429,7 +429,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
 impl<S: System<f64>, O: Clone> Clone for Ensemble<S, O> {
     fn clone(&self) -> Self {
         Ensemble {
-            engine: Arc::clone(&self.engine),
+            scheme: Arc::clone(&self.scheme),
             chunks: self.chunks.clone(),
             common: self.common.clone(),
             threads: self.threads,
@@ -443,7 +443,7 @@ impl<S: System<f64>, O> fmt::Debug for Ensemble<S, O> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
             .field("system", &S::NAME)
-            .field("scheme", &self.engine.describe())
+            .field("scheme", &self.scheme.describe())
             .field("members", &self.len())
             .field("step", &self.common.step)
             .field("steps", &self.common.steps)

@@ -12,12 +12,12 @@ use crate::system::{Dynamics, System, declared_energy_at};
 use crate::vector::Vector;
 use hamiltonian_lanes::{KernelAt, Level, Mask, Real};
 
-/// Times of lanes that began at different steps: `start + (k + ahead)·interval`.
+/// Times of lanes that have made different numbers of steps: `start + (k + ahead)·interval`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Times<U> {
     pub(crate) start: U,
     pub(crate) interval: U,
-    /// The steps that a lane had made when the count began.
+    /// The number of steps that a lane had made when the count began.
     pub(crate) ahead: U,
 }
 
@@ -50,12 +50,12 @@ pub(crate) enum Opening<M> {
     Mixed(M),
 }
 
-/// The steps after which each lane's observer receives a state, if the lanes differ in them.
+/// The steps after which the observer of each lane receives a state, if the lanes differ.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LaneSchedule<U> {
-    /// The steps to the next state that a lane's observer receives; 0 if it receives none.
+    /// The steps to the next state that the observer receives; 0 if it receives none.
     pub(crate) left: U,
-    /// The steps between two of them.
+    /// The steps between two such states.
     pub(crate) interval: U,
 }
 
@@ -78,13 +78,13 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) sections: &'a mut [LaneSection<U>],
     /// The lanes whose observers follow signs.
     pub(crate) section_lanes: U::Mask,
-    /// True if H is followed.
+    /// True if the drift of H is followed.
     pub(crate) energy: bool,
-    /// True if any of them depends on what the closing piece changes.
+    /// True if any followed quantity depends on coordinates or momenta that the closing piece changes.
     pub(crate) closes: bool,
-    /// The steps to the first state that a lane's observer receives.
+    /// The steps to the first state that observers receive.
     pub(crate) first: u64,
-    /// The steps between two of them.
+    /// The steps between two such states.
     pub(crate) interval: u64,
     /// The schedule of each lane, if the lanes differ.
     pub(crate) by_lane: Option<&'a mut LaneSchedule<U>>,
@@ -153,7 +153,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
     }
 }
 
-/// The block.
+/// A block of steps of all lanes.
 pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: System<U>> {
     pub(crate) map: &'a R,
     pub(crate) times: &'a Times<U>,
@@ -211,9 +211,8 @@ where
             false => u64::MAX,
         };
         let mut stop = end.min(due);
-        // Each piece occurs once outside the loop of steps, which keeps the code of a level small. The piece that
-        // joins the last step to the next is evaluated even if no step follows: that costs less than code for the
-        // other case.
+        // Each piece occurs only once outside the loop of steps, which keeps the code of a level small. The joining
+        // piece after the last step is evaluated even if no step follows, since a further case would cost more code.
         loop {
             let t = times.at(k);
             let opens = if k == made { opening } else { Opening::Join };

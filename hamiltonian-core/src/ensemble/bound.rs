@@ -1,7 +1,7 @@
-//! One bound for a scheme whose members advance together on every level.
+//! The bound of schemes that advance ensembles, on every CPU level.
 //!
-//! Input: a scheme and a system. Output: [`Ensembles`], the bound, which selects the drive of each level.
-//! Invariant: a pair that is no [`Scheme`] is rejected with the message of that trait.
+//! Input: a scheme and a system. Output: [`Ensembles`], which enters the level of the CPU and drives members
+//! there. Invariant: a scheme that does not take the system is rejected with the message of [`Scheme`].
 
 use super::drive::InPack;
 use super::drive::deviations::Deviations;
@@ -20,7 +20,7 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Pack, Real, W};
 
-/// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `T` and packs of it.
+/// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `T` and packs of `T`.
 ///
 /// `T` is [`Dual<f64>`](crate::Dual) for members with deviations, see [`Lyapunov`](crate::Lyapunov). Code that is
 /// generic over systems and schemes needs this bound only:
@@ -54,7 +54,7 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
 }
 
-/// Work on members, to be done at a level.
+/// Work on members, done at one CPU level.
 pub struct WorkAtLevel<'a, T, S, M, W> {
     scheme: &'a M,
     work: W,
@@ -83,8 +83,8 @@ where
             fuses,
             ..
         } = self;
-        // The widths differ in speed only. Constant conditions are evaluated before code is emitted, so that the
-        // compiler spends no time on the other width. Levels without fused products have one arithmetic only.
+        // The widths differ only in speed. The conditions are constant, so the compiler emits no code for the other
+        // width. Levels without fused products have only one arithmetic.
         if const { fits_in_registers::<T, S, M>() } {
             if fuses || const { !L::FUSES } {
                 work.at::<L, L::Wide, M>(scheme);
@@ -102,10 +102,10 @@ where
 /// Two registers of a level in lock-step.
 type W2<L> = W<<L as Level>::Pack, 2>;
 
-/// Members of a host that are driven to their ends.
+/// Drives the members of a host to their ends.
 pub struct DriveMembers<'a, T: Real, S: System<T>>(&'a mut dyn Host<T, S>);
 
-/// Members with deviations that are advanced to their ends.
+/// Advances members with deviations to their ends.
 pub struct DeviateMembers<'a, 'r, T: Real, S: System<T>>(&'a mut Deviations<'r, T, S>);
 
 /// Work on members in the lanes of one pack type.
@@ -127,6 +127,7 @@ impl<T: Real, S: System<T>> Work<T, S> for DeviateMembers<'_, '_, T, S> {
         scheme.deviate::<L>(self.0);
     }
 }
+
 /// Returns true if a step has few enough numbers for several registers in lock-step to hide its latency. With
 /// more numbers, registers spill.
 const fn fits_in_registers<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {

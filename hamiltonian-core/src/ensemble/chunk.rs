@@ -1,7 +1,7 @@
-//! Members in memory, some hundreds at a time.
+//! Members in memory, in chunks of some hundreds.
 //!
 //! Input: systems and starts. Output: the members after a number of steps. Invariant: a chunk stores the
-//! carried values of the scheme, the parameters (once, if all are equal) and one observer a member. Nothing
+//! carried values of the scheme, the parameters (once, if all are equal) and one observer per member. Nothing
 //! else in it grows with the number of members.
 
 use super::guard::guard;
@@ -17,7 +17,7 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
-/// One value for all, or one for each.
+/// A value that all members share, or one value per member.
 #[derive(Debug, Clone)]
 pub(crate) enum Shared<A> {
     /// No member has one.
@@ -64,13 +64,13 @@ pub(crate) enum Finished<V: Vector> {
 /// Members with consecutive indices.
 #[derive(Debug, Clone)]
 pub(crate) struct Chunk<R, V: Vector<Scalar = f64>, O> {
-    /// The index of the first.
+    /// The index of the first member.
     pub(crate) first: usize,
     pub(crate) count: usize,
     /// The carried values of the scheme, member by member.
     pub(crate) words: Vec<f64>,
     pub(crate) prepared: Shared<R>,
-    /// The times at which they start.
+    /// The times at which the members start.
     pub(crate) starts: Shared<f64>,
     pub(crate) finished: BTreeMap<usize, Finished<V>>,
     pub(crate) observers: Vec<O>,
@@ -170,8 +170,8 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
     pub(crate) steps: u64,
 }
 
-/// The members of a chunk, advanced from one number of steps to another. At each stop `receive` receives the
-/// member's observer and its view; it ends the member by returning `Break`.
+/// The host of a chunk, whose members advance from one number of steps to another. At each stop, `receive` is called
+/// with the member's observer and its view. It ends the member by returning `Break`.
 pub(crate) struct ChunkHost<'a, S: System<f64>, O, F> {
     pub(crate) chunk: &'a mut ChunkOf<S, O>,
     pub(crate) common: &'a Common<S::Vector>,
@@ -216,19 +216,19 @@ where
 
     /// Records the state at which a member has ended. Returns false: the member does not stay.
     fn end(&mut self, key: usize, view: &View<'_, f64, S>, end: EndOf<S>) -> bool {
-        let out = match end {
+        let finished = match end {
             Ok(end) => {
                 let end = end.unwrap_or_else(|| view.state.clone());
                 Finished::Ended(Box::new(end), view.step)
             }
             Err(error) => Finished::Failed(error, view.step),
         };
-        self.chunk.finished.insert(key, out);
+        self.chunk.finished.insert(key, finished);
         false
     }
 
-    /// Writes the quantities that lanes evaluate for a member whose observer receives states. There are none
-    /// unless the lanes evaluate all that the observer follows.
+    /// Lists the quantities that lanes evaluate for a member whose observer receives states. The list is empty unless
+    /// lanes can evaluate everything that the observer needs.
     fn list_followed(&mut self, key: usize, into: &mut FollowedQuantities<f64>) {
         let observer = &mut self.chunk.observers[key];
         let evaluates = self.evaluates_in_lanes;
@@ -289,7 +289,7 @@ where
             Some(run) => {
                 if matches!(self.chunk.prepared, Shared::Each(_)) {
                     run.prepared.clone_from(prepared);
-                    run.other = true;
+                    run.system_changed = true;
                 }
                 run.words.copy_from_slice(words);
                 (run.key, run.clock, run.made, run.stop) = (key, clock, made, stop);
@@ -300,7 +300,7 @@ where
                 *slot = Some(MemberRun {
                     key,
                     prepared: prepared.clone(),
-                    other: true,
+                    system_changed: true,
                     step: self.common.step,
                     clock,
                     made,
@@ -324,7 +324,7 @@ where
         followed: &mut FollowedQuantities<f64>,
         view: &View<'_, f64, S>,
     ) -> bool {
-        // The lanes have evaluated its quantities up to the target.
+        // The lanes have evaluated the quantities of its observer up to the target.
         if !followed.is_empty() {
             return false;
         }

@@ -16,7 +16,7 @@ use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
 pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Real, P: Pack> {
     pub(crate) map: &'a R,
     pub(crate) times: &'a Times<T::Over<P>>,
-    /// Steps since the count of times began; a negative number is a step before it.
+    /// Steps since the count of times began. A number that is negative as an `i64` is a step before.
     pub(crate) made: u64,
     pub(crate) carried: &'a R::Carried,
     pub(crate) shown: &'a mut R::Carried,

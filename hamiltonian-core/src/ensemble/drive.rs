@@ -1,9 +1,8 @@
-//! Members driven to their ends in the lanes of one pack type.
+//! Integration of members to their ends, in the lanes of one pack type.
 //!
 //! Input: a scheme and a host. Output: the host has received every member at each of its stops. Invariants:
-//! a member's bits depend on its system, its start and the arithmetic of the pack alone. Lanes are refilled at the ends
-//! of blocks only. A failure costs the other members nothing, since the failed one is replayed apart from
-//! them.
+//! a member's bits depend only on its own run and on the arithmetic of the pack. Lanes are refilled only between blocks.
+//! A member that fails does not delay the others, since it is replayed after them.
 
 pub(super) mod deviations;
 mod rows;
@@ -37,7 +36,7 @@ const BLOCK: u64 = 1024;
 pub trait InPack<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
     /// Drives all members of the host to their ends, inside the level `L` of the pack.
     fn drive<L: Level>(&self, host: &mut dyn Host<T, S>);
-    /// Advances members with deviations to their ends, likewise.
+    /// Advances members with deviations to their ends, inside the level `L` of the pack.
     fn deviate<L: Level>(&self, all: &mut Deviations<'_, T, S>);
 }
 
@@ -74,7 +73,7 @@ where
         let mut lanes = Lanes::<T, S, P, M>::new::<L>(self, &occupants);
         while !host.is_cancelled() {
             lanes.load_lanes::<L>(self, &mut occupants);
-            // A drift begins at the start: its first state is evaluated before the first step.
+            // The first value of a drift is that at the start, so a block without steps evaluates it.
             let attach = lanes.attach.take();
             let n = match attach {
                 Some(_) => 0,
@@ -173,10 +172,10 @@ where
     opening: Opening<MaskIn<T, P>>,
     /// Steps since the occupants last changed.
     made: u64,
-    /// The drifts that are followed, and those at the beginning of the block.
+    /// The drifts that are followed, and the same at the beginning of the block.
     drifts: Vec<LaneDrift<T::Over<P>>>,
     drifts_before: Vec<LaneDrift<T::Over<P>>>,
-    /// The functions whose sign is followed, and those at the beginning of the block.
+    /// The functions whose sign is followed, with their values, and the same at the beginning of the block.
     sections: Vec<LaneSection<T::Over<P>>>,
     sections_before: Vec<LaneSection<T::Over<P>>>,
     /// The same functions over the members' scalar.
@@ -193,15 +192,15 @@ where
     attach: Option<MaskIn<T, P>>,
     /// The steps after which the observers of lanes receive states, if the lanes differ.
     schedule: LaneSchedule<T::Over<P>>,
-    /// True if the map is that of occupants which are not yet loaded into the lanes.
+    /// True if the map was prepared for the present occupants before they were loaded into the lanes.
     is_prepared: bool,
-    /// The step of each lane for which the map is made.
+    /// The step of each lane for which the map was prepared.
     steps: Vec<T>,
     /// True if all lanes have the same parameters.
     uniform: bool,
-    /// A number of each lane.
+    /// Scratch for a number of each lane.
     numbers: Vec<T>,
-    /// Numbers of the lanes, component by component.
+    /// Scratch for numbers of the lanes, component by component.
     rows: Vec<T>,
 }
 
@@ -217,7 +216,7 @@ where
         >,
     M: Scheme<T, S> + Scheme<T::Over<P>, S>,
 {
-    /// Allocates lanes of the shapes of the first occupants, which are loaded afterwards.
+    /// Allocates lanes in the shape of the first occupants, which are loaded afterwards.
     #[inline(always)]
     fn new<L: Level>(scheme: &M, occupants: &Occupants<T, S>) -> Self {
         let runs = occupants.runs();
@@ -258,7 +257,7 @@ where
         lanes
     }
 
-    /// Compares the parameters of all runs.
+    /// Sets `uniform` by comparing the parameters of all runs.
     fn compare(&mut self, runs: &[&MemberRun<T, S>]) {
         let mut pairs = runs.windows(2);
         self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
@@ -314,7 +313,7 @@ where
         };
     }
 
-    /// The quantities that are followed.
+    /// Returns the quantities that are followed.
     fn quantities(&self) -> impl Iterator<Item = Quantity> {
         let drifts = self.drifts.iter().map(|drift| drift.quantity);
         let sections = self.sections.iter().map(|section| section.observable);
@@ -389,8 +388,8 @@ where
         occupants.drifts_written();
     }
 
-    /// Removes the members that are not finite after a block. They are replayed step by step; after a block of
-    /// one step they have failed.
+    /// Removes the members that are not finite after a block. They will be replayed step by step. A member that is
+    /// being replayed has failed.
     #[cold]
     #[inline(never)]
     fn remove_failed<L: Level>(
@@ -495,7 +494,7 @@ where
     }
 }
 
-/// A number of each lane.
+/// Returns a number of each run.
 fn number_of_each<T: Real, S: System<T>>(
     runs: &[&MemberRun<T, S>],
     of: impl Fn(&MemberRun<T, S>) -> T,
@@ -513,7 +512,7 @@ fn as_scalars<T: Real>(steps: &[u64]) -> Vec<T> {
     steps.iter().map(|n| as_scalar(*n)).collect()
 }
 
-/// Returns a copy. It is made out of line, since a value in lanes is long and is copied in many places.
+/// Returns a copy. The function is not inlined, since values in lanes are long and are copied in many places.
 #[inline(never)]
 fn cloned<C: Clone>(of: &C) -> C {
     of.clone()

@@ -1,4 +1,4 @@
-//! Closures of users, whose panics become errors.
+//! Calls of users' closures, whose panics become errors.
 
 use crate::error::Error;
 

@@ -14,31 +14,31 @@ use hamiltonian_lanes::Real;
 
 /// The run of a member, with all that is needed to continue it in any lane.
 pub struct MemberRun<T: Real, S: System<T>> {
-    /// The host's number of the member.
+    /// The number of the member in its host.
     pub(crate) key: usize,
-    /// Its system.
+    /// The prepared system.
     pub(crate) prepared: S::Prepared,
-    /// True if the system differs from that of the previous run in the same storage.
-    pub(crate) other: bool,
-    /// Its step.
+    /// True if the system may differ from that of the previous run in this lane.
+    pub(crate) system_changed: bool,
+    /// The size of a step.
     pub(crate) step: T,
-    /// Its time.
+    /// The time as a function of the number of steps.
     pub(crate) clock: Clock<T>,
     /// The number of steps made.
     pub(crate) made: u64,
     /// The number of steps at which the host next receives the member.
     pub(crate) stop: u64,
-    /// The carried value of the scheme, up to date on loading and on leaving only.
+    /// The carried value of the scheme. It is up to date only when the member is loaded and when it leaves.
     pub(crate) words: Vec<T>,
-    /// The quantities that lanes evaluate for its observer. Drifts are up to date at stops and on leaving.
+    /// The quantities that lanes evaluate for the observer. Drifts are up to date at stops and when the member leaves.
     pub(crate) followed: FollowedQuantities<T>,
-    /// The number of steps between two states whose drift it follows.
+    /// The number of steps between two states that the observer receives.
     pub(crate) interval: u64,
     /// The number of steps made when the drifts were up to date.
     pub(crate) since: u64,
-    /// The number of steps made when its observer last received a state, if lanes follow signs for it.
+    /// The number of steps made when the observer last received a state, if lanes follow signs for it.
     pub(crate) received: u64,
-    /// The start on loading; the state on arrival.
+    /// The start when the member is loaded; the state when the host receives it.
     pub(crate) state: State<S::Vector>,
 }
 
@@ -47,8 +47,8 @@ pub trait Host<T: Real, S: System<T>> {
     /// Loads the run of the next member into a slot. A run that is already there has ended, and its storage may
     /// be reused. Returns false if there is no next member.
     fn load(&mut self, slot: &mut Option<MemberRun<T, S>>) -> bool;
-    /// Receives a member's state at its stop. Returns true if the member stays, with its stop advanced. Lanes
-    /// then evaluate the quantities in `followed`.
+    /// Receives a member's state at its stop. Returns true if the member stays, and then sets its next stop. From then
+    /// on, lanes evaluate the quantities in `followed`.
     fn receive(
         &mut self,
         key: usize,
@@ -59,16 +59,16 @@ pub trait Host<T: Real, S: System<T>> {
     /// Passes a state before the next stop to the observer of a member, see
     /// [`Observer::pass`](crate::Observer::pass). Returns true if the member stays.
     fn pass(&mut self, key: usize, view: &View<'_, T, S>, signs_kept: bool) -> bool;
-    /// Takes the drifts of a member at its stop.
+    /// Receives the drifts of a member at its stop.
     fn take_drifts(&mut self, key: usize, followed: &mut FollowedQuantities<T>);
     /// Returns the number of steps that followed members have made when they are loaded.
     fn phase(&self) -> u64;
-    /// Takes back the carried value of a member that leaves.
+    /// Receives the carried value of a member that leaves its lane.
     fn leave(&mut self, run: &mut MemberRun<T, S>);
-    /// Takes back a member whose next step failed; `words` are those before that step.
+    /// Receives a member whose next step failed. Its `words` are those before that step.
     fn fail(&mut self, run: &mut MemberRun<T, S>, error: Error);
     /// Returns true if the host receives states. Otherwise members leave at their stops.
     fn observes(&self) -> bool;
-    /// Returns true if the work is cancelled, which is checked between blocks. Members under way are abandoned.
+    /// Returns true if the work is cancelled. This is checked between blocks, and running members are then abandoned.
     fn is_cancelled(&mut self) -> bool;
 }

@@ -1,6 +1,6 @@
-//! Members that live in memory.
+//! Ensembles whose members stay in memory.
 //!
-//! Input: a system and a start for each index, a scheme, a step. Output: all of them so many steps later.
+//! Input: a system and a start for each index, a scheme, a step. Output: the members after a number of steps.
 
 use super::Member;
 use super::bound::{Ensembles, ErasedScheme};
@@ -21,8 +21,8 @@ use core::ops::ControlFlow;
 
 /// Many members of one system and one scheme, which advance together in the lanes of packs and on threads.
 ///
-/// Each member has its own start and its own parameters. A member that fails keeps its error, and the
-/// others go on.
+/// Each member has its own start and its own parameters. A member that fails keeps its error, and the others
+/// continue.
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
@@ -39,29 +39,29 @@ use core::ops::ControlFlow;
 /// ```
 ///
 /// # Bits
-/// The number of threads, the number of members and the other members change no bit of a member. By
-/// default products and sums fuse where the CPU fuses them. With [`reproducible`](Ensemble::reproducible)
-/// nothing fuses: a member then has the bits of a single [`Integrator`](crate::Integrator) on every CPU.
+/// The bits of a member depend on neither the number of threads nor the other members. By default, products and sums
+/// are fused if the CPU has such instructions. With [`reproducible`](Ensemble::reproducible) they are not fused, and a
+/// member has the bits of a single [`Integrator`](crate::Integrator) on every CPU.
 pub struct Ensemble<S: System<f64>, O = ()> {
     pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
     pub(crate) chunks: Vec<ChunkOf<S, O>>,
     pub(crate) common: Common<S::Vector>,
     threads: usize,
     pub(crate) fuses: bool,
-    /// The memory of the observers of a saved ensemble, until they are attached.
+    /// The saved data of observers, until they are attached to a resumed ensemble.
     pub(crate) memory: Memory,
 }
 
-/// A multiple of the lanes of every pack that is wide: 8, 16, 24 or 64.
+/// A multiple of the lanes of every wide pack: 8, 16, 24 or 64.
 const LANES: usize = 192;
-/// The most members of a chunk.
+/// The largest number of members in a chunk.
 const CHUNK: usize = 10 * LANES;
 
 impl<S: System<f64>> Ensemble<S> {
-    /// An ensemble of `count` members. `make` makes the system and the start of each; `step` is the step
-    /// of all, negative to integrate backwards.
+    /// Creates an ensemble of `count` members. `make` makes the system and the start of each. All members have the step
+    /// `step`, which is negative to integrate backwards.
     ///
-    /// A start that is no start is the error of its member: see [`states`](Ensemble::states).
+    /// An invalid start is the error of its member, see [`states`](Ensemble::states).
     ///
     /// # Errors
     /// [`Error::NoMembers`], [`Error::Step`].
@@ -74,7 +74,8 @@ impl<S: System<f64>> Ensemble<S> {
         Self::try_new(count, |member| Ok(make(member)), scheme, step)
     }
 
-    /// The same with a closure that returns a `Result`, the error of which is that of the member.
+    /// Does the same as [`new`](Ensemble::new) with a closure that returns a `Result`. Its error becomes that of the
+    /// member.
     ///
     /// # Errors
     /// Those of [`new`](Ensemble::new).
@@ -103,7 +104,7 @@ impl<S: System<f64>> Ensemble<S> {
         for first in (0..count).step_by(size) {
             let mut chunk = Chunk::new(first);
             for index in first..count.min(first + size) {
-                // A member that failed leaves its words at 0.
+                // The words of a member that failed stay 0.
                 chunk.words.resize((index - first) * common.width, 0.0);
                 let made = guard(|| make(Member::new(index, 0))).and_then(|made| made);
                 let begun = made.and_then(|(system, start)| {
@@ -147,9 +148,10 @@ impl<S: System<f64>> Ensemble<S> {
 }
 
 impl<S: System<f64>, O> Ensemble<S, O> {
-    /// The same ensemble with an observer for each member, made from its index. It receives the present
-    /// state at once, and from then on the states of its member as in a single run; one that ends its
-    /// member ends no other.
+    /// Attaches an observer to each member, made from its index.
+    ///
+    /// An observer receives the present state at once, and from then on the states of its member as in a single run. An
+    /// observer that ends its member ends no other.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -162,11 +164,10 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// Call it once. For several observers the closure returns a tuple.
+    /// Call `observe` once. For several observers, return a tuple.
     ///
-    /// A member for which the closure panics fails with [`Error::Panicked`]. The closure is called again for
-    /// another member, so that [`observers`](Ensemble::observers) has an entry for each; that one receives
-    /// nothing.
+    /// A member for which the closure panics fails with [`Error::Panicked`]. Its entry in
+    /// [`observers`](Ensemble::observers) is an observer made for another member, which receives no states.
     pub fn observe<N: Observer<f64, S> + Send>(
         self,
         mut observer: impl FnMut(Member) -> N,
@@ -179,8 +180,8 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             |index| guard(|| observer(Member::new(index, 0))),
             self.len(),
         );
-        // A member for which the closure returns: none before one is found, or after a vain search.
-        let (mut good, mut is_vain) = (None, false);
+        // A member for which the closure does not panic, if any is known; and whether there is none.
+        let (mut good, mut all_panic) = (None, false);
         let chunks = self.chunks.into_iter().map(|mut chunk| {
             let mut observers = Vec::with_capacity(chunk.count);
             for key in 0..chunk.count {
@@ -190,9 +191,9 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                         .finished
                         .entry(key)
                         .or_insert(Finished::Failed(error.clone(), now));
-                    if good.is_none() && !is_vain {
+                    if good.is_none() && !all_panic {
                         good = (index + 1..count).find(|other| of(*other).is_ok());
-                        is_vain = good.is_none();
+                        all_panic = good.is_none();
                     }
                     good.map_or(Err(error), &mut of)
                 });
@@ -236,9 +237,10 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
         self
     }
 
-    /// Makes `n` steps and shows the whole ensemble to a closure after every `steps` steps (0 counts as 1)
-    /// of them and at the end, until that returns [`ControlFlow::Break`]: progress, pictures, a condition
-    /// on all members.
+    /// Makes `n` steps, and calls a closure with the whole ensemble after every `steps` steps (0 counts as 1) and at the
+    /// end. [`ControlFlow::Break`] stops the ensemble.
+    ///
+    /// The closure may draw pictures, report progress or check a condition on all members.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -264,15 +266,14 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
 }
 
 impl<S: System<f64>, O> Ensemble<S, O> {
-    /// Advances on so many threads (0 counts as 1). By default there are as many as the machine runs at
-    /// once.
+    /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }
 
-    /// Fuses no products and sums, so that each member has the bits of its single run on every CPU.
+    /// Does not fuse products and sums, so that each member has the bits of its single run on every CPU.
     #[must_use]
     pub fn reproducible(mut self) -> Self {
         self.fuses = false;
@@ -280,12 +281,12 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     }
 
     /// The number of members.
-    #[allow(clippy::len_without_is_empty)] // An ensemble has members.
+    #[allow(clippy::len_without_is_empty)] // An ensemble has at least one member.
     pub fn len(&self) -> usize {
         self.chunks.iter().map(|chunk| chunk.count).sum()
     }
 
-    /// The number of steps made by the members that go on.
+    /// The number of steps made by the members that have neither failed nor been ended.
     pub fn steps(&self) -> u64 {
         self.common.steps
     }
@@ -295,8 +296,8 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         self.chunks.iter().flat_map(|chunk| &chunk.observers)
     }
 
-    /// The state of each member, in the order of the index: the present one, the one at which its observer
-    /// ended it, or its error.
+    /// The state of each member, in the order of the index: the present state, or the one at which its observer ended
+    /// it, or its error.
     ///
     /// # Errors
     /// [`Error::Member`] with the index and the error of the member.
@@ -325,7 +326,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         })
     }
 
-    /// The states of some members of a chunk: the present ones, or those at a time within a step of them.
+    /// Returns states of some members of a chunk: the present ones, or those at a time less than a step later.
     pub(super) fn closed(
         &self,
         number: usize,
@@ -367,18 +368,18 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         .collect()
     }
 
-    /// Gives observers back what they remember; a member whose observer is another one fails.
+    /// Restores the data of observers. A member fails if another observer saved its data.
     fn restore(&mut self, memory: &mut Memory)
     where
         O: Observer<f64, S>,
     {
         for chunk in &mut self.chunks {
-            // Those that ended have memories too. A state is of use for its shape.
-            let out = core::mem::take(&mut chunk.finished);
-            let failed = out
-                .iter()
-                .filter(|(_, out)| matches!(out, Finished::Failed(..)));
-            chunk.finished = failed.map(|(key, out)| (*key, out.clone())).collect();
+            // Members that have ended are loaded too, since their observers have saved data. Restoring takes a view, from
+            // which an observer reads the shape of states.
+            let finished = core::mem::take(&mut chunk.finished);
+            let failed = |one: &(&usize, &Finished<_>)| matches!(one.1, Finished::Failed(..));
+            let failed = finished.iter().filter(failed);
+            chunk.finished = failed.map(|(key, one)| (*key, one.clone())).collect();
             let mut host = ChunkHost {
                 chunk,
                 common: &self.common,
@@ -395,11 +396,11 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 },
             };
             self.scheme.drive(&mut host, self.fuses);
-            chunk.finished.extend(out);
+            chunk.finished.extend(finished);
         }
     }
 
-    /// Drives all members to a number of steps.
+    /// Advances all members to a number of steps.
     fn drive(
         &mut self,
         target: u64,

@@ -1,7 +1,7 @@
 //! Indicators of chaos of many starts.
 //!
-//! Input: a system and a start for each index, a scheme, a step. Output: the exponents, MEGNO or GALI of each. Invariants:
-//! threads and neighbours change no bit of a member.
+//! Input: a system and a start for each index, a scheme, a step. Output: the Lyapunov exponents, MEGNO or GALI of each
+//! member. Invariant: neither the number of threads nor the other members change a bit of a member.
 
 use super::Member;
 use super::bound::Ensembles;
@@ -28,15 +28,15 @@ type D = Dual<f64>;
 type Make<'a, S> =
     Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
 
-/// Order and chaos of many starts, in the lanes of packs and on threads: Lyapunov exponents, MEGNO or GALI.
+/// Computes Lyapunov exponents, MEGNO or GALI of many starts, in the lanes of packs and on threads.
 ///
-/// | | for each member | as |
+/// | method | result for each member | the same for one run |
 /// |---|---|---|
 /// | [`collect`](Lyapunov::collect) | exponents, in units of 1/time | [`Tangent::lyapunov`](crate::tangents::Tangent::lyapunov) |
-/// | [`megno`](Lyapunov::megno) | tends to 2, or grows like λt/2 | [`megno`](crate::tangents::megno()) |
-/// | [`gali`](Lyapunov::gali) | stays, or falls like exp(−Σ(λ₁ − λᵢ)t) | [`Tangent::gali`](crate::tangents::Tangent::gali) |
+/// | [`megno`](Lyapunov::megno) | tends to 2 for regular motion, grows like λt/2 for chaos | [`megno`](crate::tangents::megno()) |
+/// | [`gali`](Lyapunov::gali) | roughly constant for regular motion, falls like exp(−Σ(λ₁ − λᵢ)t) for chaos | [`Tangent::gali`](crate::tangents::Tangent::gali) |
 ///
-/// Each deviation is carried by a run over [`Dual`](crate::Dual)s.
+/// Each deviation is computed by a run over [`Dual`](crate::Dual)s.
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
@@ -47,15 +47,15 @@ type Make<'a, S> =
 ///     .steps(1_000)
 ///     .collect()?;
 /// for exponents in all {
-///     // Neighbours of an oscillator stay where they are.
+///     // Orbits of an oscillator neither approach nor leave each other.
 ///     assert!(exponents?.iter().all(|rate| rate.abs() < 1e-3));
 /// }
 /// # Ok::<(), Error>(())
 /// ```
 ///
 /// # Bits
-/// As for an [`Ensemble`](crate::Ensemble): threads and the other members change no bit, and with
-/// [`reproducible`](Lyapunov::reproducible) each has the bits of a single
+/// As for an [`Ensemble`](crate::Ensemble), neither the number of threads nor the other members change a bit of a
+/// member. With [`reproducible`](Lyapunov::reproducible), each member has the bits of a single
 /// [`Tangent`](crate::tangents::Tangent) on every CPU.
 pub struct Lyapunov<'a, S: System<f64>, M> {
     count: usize,
@@ -72,8 +72,8 @@ pub struct Lyapunov<'a, S: System<f64>, M> {
 }
 
 impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
-    /// The exponents of `count` members with the step `step`, to be given a number of
-    /// [`steps`](Lyapunov::steps). `make` makes the system and the start of a member, on any thread.
+    /// Describes a computation for `count` members with the step `step`; [`steps`](Lyapunov::steps) sets its length.
+    /// `make` makes the system and the start of a member, on any thread.
     pub fn new(
         count: usize,
         make: impl Fn(Member) -> (S, State<<S as System<f64>>::Vector>) + Send + Sync + 'a,
@@ -83,7 +83,8 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         Self::try_new(count, move |member| Ok(make(member)), scheme, step)
     }
 
-    /// The same with a closure that returns a `Result`, the error of which is that of the member.
+    /// Does the same as [`new`](Lyapunov::new) with a closure that returns a `Result`. Its error becomes that of the
+    /// member.
     pub fn try_new(
         count: usize,
         make: impl Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error>
@@ -115,30 +116,30 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         self
     }
 
-    /// Makes deviations orthonormal, or for GALI of length 1, after so many steps (0 counts as 1); by default after
-    /// 10. Every time unit or so is often enough.
+    /// Sets the number of steps after which deviations are made orthonormal, or for GALI normalised (0 counts as 1).
+    /// The default is 10 steps. About once per time unit is often enough.
     #[must_use]
     pub fn every(mut self, steps: u64) -> Self {
         self.every = steps.max(1);
         self
     }
 
-    /// Sets the number of exponents that [`collect`](Lyapunov::collect) gives, the greatest first; by default it is 1. The rates of k deviations are
-    /// the first k of more.
+    /// Sets the number of exponents that [`collect`](Lyapunov::collect) returns, the greatest first. The default is 1.
+    /// An exponent does not depend on how many smaller ones are computed.
     #[must_use]
     pub fn deviations(mut self, k: usize) -> Self {
         self.deviations = k;
         self
     }
 
-    /// Runs on so many threads (0 counts as 1). By default there are as many as the machine runs at once.
+    /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }
 
-    /// Fuses no products and sums, so that each member has the bits of its single
+    /// Does not fuse products and sums, so that each member has the bits of its single
     /// [`Tangent`](crate::tangents::Tangent) on every CPU.
     #[must_use]
     pub fn reproducible(mut self) -> Self {
@@ -153,26 +154,26 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         self
     }
 
-    /// Calls a closure now and then with the number of members that are done and of all.
+    /// Calls a closure after each chunk of members with the number of finished members and the number of all.
     #[must_use]
     pub fn progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
         self.progress = Some(Box::new(closure));
         self
     }
 
-    /// The exponents of each member, or its error, in the order of the index.
+    /// Computes the exponents of each member, or its error, in the order of the index.
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::NoSteps`], [`Error::Step`], [`Error::Cancelled`]. The error of a
-    /// member is [`Error::Member`] in its place: of its start, [`Error::Deviations`], of its steps.
+    /// [`Error::NoMembers`], [`Error::NoSteps`], [`Error::Step`], [`Error::Cancelled`]. A member that fails has
+    /// [`Error::Member`] in its place, with an error of its start, [`Error::Deviations`] or an error of its steps.
     pub fn collect(&self) -> Result<Vec<Result<Vec<f64>, Error>>, Error> {
         self.compute(Indicator::Rates, self.deviations)
     }
 
-    /// The MEGNO of each member, or its error, in the order of the index.
+    /// Computes the MEGNO of each member, or its error, in the order of the index.
     ///
-    /// It costs as much as one exponent, and tells order from chaos earlier: regular members are near 2, whatever the
-    /// units.
+    /// MEGNO costs as much as one exponent, and distinguishes regular motion from chaos earlier: regular members are
+    /// near 2 in any units.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -180,7 +181,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
     /// let all = Lyapunov::new(20, start, ImplicitMidpoint::default(), 0.1).steps(1_000);
     /// for megno in all.megno()? {
-    ///     // Neighbours of an oscillator stay where they are.
+    ///     // Orbits of an oscillator neither approach nor leave each other.
     ///     assert!(megno?.abs() < 0.1);
     /// }
     /// for gali in all.gali(2)? {
@@ -195,9 +196,10 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         self.one(Indicator::Megno, 1)
     }
 
-    /// GALI of the first `k` deviations of each member after all steps, or its error, in the order of the index.
+    /// Computes GALI of the first `k` deviations of each member after all steps, or its error, in the order of the
+    /// index.
     ///
-    /// Deviations get the length 1 [`every`](Lyapunov::every) so many steps before the last.
+    /// Deviations are normalised [`every`](Lyapunov::every) so many steps, but not after the last step.
     ///
     /// # Errors
     /// Those of [`collect`](Lyapunov::collect).
@@ -205,19 +207,19 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         self.one(Indicator::Gali, k)
     }
 
-    /// An indicator that is one number.
+    /// Computes an indicator that is one number.
     fn one(&self, indicator: Indicator, count: usize) -> Result<Vec<Result<f64, Error>>, Error> {
         let all = self.compute(indicator, count)?.into_iter();
         Ok(all.map(|numbers| Ok(numbers?[0])).collect())
     }
 
-    /// An indicator of each member, from so many deviations.
+    /// Computes an indicator of each member from `count` deviations.
     fn compute(
         &self,
         indicator: Indicator,
         count: usize,
     ) -> Result<Vec<Result<Vec<f64>, Error>>, Error> {
-        /// The most members that are computed at once, by one thread.
+        /// The largest number of members in a chunk, which one thread computes.
         const CHUNK: usize = 640;
         if self.count == 0 {
             return Err(Error::NoMembers);
@@ -226,7 +228,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
             return Err(Error::NoSteps);
         }
         check_step(self.step)?;
-        // Whole packs.
+        // A multiple of the lanes of most packs, so that no lane is idle.
         let size = (self.count / 64).next_multiple_of(64).clamp(64, CHUNK);
         let chunk = |job: usize| {
             let first = job * size;
@@ -251,7 +253,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         result.map(|()| all)
     }
 
-    /// An indicator of some members; `None` if the flag is set.
+    /// Computes an indicator of some members; `None` if the flag is set.
     fn chunk(
         &self,
         indicator: Indicator,
@@ -297,7 +299,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         Some(numbers.collect())
     }
 
-    /// A member at its start, which fits another.
+    /// Makes a member at its start. It must fit the other members.
     fn begin(
         &self,
         index: usize,

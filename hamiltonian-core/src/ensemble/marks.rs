@@ -1,4 +1,4 @@
-//! Steps of lanes whose states observers of signs require.
+//! Steps of lanes whose states are passed to observers of signs.
 //!
 //! Input: the carried values of the lanes, step by step. Output: the marked steps, with the carried values
 //! after them and after the two steps before. Invariant: the lanes continue past a marked step. Observers
@@ -8,7 +8,7 @@ use crate::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Mask;
 
-/// The number of marked steps that ends a block.
+/// The number of marked steps after which a block ends.
 const MOST: usize = 16;
 
 /// The carried values after three consecutive steps, the last one last.
@@ -16,13 +16,13 @@ pub(crate) type LastThree<C> = [C; 3];
 
 /// The marks of a block.
 pub(crate) struct Marks<C, M> {
-    /// The values carried after the last three steps.
+    /// The carried values after the last three steps, as a ring buffer.
     ring: LastThree<C>,
-    /// The index of the last of them in the ring.
+    /// The index of the newest value in the ring.
     newest: usize,
-    /// The lanes for which the present step is to be marked.
+    /// The lanes in which the present step will be marked.
     pub(crate) to_mark: M,
-    /// The steps that are marked, and their lanes.
+    /// The marked steps, and the lanes for which they are marked.
     pub(crate) steps: Vec<(u64, M)>,
     /// The carried values at the marks. The vector is never shortened, so that its storage is reused.
     states: Vec<LastThree<C>>,

@@ -11,8 +11,8 @@
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
 //! - [`chunk`], [`in_memory`], [`until`]: members in memory;
-//! - [`sweep`], [`sweep::host`], [`record`]: members that leave a record;
-//! - [`lyapunov`], [`deviations`]: members that leave exponents.
+//! - [`sweep`], [`sweep::host`], [`record`]: members that are run to their ends and recorded;
+//! - [`lyapunov`], [`deviations`]: indicators of chaos of members.
 
 mod block;
 mod bound;
@@ -63,8 +63,7 @@ pub struct Member {
 impl Member {
     /// Returns member `index` of an ensemble with the seed `seed`.
     ///
-    /// The seed of a member is number `index` of SplitMix64 after a state that is the first number after
-    /// `seed` (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453, doi:10.1145/2660193.2660195).
+    /// The seed of a member is number `index` of the SplitMix64 sequence that begins at a mixed `seed` (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453, doi:10.1145/2660193.2660195).
     pub fn new(index: usize, seed: u64) -> Self {
         let state = mixed(seed.wrapping_add(GAMMA));
         let seed = mixed(state.wrapping_add(GAMMA.wrapping_mul((index as u64).wrapping_add(1))));

@@ -11,13 +11,13 @@ use crate::system::System;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
-/// The members in the lanes of a pack, and those pending for replay.
+/// The members in the lanes of a pack, and those that will be replayed.
 pub(crate) struct Occupants<T: Real, S: System<T>> {
     runs: Vec<Option<MemberRun<T, S>>>,
     status: Vec<LaneStatus>,
-    /// Members that failed in a block of steps and are pending for replay.
+    /// Members that failed in a block of steps and will be replayed.
     pending: Vec<MemberRun<T, S>>,
-    /// True if the members in the lanes are replayed step by step.
+    /// True if the members in the lanes are being replayed, step by step.
     replaying: bool,
     /// True if the host has members left.
     has_more: bool,
@@ -31,20 +31,20 @@ pub(crate) struct Occupants<T: Real, S: System<T>> {
 enum LaneStatus {
     /// No member; the storage of a previous run may be kept for reuse.
     Empty,
-    /// A member that was loaded since the last block.
+    /// A member whose numbers are not yet in the lane.
     Loaded,
     /// A member whose run continues.
     Running,
-    /// A member that leaves.
+    /// A member that returns to the host at the end of this block.
     Leaving,
 }
 
 /// The steps after which the observers of lanes receive states.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Schedule {
-    /// The steps to the first.
+    /// The steps to the first such state.
     pub(crate) first: u64,
-    /// The steps between two of them.
+    /// The steps between two such states.
     pub(crate) interval: u64,
     /// The steps to the first state and between two states, lane by lane, if the lanes differ; 0 for a lane
     /// whose observer receives none.
@@ -86,10 +86,10 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         }
     }
 
-    /// Fills the empty lanes. Returns true if any member is left.
+    /// Fills the empty lanes. Returns true if any lane has a member.
     pub(crate) fn fill(&mut self, host: &mut dyn Host<T, S>) -> bool {
         let mut some = false;
-        // The observer of a new member receives states after the same steps as the others.
+        // A member is loaded only when its observer receives states after the same steps as the others.
         let interval = self.interval();
         let is_aligned = self.phase() == host.phase() % interval;
         let is_empty = self.running().next().is_none();
@@ -107,7 +107,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         if some {
             return true;
         }
-        // Pending members are replayed last, step by step.
+        // The host has no members left: those that failed are replayed.
         self.replaying = true;
         for (run, status) in self.runs.iter_mut().zip(&mut self.status) {
             let Some(next) = self.pending.pop() else {
@@ -139,13 +139,13 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         self.change.is_some()
     }
 
-    /// Returns the change of the occupants since the last call.
+    /// Returns the change of the occupants since the last call, if there is one.
     pub(crate) fn changed(&mut self) -> Option<Change> {
         let mut change = self.change.take()?;
         change.all_at_start = true;
         for (run, status) in self.runs.iter_mut().zip(&self.status) {
             if let Some(run) = run.as_mut().filter(|_| *status != LaneStatus::Empty) {
-                change.parameters |= core::mem::take(&mut run.other);
+                change.parameters |= core::mem::take(&mut run.system_changed);
                 let is_at_start = run.made == 0;
                 change.any_at_start |= is_at_start;
                 change.all_at_start &= is_at_start;
@@ -154,8 +154,8 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         Some(change)
     }
 
-    /// Writes the carried values of new members into their columns of the rows, and repeats a column in empty
-    /// lanes.
+    /// Writes the carried values of new members into their columns of the rows. Columns of empty lanes repeat that of
+    /// an occupied one.
     pub(crate) fn write_columns(&mut self, rows: &mut [T]) {
         let lanes = self.status.len();
         let mut stand_in = None;
@@ -181,13 +181,13 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         }
     }
 
-    /// Returns the number of steps of the next block, which ends at the next stop of a member or before.
+    /// Returns the number of steps of the next block, at most `most`. No member has a stop before the end of the block.
     pub(crate) fn steps(&self, most: u64, host: &dyn Host<T, S>) -> u64 {
         let most = if self.replaying { 1 } else { most };
         let left = self.running().map(|run| run.stop.saturating_sub(run.made));
         let most = left.fold(most, u64::min);
         match self.has_more && self.status.contains(&LaneStatus::Empty) {
-            // The block ends at the step at which empty lanes may be refilled.
+            // The block ends at a step at which empty lanes may be refilled.
             true => {
                 let interval = self.interval();
                 let ahead = interval + host.phase() % interval - self.phase();
@@ -197,13 +197,13 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         }
     }
 
-    /// The members under way.
+    /// Returns the running members.
     fn running(&self) -> impl Iterator<Item = &MemberRun<T, S>> {
         let occupied = self.runs.iter().zip(&self.status);
         occupied.filter_map(|(run, status)| run.as_ref().filter(|_| *status == LaneStatus::Running))
     }
 
-    /// Counts the steps made.
+    /// Adds `n` to the number of steps of the running members.
     pub(crate) fn made(&mut self, n: u64) {
         for (run, status) in self.runs.iter_mut().zip(&self.status) {
             if let Some(run) = run.as_mut().filter(|_| *status == LaneStatus::Running) {
@@ -212,7 +212,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         }
     }
 
-    /// The members under way whose drift is followed.
+    /// Returns the running members whose drifts are followed.
     fn followed(&self) -> impl Iterator<Item = &MemberRun<T, S>> {
         let any = self
             .any_followed
@@ -222,13 +222,13 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         any.filter(|run| !run.followed.drifts.is_empty())
     }
 
-    /// Returns the steps between two states of the first member whose drift is followed.
+    /// Returns the steps between two recorded states of the first member whose drift is followed; 1 if there is none.
     fn interval(&self) -> u64 {
         let followed = self.followed().next();
         followed.map_or(1, |run| run.interval.max(1))
     }
 
-    /// Returns the steps since the last such state.
+    /// Returns the steps of this member since its last recorded state.
     fn phase(&self) -> u64 {
         let followed = self.followed().next();
         followed.map_or(0, |run| run.made % run.interval.max(1))
@@ -241,7 +241,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
             let interval = run.interval.max(1);
             [interval - run.made % interval, interval]
         };
-        // Signs are followed from step to step.
+        // Signs are compared after every step.
         let has_sections =
             self.any_followed && self.running().any(|run| !run.followed.sections.is_empty());
         let is_due = !has_sections || (first, interval) == (1, 1);
@@ -274,7 +274,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         }
     }
 
-    /// Records that drifts have begun.
+    /// Records that drifts without a first state have received it.
     pub(crate) fn begin_drifts(&mut self) {
         for run in self.runs.iter_mut().flatten() {
             for track in &mut run.followed.drifts {
@@ -286,7 +286,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         }
     }
 
-    /// Writes the numbers of drift `k` of each lane into the runs.
+    /// Writes the numbers of drift `k` of each lane into the runs, and adds the number of states since the last time.
     pub(crate) fn write_drift(&mut self, k: usize, lanes: &[Vec<T>; 4]) {
         for (lane, (run, status)) in self.runs.iter_mut().zip(&self.status).enumerate() {
             let Some(run) = run.as_mut().filter(|_| *status == LaneStatus::Running) else {
@@ -324,13 +324,13 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         Some((self.runs[lane].take()?, self.replaying))
     }
 
-    /// Makes a member pending for replay.
+    /// Adds a member that will be replayed.
     pub(crate) fn add_pending(&mut self, mut run: MemberRun<T, S>) {
-        run.other = true;
+        run.system_changed = true;
         self.pending.push(run);
     }
 
-    /// Returns true if a member is at its stop.
+    /// Returns true if any running member is at its stop.
     pub(crate) fn is_any_due(&self) -> bool {
         self.running().any(|run| run.made == run.stop)
     }
@@ -362,14 +362,14 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         }
     }
 
-    /// Returns true if a member at its stop after `n` more steps has an observer of signs.
+    /// Returns true if any member whose observer follows signs is at its stop after `n` more steps.
     pub(crate) fn is_any_due_with_sections(&self, n: u64) -> bool {
         let mut due = self.running().filter(|run| run.made + n == run.stop);
         due.any(|run| !run.followed.sections.is_empty())
     }
 
-    /// Calls a function with each member under way whose observer follows signs. The function returns true if
-    /// the member stays.
+    /// Calls a function with each running member whose observer follows signs. The function returns true if the member
+    /// stays.
     pub(crate) fn for_each_with_sections(
         &mut self,
         mut of: impl FnMut(usize, &mut MemberRun<T, S>) -> bool,
@@ -390,12 +390,12 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         self.change.get_or_insert_default();
     }
 
-    /// Returns true if a member leaves.
+    /// Returns true if any member leaves.
     pub(crate) fn is_any_leaving(&self) -> bool {
         self.status.contains(&LaneStatus::Leaving)
     }
 
-    /// Returns leaving members to the host, with their carried values.
+    /// Returns leaving members to the host, with their carried values, and empties their lanes.
     pub(crate) fn leave(&mut self, rows: &[T], host: &mut dyn Host<T, S>) {
         let lanes = self.status.len();
         for (lane, (run, status)) in self.runs.iter_mut().zip(&mut self.status).enumerate() {

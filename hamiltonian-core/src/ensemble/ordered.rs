@@ -1,7 +1,7 @@
 //! Work on several threads whose results are taken in order.
 //!
-//! Input: numbered jobs. Output: their results, one by one in the order of the numbers. Invariant: only a
-//! few jobs more than there are threads are done and not yet taken, so that memory is bounded.
+//! Input: numbered jobs. Output: their results, one by one in the order of the numbers. Invariant: at most twice as
+//! many jobs as threads are begun and not yet taken, so that memory is bounded.
 
 use core::ops::ControlFlow;
 
@@ -29,7 +29,7 @@ mod parallel {
     use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
     struct Queue<B> {
-        /// The job that is begun next.
+        /// The number of the next job.
         next: usize,
         /// The number of results taken.
         taken: usize,

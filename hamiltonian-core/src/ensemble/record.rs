@@ -1,4 +1,4 @@
-//! Records of members: what a sweep keeps.
+//! The results of members that a sweep stores.
 //!
 //! Input: the ends of members. Output: [`Row`]s of numbers, in the order of the index.
 
@@ -26,12 +26,12 @@ pub struct End<'v, S: System<f64>, O> {
 }
 
 impl<S: System<f64>, O> End<'_, S, O> {
-    /// H here, as it was declared.
+    /// The declared H at this state.
     pub fn energy(&self) -> f64 {
         declared_energy::<f64, S>(self.prepared, self.state)
     }
 
-    /// The observable of that name here; `None` if there is none.
+    /// The observable of that name at this state; `None` if there is none.
     pub fn observable_named(&self, name: &str) -> Option<f64> {
         let State { t, q, p } = self.state;
         S::observable_index(name).map(|index| self.prepared.observable(index, *t, q, p))
@@ -41,28 +41,28 @@ impl<S: System<f64>, O> End<'_, S, O> {
 /// Writes the numbers of a member.
 pub(crate) type Write<'a, S, O> = Box<dyn Fn(&End<'_, S, O>, &mut Vec<f64>) + Send + Sync + 'a>;
 
-/// The record of a sweep: its columns, and how they are written.
+/// The record of a sweep: its columns and the closure that computes them.
 pub struct Record<'a, S: System<f64>, O> {
     pub(crate) columns: Vec<String>,
-    /// True if a member may have another number of rows than one.
+    /// True if a member may have any number of rows; false if it has one.
     pub(crate) several: bool,
-    /// Times at which members are recorded; at their end if there are none.
+    /// Times at which members are recorded. Without them, members are recorded at their ends.
     pub(crate) times: Option<Vec<f64>>,
     pub(crate) write: Write<'a, S, O>,
 }
 
-/// How a member ended. As a number it is the `status` of a stored sweep.
+/// How a member ended. The number of a variant is the `status` in stored sweeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 #[repr(u8)]
 pub enum Status {
-    /// It has not been computed.
+    /// The member has not been computed.
     Missing = 0,
-    /// It has reached its end.
+    /// The member has reached its end.
     Ended = 1,
-    /// Its observer has ended it, at an event for example.
+    /// The member's observer has ended it, for example at an event.
     Stopped = 2,
-    /// It could not start: [`Error::Start`], [`Error::Values`] and others of a start.
+    /// The member could not start: [`Error::Start`], [`Error::Values`] or another error of a start.
     Start = 3,
     /// [`Error::NotFinite`].
     NotFinite = 4,
@@ -70,12 +70,12 @@ pub enum Status {
     Unsolved = 5,
     /// [`Error::Panicked`].
     Panicked = 6,
-    /// Another error on the way.
+    /// Another error after the start.
     Failed = 7,
 }
 
 impl Status {
-    /// That of an error, before the first step or later.
+    /// Returns the status for an error; `begun` is false for an error of the start.
     pub(crate) fn of(error: &Error, begun: bool) -> Self {
         match error {
             Error::Panicked { .. } => Status::Panicked,
@@ -92,27 +92,27 @@ impl Status {
 pub struct Row<'r> {
     /// The index of the member.
     pub index: usize,
-    /// How it ended.
+    /// How the member ended.
     pub status: Status,
-    /// The time at which it did.
+    /// The time at which the member ended.
     pub time: f64,
-    /// The number of whole steps that it made.
+    /// The number of whole steps that the member made.
     pub steps: u64,
-    /// One value a column: NaN for a member that failed; none at all where members have several rows and
-    /// this one has none.
+    /// One value per column, NaN for a member that failed. Empty if members have any number of rows and this member
+    /// has none.
     pub values: &'r [f64],
-    /// Its error, if it failed.
+    /// The member's error, if it failed.
     pub error: Option<&'r Error>,
 }
 
-/// How a member ended, with the place of its numbers.
+/// How a member ended, with the range of its values.
 #[derive(Debug)]
 pub(crate) struct Outcome {
     pub(crate) status: Status,
     pub(crate) time: f64,
     pub(crate) steps: u64,
     pub(crate) values: core::ops::Range<usize>,
-    /// A hash of its parameters, its start and its step; 0 where it could not be made.
+    /// A hash of its parameters, its start and its step; 0 if it could not be made.
     #[cfg_attr(not(feature = "std"), allow(dead_code))]
     pub(crate) hash: u64,
     pub(crate) error: Option<Error>,
@@ -125,7 +125,7 @@ pub(crate) struct Batch {
     pub(crate) columns: usize,
     pub(crate) outcomes: Vec<Outcome>,
     pub(crate) values: Vec<f64>,
-    /// True if it was cancelled on the way, so that some are missing.
+    /// True if the sweep was cancelled, so that members may be missing.
     pub(crate) cancelled: bool,
 }
 
@@ -136,7 +136,7 @@ impl Batch {
         let outcomes = self.outcomes.iter().zip(self.first..);
         outcomes.flat_map(move |(outcome, index)| {
             let values = &self.values[outcome.values.clone()];
-            // A member without a row is seen once.
+            // A member without rows has one `Row` with its status.
             let rows = (values.len() / columns).max(1);
             (0..rows).map(move |row| Row {
                 index,

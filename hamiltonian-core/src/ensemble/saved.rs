@@ -1,7 +1,7 @@
-//! Saving an ensemble and going on with it.
+//! Checkpoints of ensembles.
 //!
-//! Input: an ensemble, or a [`Checkpoint`]. Output: the other. Invariant: a checkpoint of other members, of
-//! another scheme or of another step is refused.
+//! Input: an ensemble, or a [`Checkpoint`]. Output: a checkpoint of the ensemble, or the ensemble that continues
+//! from it. Invariant: a checkpoint of other members, of another scheme or of another step is refused.
 
 use super::Member;
 use super::bound::Ensembles;
@@ -20,19 +20,19 @@ use alloc::string::String;
 use alloc::string::ToString;
 use core::fmt::Write;
 
-/// How a saved member goes on.
+/// The status of a saved member: it continues, has failed, or was ended by its observer.
 const ON: u64 = 0;
 const FAILED: u64 = 1;
 const ENDED: u64 = 2;
 
 impl<S: System<f64>, O> Ensemble<S, O> {
-    /// The system and the number of members.
+    /// Returns the text of the system and the number of members.
     fn formula(&self) -> String {
         let name = S::NAME;
         format!("{name}: {} ({} members)", S::FORMULA, self.len())
     }
 
-    /// A hash of all parameters and of the times at which members start.
+    /// Returns a hash of all parameters and of the times at which members start.
     fn members_hash(&self) -> String {
         let mut hash = Hash::new();
         for chunk in &self.chunks {
@@ -44,7 +44,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
 }
 
 impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
-    /// The ensemble and the memory of its observers, to be saved.
+    /// Returns a checkpoint of the ensemble and its observers.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
         numbers.number(self.common.step);
@@ -86,9 +86,10 @@ impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
 }
 
 impl<S: System<f64>> Ensemble<S> {
-    /// The ensemble that was saved, whose members are made again by the same closure: it goes on with the
-    /// same bits. Observers are attached by [`observe`](Ensemble::observe) as before, and remember what
-    /// they saved. The error of a member that had failed is [`Error::Before`].
+    /// Continues a saved ensemble with the same bits. The same closure must make its members.
+    ///
+    /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. A member that
+    /// had failed has the error [`Error::Before`].
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -141,7 +142,7 @@ impl<S: System<f64>> Ensemble<S> {
                     }
                     _ => return Err(damaged()),
                 };
-                // The error of a start is there already.
+                // If the start failed again, its error is there already.
                 chunk.finished.entry(key).or_insert(finished);
             }
         }

@@ -25,21 +25,22 @@ where
     S: System<f64>,
     O: Observer<f64, S>,
 {
-    /// Runs the chunks of this shard that the store at `path` does not have, and writes each when it is
-    /// done. The store is a Zarr v3 directory, which zarr-python and xarray open; it is created if there is
-    /// none. A sweep that was killed goes on where it stopped, and shards write one store without
+    /// Runs the chunks of this shard that are missing in the store at `path`, and writes each when it is done.
+    ///
+    /// The store is a Zarr v3 directory, which zarr-python and xarray open; it is created if there is none. A sweep that
+    /// was killed continues with the first missing chunk. Processes with different shards write to one store without
     /// coordination.
     ///
-    /// There is one array a column, and for each member its `status` (see [`Status`]), the `time` of its end
-    /// and its number of `steps`. With [`record_at`](Sweep::record_at) columns have a second dimension `t`.
-    /// With [`rows`](Sweep::rows) each chunk has a group with its rows, and their `member`.
+    /// The store has one array per column. Further arrays have each member's `status` (see [`Status`]), the `time` of its
+    /// end and its number of `steps`. With [`record_at`](Sweep::record_at), columns have a second dimension `t`. With
+    /// [`rows`](Sweep::rows), each chunk has a group with its rows and the `member` of each row.
     ///
-    /// Unless the sweep is [`reproducible`](Sweep::reproducible), the store takes chunks of one CPU level
-    /// alone.
+    /// Unless the sweep is [`reproducible`](Sweep::reproducible), all chunks of a store must be computed at the same CPU
+    /// level.
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; [`StoreError`](crate::errors::StoreError) for a
-    /// store of another sweep or of other members, and for files that cannot be written.
+    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; [`StoreError`](crate::errors::StoreError) if the
+    /// store belongs to another sweep or to other members, and if a file cannot be written.
     pub fn store(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
         self.check()?;
         let store = Store::open_or_create(path, &self.layout())?;
@@ -54,9 +55,10 @@ where
         store.complete()
     }
 
-    /// Says which chunks of the whole sweep the store at `path` does not have, without running any. Nothing is
-    /// created if there is no store. The first member of each chunk of this shard that is present is made again and
-    /// compared.
+    /// Finds the chunks of the whole sweep that are missing in the store at `path`, without running any.
+    ///
+    /// If there is no store, none is created. For each chunk of this shard that is present, the first member is made
+    /// again and compared with the stored hash.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -76,7 +78,7 @@ where
     /// ```
     ///
     /// # Errors
-    /// Those of [`store`](Sweep::store), but for the files that it writes.
+    /// Those of [`store`](Sweep::store), except errors of writing.
     pub fn complete(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
         self.check()?;
         let layout = self.layout();
@@ -90,7 +92,7 @@ where
         store.complete()
     }
 
-    /// The members of the chunks of this shard that a store does not have; those that it has are checked.
+    /// Returns the members of the missing chunks of this shard, and checks the chunks that are present.
     fn missing(&self, store: &Store) -> Result<Vec<Range<usize>>, Error> {
         let mut missing = Vec::new();
         for members in self.chunks() {
@@ -104,7 +106,7 @@ where
         Ok(missing)
     }
 
-    /// The hash of a member, which is made again; 0 if it cannot be made.
+    /// Makes a member again and returns its hash; 0 if it cannot be made.
     pub(crate) fn hash(&self, index: usize) -> u64 {
         let member = Member::new(index, self.seed);
         let made = guard(|| {
@@ -140,7 +142,7 @@ where
             None => self.step.into(),
         };
         let arithmetic = if self.fuses { "fused" } else { "unfused" };
-        // Without fused products all levels have the same bits.
+        // Without fused products, all levels give the same bits.
         let level = match self.fuses {
             true => format!("{:?}", Cpu::best()),
             false => "any".to_string(),

@@ -1,7 +1,7 @@
-//! Members that are made from their index, run to their end, and leave a record.
+//! Members that are made from their index, run to their ends and recorded.
 //!
-//! Input: a system and a start for each index, a scheme, a step, an end, a record. Output: rows in the
-//! order of the index. Invariant: only chunks in work are in memory.
+//! Input: a system and a start for each index, a scheme, a step, an end, a record. Output: rows in the order of the
+//! index. Invariant: only the chunks that are being computed are in memory.
 
 mod host;
 
@@ -27,14 +27,14 @@ use host::SweepHost;
 /// Makes the system and the start of a member.
 type Make<'a, S> =
     Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
-/// A number of each member.
+/// A closure that returns a number for each member.
 type PerMember<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
 
-/// Where members end.
+/// The end of members.
 pub(crate) enum EndPoint<'a> {
-    /// Nowhere yet.
+    /// Not set.
     Unknown,
-    /// After so many steps.
+    /// After this number of steps.
     Steps(u64),
     /// At this time.
     Until(f64),
@@ -45,7 +45,7 @@ pub(crate) enum EndPoint<'a> {
 /// Members that are made from their index, run to their end and recorded. Their states are not kept, so memory does
 /// not limit their number.
 ///
-/// A sweep is described first: the end, an observer, the record. [`collect`](Sweep::collect),
+/// The methods first describe the sweep: its end, an observer, the record. [`collect`](Sweep::collect),
 /// [`fold`](Sweep::fold) and [`try_fold`](Sweep::try_fold) run it, on all cores.
 ///
 /// ```
@@ -63,10 +63,10 @@ pub(crate) enum EndPoint<'a> {
 /// ```
 ///
 /// # Bits
-/// As for an [`Ensemble`](crate::Ensemble): neither threads nor chunks nor shards change a bit of a member,
-/// and with [`reproducible`](Sweep::reproducible) it has the bits of a single run on every CPU. What is
-/// left of the last step, and observers other than those that follow energies and observables, compute
-/// over `f64`, without fused products, in both modes.
+/// As for an [`Ensemble`](crate::Ensemble), the bits of a member depend on neither threads nor chunks nor shards. With
+/// [`reproducible`](Sweep::reproducible), a member has the bits of a single run on every CPU. The part of a step before
+/// the end is computed over `f64` without fused products, in both modes. So are the values of observers, except those of
+/// [`EnergyDrift`](crate::observers::EnergyDrift) and [`Monitors`](crate::observers::Monitors).
 pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
     pub(crate) count: usize,
     pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
@@ -85,14 +85,14 @@ pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
     progress: Option<Box<dyn Fn(usize, usize) + Send + Sync + 'a>>,
 }
 
-/// The most members of a chunk by default: a multiple of the lanes of every pack.
+/// The largest default number of members in a chunk: a multiple of the lanes of every pack.
 const CHUNK: usize = 4800;
-/// The fewest by default, as many as the widest pack has lanes.
+/// The smallest default number, the lanes of the widest pack.
 const LANES: usize = 80;
 
 impl<'a, S: System<f64>> Sweep<'a, S> {
-    /// A sweep over `count` members with the step `step`, to be given an end and a record. `make` makes the
-    /// system and the start of a member, on any thread.
+    /// Describes a sweep over `count` members with the step `step`, which still needs an end and a record. `make` makes
+    /// the system and the start of a member, on any thread.
     pub fn new<M: Ensembles<S>>(
         count: usize,
         make: impl Fn(Member) -> (S, State<S::Vector>) + Send + Sync + 'a,
@@ -102,7 +102,7 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
         Self::try_new(count, move |member| Ok(make(member)), scheme, step)
     }
 
-    /// The same with a closure that returns a `Result`, the error of which is that of the member.
+    /// Does the same as [`new`](Sweep::new) with a closure that returns a `Result`. Its error becomes that of the member.
     pub fn try_new<M: Ensembles<S>>(
         count: usize,
         make: impl Fn(Member) -> Result<(S, State<S::Vector>), Error> + Send + Sync + 'a,
@@ -130,10 +130,9 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
 }
 
 impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
-    /// With an observer for each member, as in a single run. An observer that ends its member ends no
-    /// other.
+    /// Attaches an observer to each member, as in a single run. An observer that ends its member ends no other.
     ///
-    /// Call it once. For several observers the closure returns a tuple.
+    /// Call `observe` once. For several observers, return a tuple.
     pub fn observe<N: Observer<f64, S>>(
         self,
         observer: impl Fn(Member) -> N + Send + Sync + 'a,
@@ -144,8 +143,8 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self.with(Arc::new(observer), ())
     }
 
-    /// With one row a member: what the closure makes of its end, under these names. A member that failed
-    /// has NaN in its row.
+    /// Records one row per member: the numbers that the closure computes at its end, in columns of these names. A member
+    /// that failed has NaN in its row.
     pub fn record<const N: usize>(
         self,
         columns: [&str; N],
@@ -155,9 +154,10 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self.recorded(&columns, false, None, Box::new(write))
     }
 
-    /// With a row for each of these times, which go in the direction of the run; the last is the end. The
-    /// closure sees the member at each. Tables have the index of the member as their first column,
-    /// `member`.
+    /// Records one row per member and time. The closure receives the member at each time.
+    ///
+    /// The times are in the direction of the run, and members end at the last one. The first column of tables, `member`,
+    /// has the index of the member.
     pub fn record_at<const N: usize>(
         self,
         times: impl IntoIterator<Item = f64>,
@@ -169,8 +169,8 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self.recorded(&columns, true, Some(times), Box::new(write))
     }
 
-    /// With any number of rows a member, for example the states of a section. Tables have the index of the
-    /// member as their first column, `member`.
+    /// Records any number of rows per member, for example the states of a section. The first column of tables, `member`,
+    /// has the index of the member.
     pub fn rows<const N: usize, I: IntoIterator<Item = [f64; N]>>(
         self,
         columns: [&str; N],
@@ -201,7 +201,7 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
 }
 
 impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
-    /// The same with another observer and another record.
+    /// Replaces the observer and the record.
     fn with<N, Q>(
         self,
         observer: Arc<dyn Fn(Member) -> N + Send + Sync + 'a>,
@@ -233,7 +233,7 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
         self
     }
 
-    /// Ends members at the time `t`. Between two steps the state is that of a part of a step, as in
+    /// Ends members at the time `t`. A state between two steps is computed by a part of a step, as in
     /// [`advance_until`](crate::Integrator::advance_until).
     #[must_use]
     pub fn until(mut self, t: f64) -> Self {
@@ -248,43 +248,43 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
         self
     }
 
-    /// Gives each member its own step, instead of the one of all.
+    /// Sets a step for each member, instead of a common one.
     #[must_use]
     pub fn step_each(mut self, step: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
         self.step_each = Some(Box::new(step));
         self
     }
 
-    /// Sets the seed from which [`Member::seed`] is made; it is 0 by default.
+    /// Sets the seed from which [`Member::seed`] is computed. The default is 0.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// Sets the number of members in a chunk (0 counts as 1): the unit of work of a thread, and of a store
-    /// a file.
+    /// Sets the number of members in a chunk (0 counts as 1). A chunk is the unit of work of a thread, and has a file per
+    /// array in a store.
     #[must_use]
     pub fn chunk(mut self, members: usize) -> Self {
         self.chunk = Some(members.max(1));
         self
     }
 
-    /// Computes the chunks of this shard alone.
+    /// Computes only the chunks of this shard.
     #[must_use]
     pub fn shard(mut self, shard: Shard) -> Self {
         self.shard = Some(shard);
         self
     }
 
-    /// Runs on so many threads (0 counts as 1). By default there are as many as the machine runs at once.
+    /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }
 
-    /// Fuses no products and sums, so that each member has the bits of its single run on every CPU.
+    /// Does not fuse products and sums, so that each member has the bits of its single run on every CPU.
     #[must_use]
     pub fn reproducible(mut self) -> Self {
         self.fuses = false;
@@ -298,7 +298,7 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
         self
     }
 
-    /// Calls a closure after each chunk with the number of members that are done and of all of this shard.
+    /// Calls a closure after each chunk with the number of finished members and the number of all members of this shard.
     #[must_use]
     pub fn progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
         self.progress = Some(Box::new(closure));
@@ -319,7 +319,7 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
         self.chunk.unwrap_or(size)
     }
 
-    /// The members of the chunks of this shard, chunk by chunk.
+    /// Returns the members of each chunk of this shard.
     pub(crate) fn chunks(&self) -> Vec<Range<usize>> {
         let size = self.chunk_size();
         let chunks = (0..self.count.div_ceil(size)).filter(|chunk| match &self.shard {
@@ -336,7 +336,7 @@ where
     S: System<f64>,
     O: Observer<f64, S>,
 {
-    /// Runs the sweep and takes its rows one by one in the order of the index, on this thread.
+    /// Runs the sweep and passes its rows to a closure, one by one in the order of the index, on this thread.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -356,8 +356,8 @@ where
         self.try_fold(init, |all, row| ControlFlow::Continue(take(all, row)))
     }
 
-    /// The same until the closure breaks. Which rows it sees does not depend on threads: chunks beyond the
-    /// one in which it breaks are dropped.
+    /// Does the same as [`fold`](Sweep::fold) until the closure breaks. The rows that it receives do not depend on the
+    /// number of threads: later chunks are dropped.
     ///
     /// # Errors
     /// Those of [`fold`](Sweep::fold).
@@ -383,8 +383,8 @@ where
         all.ok_or(Error::NoMembers)
     }
 
-    /// Runs the sweep and collects the rows into a table. With one row a member the last column is
-    /// `status`, see [`Status`](crate::Status); with several rows the first is `member`.
+    /// Runs the sweep and collects the rows into a table. With one row per member, the last column is `status`, see
+    /// [`Status`](crate::Status). With several rows, the first column is `member`.
     ///
     /// # Errors
     /// Those of [`fold`](Sweep::fold); [`TableError::Twice`](crate::errors::TableError::Twice) for a name that
@@ -413,7 +413,7 @@ where
         Ok(table)
     }
 
-    /// Checks that there are members, and that they have ends.
+    /// Checks that the sweep has members and that they have ends.
     pub(crate) fn check(&self) -> Result<(), Error> {
         if self.count == 0 {
             return Err(Error::NoMembers);
@@ -425,7 +425,7 @@ where
         }
     }
 
-    /// Runs chunks and takes their batches in order, with hashes of their members if they are stored.
+    /// Runs chunks and passes their batches to a closure in order; `hashes` is true if members are hashed for a store.
     pub(crate) fn each_batch(
         &self,
         chunks: Vec<Range<usize>>,

@@ -1,7 +1,7 @@
 //! Work on several threads.
 //!
-//! Input: items. Output: the work is done on each. Invariant: an item is worked on by one thread, so that
-//! results depend on neither their number nor the order.
+//! Input: items and a closure. Invariant: one thread works on an item, so that results depend on neither the number of
+//! threads nor their order.
 
 /// Returns the number of threads that the machine runs at once.
 pub(crate) fn available() -> usize {
@@ -25,12 +25,12 @@ pub(crate) fn spawn<'scope>(
     const STACK: usize = 64 << 20;
     let builder = std::thread::Builder::new().stack_size(STACK);
     if let Err(error) = builder.spawn_scoped(scope, worker) {
-        // As `Scope::spawn` does.
+        // `Scope::spawn` panics as well.
         panic!("the system starts no further thread: {error}");
     }
 }
 
-/// Does the work on every item; threads take the next item when they are done with one.
+/// Does the work on every item. A thread that has finished an item takes the next one.
 pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&mut A) + Sync) {
     let threads = threads.clamp(1, items.len().max(1));
     if threads == 1 {

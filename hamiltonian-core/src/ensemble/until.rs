@@ -1,7 +1,7 @@
-//! Members in memory on their way to a time.
+//! Members in memory, advanced to a time.
 //!
-//! Input: an ensemble and a time. Output: its members there. Invariant: whole steps alone change members;
-//! the state between two steps is made on a copy, by a part of a step.
+//! Input: an ensemble and a time. Output: the states of its members at that time. Invariant: only whole steps change
+//! members. A state between two steps is computed on a copy, by a part of a step.
 
 use super::chunk::Shared;
 use super::in_memory::Ensemble;
@@ -12,7 +12,7 @@ use crate::state::State;
 use crate::system::{System, clock};
 
 impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
-    /// Makes the whole number of steps that leads all members to the time `t`, as
+    /// Advances all members to the time `t` by a whole number of steps, as
     /// [`Integrator::advance_to`](crate::Integrator::advance_to) does.
     ///
     /// ```
@@ -26,8 +26,8 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OffGrid`], [`Error::Behind`], [`Error::Unreachable`]; [`Error::Apart`] for members that
-    /// start at different times or whose steps vary in time. No step is made then.
+    /// [`Error::OffGrid`], [`Error::Behind`], [`Error::Unreachable`]; [`Error::Apart`] if members start at different
+    /// times or if their steps vary in time. After an error no step has been made.
     pub fn advance_to(&mut self, t: f64) -> Result<&mut Self, Error> {
         let Some(time) = self.clock()? else {
             return Ok(self);
@@ -44,12 +44,13 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
         }
     }
 
-    /// Makes whole steps as long as they do not pass `t`, and returns the state of each member at `t`, any
-    /// time ahead, in the order of the index: the last part of a step is made on a copy, as in
-    /// [`Integrator::advance_until`](crate::Integrator::advance_until). Members that their observers ended
-    /// are where these did.
+    /// Advances by the whole steps that do not pass `t`, and returns the state of each member at `t`.
     ///
-    /// That part is computed over `f64`, without fused products, in both modes of [bits](Ensemble#bits).
+    /// `t` is any time ahead, and states are in the order of the index. The remaining part of a step is made on a copy,
+    /// as in [`Integrator::advance_until`](crate::Integrator::advance_until). A member that its observer has ended has
+    /// the state of its end.
+    ///
+    /// The part of a step is computed over `f64` without fused products, in both modes of [bits](Ensemble#bits).
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -64,7 +65,7 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Behind`], [`Error::Unreachable`], [`Error::Apart`]. The error of a member is in its place:
+    /// [`Error::Behind`], [`Error::Unreachable`], [`Error::Apart`]. The error of a member is in its place,
     /// see [`states`](Ensemble::states).
     pub fn advance_until(
         &mut self,
@@ -80,7 +81,7 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
         Ok(chunks.flat_map(move |number| self.closed(number, 0..usize::MAX, between)))
     }
 
-    /// The time of all members; `None` if none could start.
+    /// Returns the clock that all members share; `None` if no member could start.
     fn clock(&self) -> Result<Option<Clock<f64>>, Error> {
         if self.common.varies {
             let reason = "their steps vary in time";

@@ -1,9 +1,9 @@
 //! Members with deviations, in the lanes of one pack type.
 //!
-//! Input: a scheme and members at their starts, with some deviations each. Output: an indicator of chaos, or the
-//! failure of a member. Invariants: every deviation is a run over dual
-//! numbers; a lane does what [`Tangent`](crate::tangents::Tangent) does, in the same order, so its bits depend on
-//! its member and on the arithmetic of the pack alone.
+//! Input: a scheme and members at their starts, with a number of deviations each. Output: an indicator of chaos or an
+//! error for each member. Invariants: each deviation is computed by a run over dual numbers. A lane makes the operations
+//! of [`Tangent`](crate::tangents::Tangent) in the same order, so its bits depend only on its member and on the
+//! arithmetic of the pack.
 
 use super::rows::{Begin, Prepare, gather, load, scatter, store};
 use super::scalar::explain;
@@ -22,42 +22,42 @@ use alloc::vec::Vec;
 use core::sync::atomic::{AtomicBool, Ordering};
 use hamiltonian_lanes::{KernelAt, Level, Mask, Pack, Real};
 
-/// Steps between two checks that everything is finite, as in a single run.
+/// The number of steps between two checks that all numbers are finite, as in a single run.
 const BLOCK: u64 = 1024;
 
 /// A member with its deviations.
 pub(crate) struct DeviatedMember<T: Real, S: System<T>> {
     pub(crate) prepared: S::Prepared,
-    /// All that the scheme carries, deviation after deviation.
+    /// The carried values of the scheme, deviation after deviation.
     pub(crate) words: Vec<T>,
     /// The state at its start.
     pub(crate) start: State<S::Vector>,
-    /// The numbers of its indicator, or its error.
+    /// The numbers of the indicator, or the error of the member.
     pub(crate) result: Result<Vec<f64>, Error>,
 }
 
-/// What is computed from the deviations of a member.
+/// The indicator that is computed from the deviations of a member.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Indicator {
-    /// The mean rate of growth of each, orthogonal to those before.
+    /// The mean growth rate of each deviation, orthogonal to the previous ones.
     Rates,
-    /// The MEGNO of the first.
+    /// MEGNO of the first deviation.
     Megno,
-    /// The volume of their directions.
+    /// GALI: the volume spanned by the directions of the deviations.
     Gali,
 }
 
-/// Members on their way to an indicator of chaos.
+/// Members of which an indicator of chaos is computed.
 pub struct Deviations<'r, T: Real, S: System<T>> {
     pub(crate) members: Vec<DeviatedMember<T, S>>,
     pub(crate) indicator: Indicator,
-    /// The number of deviations of each.
+    /// The number of deviations per member.
     pub(crate) count: usize,
     pub(crate) step: T,
     /// The time of one step.
     pub(crate) interval: T,
     pub(crate) steps: u64,
-    /// The steps after which deviations are made orthonormal, or of length 1.
+    /// The number of steps between two renormalisations.
     pub(crate) every: u64,
     /// The flag that stops the work.
     pub(crate) cancel: Option<&'r AtomicBool>,
@@ -69,7 +69,7 @@ impl<T: Real, S: System<T>> Deviations<'_, T, S> {
     }
 }
 
-/// Members in lanes.
+/// Members with deviations in lanes.
 struct Lanes<T, S, P, M>
 where
     T: Real,
@@ -80,25 +80,25 @@ where
     map: MapIn<T, S, P, M>,
     work: <MapIn<T, S, P, M> as Map>::Work,
     clock: Clock<T::Over<P>>,
-    /// The members whose system stands in the map: the first stands for all that are equal to it.
+    /// The members for whose systems the map was prepared: only the first if all systems are equal.
     prepared_for: Vec<usize>,
-    /// The member of each lane; none for one that is lost, or that repeats another.
+    /// The member of each lane; `None` for a lane whose member failed and for one that repeats another.
     members: Vec<Option<usize>>,
-    /// The first deviation of each lane that is not finite.
+    /// The index of the first deviation of each lane that is not finite.
     first_failed: Vec<Option<usize>>,
-    /// What is carried for each deviation, and the same before the last steps, and closed.
+    /// The carried value of each deviation, the same before the last block, and the closed states.
     carried: Vec<CarriedIn<T, S, P, M>>,
     before: Vec<CarriedIn<T, S, P, M>>,
     shown: Vec<CarriedIn<T, S, P, M>>,
     /// The lanes in which a deviation is finite.
     finite: Vec<<T::Over<P> as Real>::Mask>,
-    /// The deviations, one a column.
+    /// The deviations, one per column.
     matrix: Vec<T::Over<P>>,
     lengths: Vec<T::Over<P>>,
-    /// Sums of the logarithms of their growth.
+    /// The sums of the logarithms of their growth factors.
     sums: Vec<T::Over<P>>,
     megno: Megno<T::Over<P>>,
-    /// Numbers of the lanes, component by component.
+    /// Scratch for numbers of the lanes, component by component.
     rows: Vec<T>,
 }
 
@@ -119,7 +119,7 @@ where
 {
     let mut lanes = None;
     let mut pending = Vec::new();
-    // Members that are not finite after some steps are made again together, step by step.
+    // Members that are not finite after a block are replayed together, step by step.
     for is_replay in [false, true] {
         let queue: Vec<usize> = match is_replay {
             false => (0..all.members.len()).collect(),
@@ -146,7 +146,7 @@ where
         >,
     M: InPack<T, S, P> + Scheme<T::Over<P>, S>,
 {
-    /// Puts members at their starts into lanes; the last of them fills the lanes that are left.
+    /// Loads members at their starts into lanes. The remaining lanes repeat the last member.
     #[inline(always)]
     fn load_lanes<L: Level>(
         lanes: &mut Option<Self>,
@@ -220,8 +220,8 @@ where
         lanes.megno = Megno::new();
     }
 
-    /// Advances the members in the lanes to their ends. Those that are not finite become pending, or, if they
-    /// are made again with care, have failed.
+    /// Advances the members in the lanes to their ends. Members that are not finite are added to `pending`; in a replay
+    /// they have failed.
     #[inline(always)]
     fn run<L: Level>(
         &mut self,
@@ -231,7 +231,7 @@ where
         pending: &mut Vec<usize>,
     ) {
         let most = if is_replay { 1 } else { BLOCK };
-        // At first no step: deviations are made orthonormal at the start too.
+        // The first block has no steps: deviations are renormalised at the start too.
         let (mut made, mut next_renormalisation, mut last_renormalisation) = (0, 0, 0);
         let is_gali = all.indicator == Indicator::Gali;
         loop {
@@ -247,7 +247,7 @@ where
                 clock: self.clock,
                 made,
                 n,
-                // The volume is that of the deviations as they are at the end.
+                // GALI needs the deviations of the last step before they are renormalised.
                 renormalises: made + n == next_renormalisation
                     && !(is_gali && next_renormalisation == all.steps),
                 orthogonal: !is_gali,
@@ -279,8 +279,8 @@ where
         }
     }
 
-    /// Notes the lanes that are not finite after some steps; of a single step, the cause too. As in a single
-    /// run, the first deviation counts that is not finite when they are made orthonormal next.
+    /// Records the lanes that are not finite after a block, and in a replay the cause. As in a single run, the error is
+    /// that of the first deviation that is not finite at the next renormalisation.
     #[cold]
     #[inline(never)]
     fn record_failures<L: Level>(
@@ -322,8 +322,8 @@ where
         }
     }
 
-    /// Takes lost members out of the lanes, and puts another in their place, so that nothing harmful is
-    /// computed there. Returns true if any is left.
+    /// Removes failed members from the lanes. Their lanes repeat another member, so that they compute with finite
+    /// numbers. Returns true if any member is left.
     #[cold]
     #[inline(never)]
     fn remove_failed<L: Level>(&mut self, is_replay: bool, pending: &mut Vec<usize>) -> bool {
@@ -349,7 +349,7 @@ where
         true
     }
 
-    /// Gives the members their numbers.
+    /// Writes the results of the members.
     #[inline(always)]
     fn write_results<L: Level>(&mut self, all: &mut Deviations<'_, T, S>, reached: &T::Over<P>) {
         let lanes = P::LANES as usize;
@@ -386,16 +386,17 @@ where
     }
 }
 
-/// Some steps of all deviations in lanes, compiled at a level, out of line.
+/// A block of steps of all deviations in lanes, compiled at a level, out of line.
 struct DeviationBlock<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
     map: &'a R,
     clock: Clock<U>,
     made: u64,
     n: u64,
-    /// True if deviations are made orthonormal after them, or of length 1.
+    /// True if deviations are renormalised after the steps.
     renormalises: bool,
+    /// True if renormalised deviations are orthogonal; otherwise they are only of length 1.
     orthogonal: bool,
-    /// The step at which they were so last.
+    /// The number of steps at the last renormalisation.
     last_renormalisation: u64,
     carried: &'a mut [R::Carried],
     shown: &'a mut [R::Carried],
@@ -413,7 +414,7 @@ where
     R: Map<Carried: Carried<Scalar = U>>,
     U: Real,
 {
-    /// True if everything is finite; and the time of the first deviation.
+    /// True if all numbers are finite; and the time of the first deviation.
     type Output = (bool, U);
 
     #[inline(always)]
@@ -461,11 +462,11 @@ where
     }
 }
 
-/// All that is carried for the deviations of lanes; derivative parts are linear in the deviation.
+/// The carried values of the deviations as columns; derivative parts are linear in the deviation.
 struct CarriedColumns<'a, C>(&'a mut [C]);
 
 impl<C: Vector> CarriedColumns<'_, C> {
-    /// Makes all values those of the first deviation, see
+    /// Sets the values of all deviations to those of the first, see
     /// [`Tangent::orthonormalise`](crate::tangents::Tangent::orthonormalise).
     #[inline(always)]
     fn align(&mut self) {

@@ -1,7 +1,7 @@
 //! Conversion between numbers of members and lanes, out of line.
 //!
-//! Input: numbers of members, or those of lanes. Output: the other. Invariant: each function is compiled once
-//! for a pack type and never inlined, since the length of its code is proportional to the width of the pack.
+//! Input: numbers of members, or of lanes. Output: numbers of lanes, or of members. Invariant: each function is compiled
+//! once per pack type and never inlined, since the length of its code is proportional to the width of the pack.
 
 use super::MaskIn;
 use crate::map::{Map, Step};
@@ -78,7 +78,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for Scatter<'_, T, P> {
     }
 }
 
-/// Loads the lanes of a carried value from rows, one a component.
+/// Loads the lanes of a carried value from rows, one per component.
 #[inline(always)]
 pub(in crate::ensemble) fn load<L, T, P, V>(rows: &[T], to: &mut V)
 where
@@ -95,7 +95,7 @@ where
     }
 }
 
-/// Stores the lanes of a carried value into rows.
+/// Stores the lanes of a carried value into rows, one per component.
 #[inline(always)]
 pub(in crate::ensemble) fn store<L, T, P, V>(from: &V, rows: &mut [T])
 where

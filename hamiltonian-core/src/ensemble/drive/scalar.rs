@@ -1,7 +1,7 @@
-//! Rare parts of the drive of members, over the members' own scalar: compiled once for all packs.
+//! Rare operations on members, over the members' own scalar: compiled once for all packs.
 //!
-//! Input: numbers of the lanes. Output: states passed to observers, and causes of failures. Invariant: nothing
-//! here depends on the level.
+//! Input: numbers of the lanes. Output: states passed to observers, and causes of failures. Invariant: nothing here
+//! depends on the level.
 
 use crate::ensemble::host::Host;
 use crate::ensemble::occupants::Occupants;
@@ -17,7 +17,7 @@ use crate::system::{self, System};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
-/// Passes the members at their stops to the host.
+/// Passes the states of members at their stops to the host.
 #[inline(never)]
 pub(super) fn pass_to_host<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,
@@ -57,20 +57,20 @@ pub(super) fn pass_to_host<T: Real, S: System<T>, M: Scheme<T, S>>(
 
 /// States of lanes, for observers that follow signs.
 pub(super) struct PassedStates<'a, T> {
-    /// As [`Close`] writes them.
+    /// The states, as [`Close`](crate::ensemble::close::Close) writes them.
     pub(super) rows: &'a [T],
     pub(super) carries_duration: bool,
     /// The lanes whose observers receive the states.
     pub(super) which: &'a [bool],
     /// The steps since the beginning of the block.
     pub(super) ahead: u64,
-    /// The steps between these states and the last one.
+    /// The number of steps from these states to the last of three.
     pub(super) back: u64,
     pub(super) signs_kept: bool,
 }
 
 impl<T: Real> PassedStates<'_, T> {
-    /// Passes the states to the observers.
+    /// Passes the states to the observers that have not received them.
     #[inline(never)]
     pub(super) fn pass<S: System<T>, M: Scheme<T, S>>(
         &self,
@@ -113,7 +113,7 @@ impl<T: Real> PassedStates<'_, T> {
     }
 }
 
-/// A member over its own scalar: its system, a state of its shape, its step, its time.
+/// A member over its own scalar: its system, a state of its shape, its step, its clock.
 pub(in crate::ensemble) type ScalarMember<'a, T, S> = (
     &'a <S as System<T>>::Prepared,
     &'a State<<S as System<T>>::Vector>,

@@ -1,8 +1,7 @@
 //! Signs of functions, followed in lanes.
 //!
-//! Input: the marks of a block. Output: states passed to observers, namely those at which a sign may have
-//! changed and the two before each. Invariant: the observers end in the state that they would have if they
-//! received every state.
+//! Input: the marks of a block. Output: states passed to observers: those after which a sign may have changed and the
+//! two before each. Invariant: afterwards an observer has the data that it would have after receiving every state.
 
 use super::rows::{gather, lanes_of, scatter, store};
 use super::scalar::PassedStates;
@@ -90,7 +89,7 @@ where
             occupants.for_each_with_sections(|lane, run| {
                 let mut own = run.followed.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
-                // A member whose observer has only just received its first state keeps its own values.
+                // A member whose sections were not yet in the lanes keeps its own values.
                 if let Some(section) = own.filter(|_| self.section_lanes.lane(lane as u32)) {
                     (section.value, section.change) = (values[lane], values[lane] - before[lane]);
                 }
@@ -99,8 +98,8 @@ where
         }
     }
 
-    /// Passes the marked steps of a block of `n`, in their order, to the observers that follow signs, and the
-    /// last step to those of members at their stops.
+    /// Passes the states of marked steps, in their order, to the observers that follow signs. Observers of members at
+    /// their stops also receive the state after the last of the `n` steps.
     #[inline(always)]
     pub(super) fn pass_marked<L: Level>(
         &mut self,
@@ -127,8 +126,8 @@ where
         }
     }
 
-    /// Passes the states after a step and the two before to the observers of some lanes, except those already
-    /// received. `last_three` has their carried values; `signs_kept` is true if no sign changed at the last.
+    /// Passes the states after a step and after the two steps before it to the observers of some lanes, except states
+    /// that they have received. `last_three` has the carried values. `signs_kept` is true if no sign changed in the step.
     #[inline(never)]
     pub(super) fn pass_states<L: Level>(
         &mut self,

@@ -1,7 +1,7 @@
-//! The members of a chunk of a sweep on their way.
+//! The host of a chunk of a sweep.
 //!
-//! Input: indices. Output: a [`Batch`] of records. Invariant: a member's numbers depend on its index, the
-//! sweep and its seed alone.
+//! Input: indices. Output: a [`Batch`] of records. Invariant: a member's numbers depend only on its index, the sweep and
+//! its seed.
 
 use super::{EndPoint, Sweep};
 use crate::ensemble::Member;
@@ -19,16 +19,16 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
-/// A member on its way.
+/// A member that has not ended.
 struct ActiveMember<O> {
     member: Member,
     observer: O,
     is_attached: bool,
-    /// True if lanes follow all that its observer follows.
+    /// True if lanes evaluate everything that its observer needs.
     is_followed: bool,
-    /// Its end, if that is not the same for all.
+    /// The time at which it ends, if one is set; otherwise NaN.
     end: f64,
-    /// The number of whole steps after which it is recorded next, if that is known.
+    /// The number of whole steps after which it is recorded next; `None` if steps differ in duration.
     target: Option<u64>,
     /// The number of times at which it has been recorded.
     recorded: usize,
@@ -38,19 +38,19 @@ struct ActiveMember<O> {
 /// `Break` if a member has come to its end: its state there, and true if its observer ended it.
 type Decision<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
 
-/// The members.
+/// The members of a chunk, at their starts, running or ended.
 pub(crate) struct SweepHost<'r, 'a, S: System<f64>, O> {
     sweep: &'r Sweep<'a, S, O, Record<'a, S, O>>,
     indices: Range<usize>,
-    /// The next one, counted from the first.
+    /// The number of the next member in the chunk.
     next: usize,
     active: Vec<Option<ActiveMember<O>>>,
     outcomes: Vec<Option<Outcome>>,
-    /// A hash of each member made.
+    /// The hash of each member; empty if members are not hashed.
     hashes: Vec<u64>,
     values: Vec<f64>,
     words: Vec<f64>,
-    /// True if steps differ in time.
+    /// True if steps differ in duration.
     varies: bool,
     cancelled: bool,
 }
@@ -76,7 +76,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         }
     }
 
-    /// Drives all to their ends.
+    /// Advances all members to their ends.
     pub(crate) fn batch(mut self) -> Batch {
         let sweep = self.sweep;
         sweep.scheme.drive(&mut self, sweep.fuses);
@@ -141,7 +141,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
             values: Vec::new(),
         };
         self.set_target(&mut active, clock, 0)?;
-        // An observer that sees nothing need not be attached.
+        // An observer that receives no states is not attached.
         let observes = active.observer.interval() < u64::MAX;
         let interval = active.observer.interval();
         // Reuses the storage of the previous run.
@@ -150,7 +150,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
             None => FollowedQuantities::default(),
         };
         FollowVisitor::list(&mut followed, |visitor| active.observer.follow(visitor));
-        // Observers of signs have yet to find where functions come from.
+        // An observer of signs computes the previous values of its functions when it is attached.
         if !followed.sections.is_empty() {
             followed = FollowedQuantities::default();
         }
@@ -164,7 +164,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         };
         match slot {
             Some(run) => {
-                run.other |= !sweep.scheme.equals(&run.prepared, &prepared);
+                run.system_changed |= !sweep.scheme.equals(&run.prepared, &prepared);
                 run.words.copy_from_slice(&self.words);
                 run.prepared = prepared;
                 run.state = start;
@@ -177,7 +177,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
                 *slot = Some(MemberRun {
                     key,
                     prepared,
-                    other: true,
+                    system_changed: true,
                     step,
                     clock,
                     made: 0,
@@ -195,7 +195,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         Ok(())
     }
 
-    /// The time at which a member is recorded next, if it is a time.
+    /// Returns the time at which a member is recorded next; `None` if it ends after a number of steps.
     fn time(&self, active: &ActiveMember<O>) -> Option<f64> {
         match (&self.sweep.record.times, &self.sweep.end) {
             (Some(times), _) => times.get(active.recorded).copied(),
@@ -223,7 +223,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         Ok(())
     }
 
-    /// The next stop of a member.
+    /// Returns the number of steps at the next stop of a member.
     fn stop(&self, active: &ActiveMember<O>, made: u64) -> u64 {
         let interval = match active.is_followed {
             true => u64::MAX,
@@ -233,7 +233,8 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         due.min(active.target.unwrap_or(made + 1))
     }
 
-    /// Shows a member its state. Returns its end, if it has come to one.
+    /// Passes a state to the observer of a member and records it if it is due. Returns the end of the member if this is
+    /// its end.
     fn decide(
         &self,
         active: &mut ActiveMember<O>,
@@ -294,7 +295,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         }
     }
 
-    /// Writes the numbers of a member at a state.
+    /// Records a member at a state.
     fn write(
         &self,
         active: &mut ActiveMember<O>,
@@ -313,7 +314,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         (self.sweep.record.write)(&end, &mut active.values);
     }
 
-    /// Notes where a member has ended, and whether its observer did that. Returns that it does not go on.
+    /// Records the end of a member, or its error. Returns false: the member does not continue.
     fn end(
         &mut self,
         key: usize,
@@ -338,7 +339,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         false
     }
 
-    /// Notes the end of a member.
+    /// Writes the outcome of a member.
     fn finish(
         &mut self,
         key: usize,

@@ -1,8 +1,7 @@
 //! Files that are written atomically.
 //!
-//! A file is written under a temporary name and renamed. The unfinished file of a killed process
-//! stays in the directory `status/parts`, which readers of Zarr ignore, until the store is
-//! complete.
+//! A file is written under a temporary name and then renamed. Files that killed processes left unfinished stay in the
+//! directory `status/parts`, which readers of Zarr ignore, until the store is complete.
 
 use crate::error::Error;
 use crate::error::StoreError;
@@ -17,8 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[derive(Debug)]
 pub(super) struct TemporaryFiles {
     directory: PathBuf,
-    /// A number that is different in every process: numbers of processes are unique on one machine
-    /// only.
+    /// A random number. Process identifiers would be unique only on one machine.
     process: u64,
     next: AtomicU64,
 }
@@ -32,7 +30,7 @@ impl TemporaryFiles {
         }
     }
 
-    /// A path that no other process uses.
+    /// Returns a path that no other process uses.
     pub(super) fn new_path(&self) -> io::Result<PathBuf> {
         fs::create_dir_all(&self.directory)?;
         let number = self.next.fetch_add(1, Ordering::Relaxed);
@@ -40,37 +38,37 @@ impl TemporaryFiles {
         Ok(self.directory.join(name))
     }
 
-    /// Removes the files of killed processes.
+    /// Removes the files that killed processes left.
     pub(super) fn remove(&self) {
-        // There may be none, or another process is removing them.
+        // The directory may not exist, or another process may be removing it.
         let _ = fs::remove_dir_all(&self.directory);
     }
 
-    /// Writes a file: afterwards `place` has all bytes, or is unchanged.
-    pub(super) fn write(&self, place: &Path, bytes: &[u8]) -> io::Result<()> {
-        let part = self.new_path()?;
-        let written = write_new(&part, bytes).and_then(|()| {
-            if let Some(directory) = place.parent() {
+    /// Writes a file. Afterwards, `path` has all bytes or is unchanged.
+    pub(super) fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let temporary = self.new_path()?;
+        let written = write_new(&temporary, bytes).and_then(|()| {
+            if let Some(directory) = path.parent() {
                 fs::create_dir_all(directory)?;
             }
-            fs::rename(&part, place)
+            fs::rename(&temporary, path)
         });
         if written.is_err() {
-            // The temporary file is of no use, and takes space.
-            let _ = fs::remove_file(&part);
+            // The temporary file would only take space.
+            let _ = fs::remove_file(&temporary);
         }
         written
     }
 }
 
-/// Writes a file to the disk.
+/// Writes a file and waits until it is on the disk.
 pub(super) fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
     file.sync_all()
 }
 
-/// The typed error for a file of the store `root`.
+/// Returns the error for a file of the store `root`.
 pub(super) fn failed(root: &Path, path: &Path, error: &io::Error) -> Error {
     let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
     match full.contains(&error.kind()) {
@@ -85,7 +83,7 @@ pub(super) fn failed(root: &Path, path: &Path, error: &io::Error) -> Error {
     .into()
 }
 
-/// The bytes of a file; `None` if there is none.
+/// Reads a file; `None` if it does not exist.
 pub(super) fn read(root: &Path, path: &Path) -> Result<Option<Vec<u8>>, Error> {
     match fs::read(path) {
         Ok(bytes) => Ok(Some(bytes)),

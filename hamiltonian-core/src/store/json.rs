@@ -1,7 +1,7 @@
 //! The part of JSON that the metadata of a store requires.
 //!
-//! Invariant: equal values have equal texts, one member of an object a line, so that the text
-//! identifies a store, and the first different line names the difference.
+//! Invariant: equal values have equal texts, with one member of an object per line. Therefore the text identifies a
+//! store, and the first line that differs shows the difference.
 
 use core::fmt;
 
@@ -25,12 +25,12 @@ impl Json {
         Json::Object(members.map(|(name, value)| (name.into(), value)).into())
     }
 
-    /// The text, `indent` levels deep.
+    /// Writes the text, indented by `indent` levels.
     fn write(&self, f: &mut fmt::Formatter<'_>, indent: usize) -> fmt::Result {
         match self {
             Json::Flag(flag) => write!(f, "{flag}"),
             Json::Whole(number) => write!(f, "{number}"),
-            // JSON has no such numbers: these are the texts of Zarr for them.
+            // JSON has no such numbers; Zarr represents them by these texts.
             Json::Number(number) if number.is_nan() => write!(f, "\"NaN\""),
             Json::Number(number) if number.is_infinite() => {
                 let sign = if *number < 0.0 { "-" } else { "" };
@@ -67,7 +67,7 @@ impl fmt::Display for Json {
     }
 }
 
-/// A text between quotes (RFC 8259, section 7).
+/// Writes a text between quotes (RFC 8259, section 7).
 fn quoted(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     write!(f, "\"")?;
     for letter in text.chars() {

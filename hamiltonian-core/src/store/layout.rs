@@ -1,7 +1,7 @@
 //! The arrays of a store.
 //!
-//! Input: a [`Layout`]. Output: the metadata of its arrays, in the form of Zarr v3. Source: A.
-//! Miles, R. Abernathey et al., "Zarr core specification", version 3.0 (2023).
+//! Input: a [`Layout`]. Output: the metadata of its arrays in the Zarr v3 format. Source: A. Miles, R. Abernathey et
+//! al., "Zarr core specification", version 3.0 (2023).
 
 use super::json::Json;
 use crate::error::StoreError;
@@ -17,10 +17,10 @@ pub struct Layout {
     pub members: u64,
     /// The number of members in a chunk; the last chunk may have fewer.
     pub chunk: u64,
-    /// The names of the failures, in one word each: the status 3 and up.
+    /// The names of the failures, one word each, for the status numbers from 3.
     pub failures: Vec<String>,
-    /// The attributes that distinguish this sweep from others, for example the text of H, the
-    /// scheme, the step and the seed. A store with other attributes is refused.
+    /// The attributes that distinguish this sweep from others, for example the text of H, the scheme, the step and the
+    /// seed. A store with different attributes is refused.
     pub attributes: Vec<(String, Attribute)>,
 }
 
@@ -29,16 +29,16 @@ pub struct Layout {
 pub enum Rows {
     /// One row: columns have the dimension `member`.
     One,
-    /// One row at each of the same values, for example times: columns have the dimensions `member` and
-    /// `name`, and the values are the coordinate `name`.
+    /// One row for each of the values, for example times. Columns have the dimensions `member` and `name`, and the
+    /// values are the coordinate `name`.
     At {
         /// The name of the dimension.
         name: String,
         /// Its values.
         values: Vec<f64>,
     },
-    /// Any number of rows. Each chunk has a group `rows/k` of its own, with the column `member` and the
-    /// dimension `row`; `count` is the number of rows of each member.
+    /// Any number of rows. Chunk k has a group `rows/k` with the additional column `member` and the dimension `row`.
+    /// The array `count` has the number of rows of each member.
     Any,
 }
 
@@ -52,7 +52,7 @@ pub enum Attribute {
     Whole(u64),
     /// A number.
     Number(f64),
-    /// Yes or no.
+    /// A truth value.
     Flag(bool),
 }
 
@@ -78,7 +78,7 @@ impl Attribute {
     }
 }
 
-/// The arrays of every store: a member's status, end and steps, and the hashes of a chunk.
+/// The arrays of every store: the status, end time and steps of members, and the hashes of chunks.
 pub(super) const STATUS: &str = "status";
 pub(super) const TIME: &str = "time";
 pub(super) const STEPS: &str = "steps";
@@ -89,7 +89,7 @@ pub(super) const ROWS: &str = "rows";
 pub(super) const MEMBER: &str = "member";
 
 impl Layout {
-    /// Creates the layout of one row a member, in chunks of 4096 members, without attributes.
+    /// Creates a layout with one row per member, in chunks of 4096 members, without attributes.
     pub fn new<N: Into<String>>(members: u64, columns: impl IntoIterator<Item = N>) -> Self {
         Layout {
             columns: columns.into_iter().map(Into::into).collect(),
@@ -112,7 +112,7 @@ impl Layout {
         first..first.saturating_add(self.chunk).min(self.members)
     }
 
-    /// Checks sizes and names.
+    /// Checks the sizes and the names.
     pub(super) fn check(&self) -> Result<(), StoreError> {
         let layout = |fact: String, remedy| Err(StoreError::Layout { fact, remedy });
         if self.members == 0 || self.chunk == 0 {
@@ -143,7 +143,7 @@ impl Layout {
                 let fact = format!("a store has an array `{name}` already");
                 return layout(fact, "give the column another name");
             }
-            // The specification excludes names of dots alone and those that begin with `__`.
+            // The specification excludes names that begin with `__` and names of dots alone.
             let is_path = name.contains(['/', '\\']) || name.contains(char::is_control);
             if is_path || name.starts_with("__") || name.chars().all(|letter| letter == '.') {
                 let fact = format!("`{name}` is no name of an array");
@@ -161,10 +161,10 @@ impl Layout {
         Ok(())
     }
 
-    /// The metadata of the group, with those of its arrays: readers then open one file.
+    /// Returns the metadata of the group with those of its arrays, so that readers open only one file.
     ///
-    /// If members have any number of rows, they are omitted: each chunk adds a group, and readers
-    /// of consolidated metadata would ignore it.
+    /// If members have any number of rows, the metadata of arrays are omitted: each chunk adds a group, which readers
+    /// of consolidated metadata would ignore.
     pub(super) fn group(&self) -> Json {
         let own = [
             ("members".to_owned(), Json::Whole(self.members)),
@@ -179,7 +179,7 @@ impl Layout {
         }
     }
 
-    /// The arrays of the root.
+    /// Returns the arrays of the root group.
     pub(super) fn arrays(&self) -> Vec<Array> {
         let per_member = |name: &str, kind| Array {
             name: name.to_owned(),
@@ -230,7 +230,7 @@ impl Layout {
         arrays
     }
 
-    /// The arrays of a chunk with `rows` rows, if members have any number of them.
+    /// Returns the arrays of a chunk with `rows` rows, for members with any number of rows.
     pub(super) fn rows_arrays(&self, rows: u64) -> Vec<Array> {
         let line = |name: &str, kind| Array::line(name, kind, rows, "row");
         let columns = self.columns.iter().map(|name| line(name, Kind::F64));
@@ -249,7 +249,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// The bytes of an element.
+    /// Returns the number of bytes of an element.
     pub(super) fn size(self) -> usize {
         match self {
             Kind::U8 => 1,
@@ -257,7 +257,7 @@ impl Kind {
         }
     }
 
-    /// The bytes of a missing element.
+    /// Returns the bytes of a missing element.
     pub(super) fn fill(self) -> &'static [u8] {
         match self {
             Kind::U8 => &[0],
@@ -279,7 +279,7 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// An array of one dimension in one chunk.
+    /// Creates an array with one dimension in one chunk.
     fn line(name: &str, kind: Kind, length: u64, dimension: &str) -> Self {
         Array {
             name: name.to_owned(),
@@ -291,7 +291,7 @@ impl Array {
         }
     }
 
-    /// Its `zarr.json`.
+    /// Returns the contents of its `zarr.json`.
     pub(super) fn metadata(&self) -> Json {
         let named = |name: &str, configuration| {
             Json::object([("name", Json::text(name)), ("configuration", configuration)])
@@ -323,13 +323,13 @@ impl Array {
         ])
     }
 
-    /// The elements of a chunk of it, those beyond its end included.
+    /// Returns the number of elements of a chunk, including those beyond the end of the array.
     pub(super) fn elements(&self) -> usize {
         self.chunk.iter().product::<u64>() as usize
     }
 }
 
-/// The metadata of a group.
+/// Returns the metadata of a group.
 pub(super) fn group(attributes: Json) -> Json {
     Json::object(group_members(attributes))
 }
@@ -342,8 +342,8 @@ fn group_members(attributes: Json) -> [(&'static str, Json); 3] {
     ]
 }
 
-/// The metadata of a group with those of all of its arrays, as zarr-python writes them. The
-/// specification does not contain this yet, and readers may ignore it.
+/// Returns the metadata of a group with those of all of its arrays, in the form of zarr-python. The specification does
+/// not yet contain this form, and readers may ignore it.
 pub(super) fn consolidated(attributes: Json, arrays: &[Array]) -> Json {
     let metadata = arrays
         .iter()

@@ -4,10 +4,10 @@
 //! is present with all its columns or not at all; a chunk that is present is never written again; the bytes
 //! of a complete store depend only on its layout and its chunks.
 //!
-//! # Order
-//! A chunk is several files, one for each array. Each appears by a rename, the file of `status` last: a chunk is
-//! present if its `status` is. A process that is killed leaves files of chunks that are not present. The process that
-//! writes such a chunk again writes the same bytes.
+//! # Order of writing
+//! A chunk has one file per array. Each file appears by a rename, the one of `status` last. A chunk is present if its
+//! file of `status` is. A killed process may leave files of a chunk that is not present; the process that writes this
+//! chunk later writes the same bytes.
 
 mod files;
 mod json;
@@ -25,9 +25,9 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// A directory of results, chunk by chunk.
+/// A directory of results, written chunk by chunk.
 ///
-/// Several processes may write to one store without coordination, each its own chunks. Threads share a `Store`.
+/// Several processes may write to one store without coordination, each its own chunks. Threads may share a `Store`.
 ///
 /// ```
 /// use hamiltonian::stores::{ChunkData, Layout, Store};
@@ -74,19 +74,18 @@ pub struct Store {
 /// The results of the members of one chunk.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ChunkData {
-    /// For each column its values: one a member, or (member after member) one at each value of
-    /// [`Rows::At`], or one a row for [`Rows::Any`]. NaN is a missing value.
+    /// The values of each column: one per member for [`Rows::One`], one per member and value for [`Rows::At`] (member
+    /// after member), one per row for [`Rows::Any`]. NaN is a missing value.
     pub columns: Vec<Vec<f64>>,
-    /// For each row its member, where members have any number of rows; empty otherwise. Rows stand in
-    /// the order of their members.
+    /// The member of each row for [`Rows::Any`], with rows in the order of their members; otherwise empty.
     pub member: Vec<u64>,
-    /// For each member 1 (ended), 2 (stopped by an event) or 3 and up (failed); 0 is missing.
+    /// The status of each member: 0 (missing), 1 (ended), 2 (stopped by an event) or a failure from 3.
     pub status: Vec<u8>,
-    /// For each member the time at its end.
+    /// The time at the end of each member.
     pub time: Vec<f64>,
-    /// For each member the number of its steps.
+    /// The number of steps of each member.
     pub steps: Vec<u64>,
-    /// A hash of the parameters and the start of the first member, and one of those of all.
+    /// A hash of the parameters and the start of the first member, and a hash of all members.
     pub hashes: [u64; 2],
 }
 
@@ -94,15 +93,15 @@ impl Store {
     /// Opens the store at `path`, or creates it with its directories.
     ///
     /// # Errors
-    /// [`StoreError::Layout`] for a layout that no store can have, [`StoreError::Other`] for a store of
-    /// another layout or other attributes, [`StoreError::Foreign`] for a directory of something else,
-    /// [`StoreError::Full`] and [`StoreError::File`].
+    /// [`StoreError::Layout`] for an invalid layout, [`StoreError::Other`] for a store with another layout or other
+    /// attributes, [`StoreError::Foreign`] for a directory that is not a store, [`StoreError::Full`] and
+    /// [`StoreError::File`].
     pub fn open_or_create(path: impl AsRef<Path>, layout: &Layout) -> Result<Self, Error> {
         let store = Self::at(path.as_ref(), layout)?;
         if store.exists()? {
             return Ok(store);
         }
-        // That of the group is the last, so that a store has the metadata of all arrays.
+        // The metadata of the group are written last, so that a store always has those of all arrays.
         for (path, metadata) in store.metadata() {
             store.write_file(&path, metadata.as_bytes())?;
         }
@@ -114,7 +113,7 @@ impl Store {
         Ok(store)
     }
 
-    /// Opens the store at `path`; `None` if there is none yet, or one that is being created.
+    /// Opens the store at `path`; `None` if it does not exist or is being created.
     ///
     /// # Errors
     /// Those of [`open_or_create`](Store::open_or_create).
@@ -123,7 +122,7 @@ impl Store {
         Ok(store.exists()?.then_some(store))
     }
 
-    /// The store of a layout at a place, where it may not be yet.
+    /// Returns the store of a layout at a path, at which it may not exist yet.
     fn at(root: &Path, layout: &Layout) -> Result<Self, Error> {
         layout.check()?;
         Ok(Store {
@@ -134,13 +133,12 @@ impl Store {
         })
     }
 
-    /// The metadata of the group.
+    /// Returns the path of the metadata of the group.
     fn top(&self) -> PathBuf {
         self.root.join("zarr.json")
     }
 
-    /// Returns true if the store is there. A store of another layout, and a directory of something else, are
-    /// errors.
+    /// Returns true if the store exists. A store with another layout and a directory that is not a store are errors.
     fn exists(&self) -> Result<bool, Error> {
         let top = self.top();
         let Some(saved) = files::read(&self.root, &top)? else {
@@ -160,7 +158,7 @@ impl Store {
         &self.layout
     }
 
-    /// Returns true if a chunk was written.
+    /// Returns true if a chunk has been written.
     ///
     /// # Errors
     /// [`StoreError::File`].
@@ -169,7 +167,7 @@ impl Store {
         (marker.try_exists()).map_err(|error| failed(&self.root, &marker, &error))
     }
 
-    /// Writes a chunk. A chunk that is present stays as it is.
+    /// Writes a chunk, unless it is present.
     ///
     /// # Errors
     /// [`StoreError::Shape`] for data that does not fit the layout, [`StoreError::Full`],
@@ -180,7 +178,7 @@ impl Store {
             return Ok(());
         }
         let written = self.write_files(chunk, data);
-        // Another process completed the store meanwhile, and with it removed what was being written.
+        // Another process may have completed the store meanwhile, and removed the temporary files of this one.
         match written.is_err() && self.present(chunk)? {
             true => Ok(()),
             false => written,
@@ -200,7 +198,7 @@ impl Store {
                 (COUNT, Kind::U64) => bytes_of(&self.counts(chunk, data), u64::to_le_bytes),
                 (name, _) => {
                     let of = self.layout.columns.iter().position(|column| column == name);
-                    // The coordinate is no column.
+                    // The coordinate of `Rows::At` is not part of a chunk.
                     let Some(column) = of.and_then(|at| data.columns.get(at)) else {
                         continue;
                     };
@@ -212,7 +210,7 @@ impl Store {
         Ok(())
     }
 
-    /// The number of rows of each member.
+    /// Returns the number of rows of each member.
     fn counts(&self, chunk: u64, data: &ChunkData) -> Vec<u64> {
         let members = self.layout.members_of(chunk);
         let mut counts = vec![0; data.status.len()];
@@ -222,19 +220,19 @@ impl Store {
         counts
     }
 
-    /// The group of a chunk's rows: a directory that appears by one rename.
+    /// Writes the group of a chunk's rows, a directory that appears by one rename.
     fn write_rows(&self, chunk: u64, data: &ChunkData) -> Result<(), Error> {
-        let place = self.root.join(ROWS).join(chunk.to_string());
+        let path = self.root.join(ROWS).join(chunk.to_string());
         let write = || -> io::Result<()> {
-            let part = self.temporary.new_path()?;
-            fs::create_dir(&part)?;
+            let temporary = self.temporary.new_path()?;
+            fs::create_dir(&temporary)?;
             let arrays = self.layout.rows_arrays(data.member.len() as u64);
             let group = layout::consolidated(json::Json::Object(Vec::new()), &arrays).to_string();
-            files::write_new(&part.join("zarr.json"), group.as_bytes())?;
+            files::write_new(&temporary.join("zarr.json"), group.as_bytes())?;
             let columns = data.columns.iter().map(|c| bytes_of(c, f64::to_le_bytes));
             let members = bytes_of(&data.member, u64::to_le_bytes);
             for (array, bytes) in arrays.iter().zip(core::iter::once(members).chain(columns)) {
-                let directory = part.join(&array.name);
+                let directory = temporary.join(&array.name);
                 fs::create_dir_all(directory.join("c"))?;
                 let metadata = array.metadata().to_string();
                 files::write_new(&directory.join("zarr.json"), metadata.as_bytes())?;
@@ -242,19 +240,19 @@ impl Store {
                     files::write_new(&directory.join("c/0"), &bytes)?;
                 }
             }
-            // It is there already if the process that wrote it was killed before it wrote the status.
-            match fs::rename(&part, &place) {
-                Err(_) if place.is_dir() => fs::remove_dir_all(&part),
+            // The group exists already if another process was killed after it wrote the group, before the status.
+            match fs::rename(&temporary, &path) {
+                Err(_) if path.is_dir() => fs::remove_dir_all(&temporary),
                 renamed => renamed,
             }
         };
-        write().map_err(|error| failed(&self.root, &place, &error))
+        write().map_err(|error| failed(&self.root, &path, &error))
     }
 
-    /// The data of a chunk; `None` if it is not present.
+    /// Reads the data of a chunk; `None` if it is not present.
     ///
     /// # Errors
-    /// [`StoreError::Damaged`] for a file of another length, [`StoreError::File`].
+    /// [`StoreError::Damaged`] for a file of the wrong length, [`StoreError::File`].
     pub fn read(&self, chunk: u64) -> Result<Option<ChunkData>, Error> {
         if chunk >= self.layout.chunks() || !self.present(chunk)? {
             return Ok(None);
@@ -271,21 +269,21 @@ impl Store {
         let mut data = ChunkData {
             status: bytes(STATUS, members)?,
             time: floats(&bytes(TIME, members)?),
-            steps: wholes(&bytes(STEPS, members)?),
+            steps: integers(&bytes(STEPS, members)?),
             ..ChunkData::default()
         };
-        if let [first, all] = wholes(&bytes(HASHES, 2)?)[..] {
+        if let [first, all] = integers(&bytes(HASHES, 2)?)[..] {
             data.hashes = [first, all];
         }
         match &self.layout.rows {
             Rows::Any => {
-                let rows: u64 = wholes(&bytes(COUNT, members)?).iter().sum();
+                let rows: u64 = integers(&bytes(COUNT, members)?).iter().sum();
                 let directory = self.root.join(ROWS).join(chunk.to_string());
                 let array = |name: &str| match rows {
                     0 => Ok(Vec::new()),
                     _ => self.file(&directory.join(name).join("c/0"), 8 * rows as usize),
                 };
-                data.member = wholes(&array(MEMBER)?);
+                data.member = integers(&array(MEMBER)?);
                 for name in &self.layout.columns {
                     data.columns.push(floats(&array(name)?));
                 }
@@ -300,14 +298,14 @@ impl Store {
         Ok(Some(data))
     }
 
-    /// Compares the first member of a present chunk with the one that it was written from, by the hash
-    /// of its parameters and its start.
+    /// Compares the hash of the first member of a chunk with the stored hash. Hashes are computed from the parameters
+    /// and the start of a member.
     ///
     /// # Errors
-    /// [`StoreError::Members`] for another one, those of [`Store::read`].
+    /// [`StoreError::Members`] if the hashes differ, and those of [`Store::read`].
     pub fn check_first(&self, chunk: u64, hash: u64) -> Result<(), Error> {
         let saved = self.file(&self.chunk_path(HASHES, chunk), 16)?;
-        match wholes(&saved).first() {
+        match integers(&saved).first() {
             Some(first) if *first == hash => Ok(()),
             _ => Err(StoreError::Members {
                 path: self.root.display().to_string(),
@@ -317,7 +315,7 @@ impl Store {
         }
     }
 
-    /// Finds the chunks that are missing. If there are none, it removes files that killed processes left.
+    /// Finds the missing chunks. If no chunk is missing, it removes files that killed processes left.
     ///
     /// # Errors
     /// [`StoreError::File`].
@@ -341,7 +339,7 @@ impl Store {
         })
     }
 
-    /// The path of a chunk's file; all chunks divide members, or hold what is of one chunk.
+    /// Returns the path of a chunk's file. Only the first dimension of an array is divided into chunks.
     fn chunk_path(&self, array: &str, chunk: u64) -> PathBuf {
         let is_flat = |array: &&Array| array.shape.len() == 1;
         let flat = (self.arrays.iter()).any(|known| known.name == array && is_flat(&known));
@@ -352,7 +350,7 @@ impl Store {
         path
     }
 
-    /// The metadata below the group.
+    /// Returns the paths and contents of the metadata below the group.
     fn metadata(&self) -> Vec<(PathBuf, String)> {
         let file = |array: &Array| {
             let path = self.root.join(&array.name).join("zarr.json");
@@ -366,7 +364,7 @@ impl Store {
         files
     }
 
-    /// A directory without metadata of a group is that of a store which was being created, or nobody's.
+    /// Refuses a directory without group metadata that has other entries than a store that is being created.
     fn refuse_foreign(&self) -> Result<(), Error> {
         let error = |error: io::Error| failed(&self.root, &self.root, &error);
         let entries = match fs::read_dir(&self.root) {
@@ -407,7 +405,7 @@ impl Store {
         (self.temporary.write(path, bytes)).map_err(|error| failed(&self.root, path, &error))
     }
 
-    /// The bytes of a file of a known length.
+    /// Reads a file of a known length.
     fn file(&self, path: &Path, expected: usize) -> Result<Vec<u8>, Error> {
         let bytes = files::read(&self.root, path)?.unwrap_or_default();
         match bytes.len() == expected {
@@ -472,7 +470,7 @@ impl Store {
 }
 
 impl Rows {
-    /// The number of rows of a member, where it is the same for all.
+    /// Returns the number of rows of a member, if it is the same for all members.
     fn per_member(&self) -> usize {
         match self {
             Rows::At { values, .. } => values.len(),
@@ -481,7 +479,7 @@ impl Rows {
     }
 }
 
-/// The chunks that a store has and misses.
+/// The number of chunks of a store, and the missing ones.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Completeness {
     /// The number of chunks of the layout.
@@ -500,7 +498,7 @@ impl Completeness {
 /// `complete (7 chunks)`, or `3 of 7 chunks are missing: 1, 5 to 6`.
 impl fmt::Display for Completeness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// More ranges than this are not listed.
+        /// The largest number of ranges that are listed.
         const MOST: usize = 8;
         if self.is_complete() {
             return write!(f, "complete ({} chunks)", self.chunks);
@@ -525,7 +523,7 @@ impl fmt::Display for Completeness {
     }
 }
 
-/// The bytes of an array's chunk, with what lies beyond the last member.
+/// Extends the bytes of an array's chunk by fill values beyond the last member.
 fn padded(mut bytes: Vec<u8>, array: &Array) -> Vec<u8> {
     let length = array.elements() * array.kind.size();
     while bytes.len() < length {
@@ -538,7 +536,7 @@ fn bytes_of<T: Copy, const N: usize>(values: &[T], bytes: impl Fn(T) -> [u8; N])
     values.iter().flat_map(|value| bytes(*value)).collect()
 }
 
-fn wholes(bytes: &[u8]) -> Vec<u64> {
+fn integers(bytes: &[u8]) -> Vec<u64> {
     let words = bytes.as_chunks::<8>().0;
     words.iter().map(|word| u64::from_le_bytes(*word)).collect()
 }

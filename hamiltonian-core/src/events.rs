@@ -2,8 +2,8 @@
 //!
 //! Input: the states of a run, step by step, and [`Event`]s: declared ones by name, others as closures.
 //! Output: [`Located`] states in the order of the run, and the end of the run if an event is ending.
-//! Invariants: no bit of the run changes; an event is a change of sign of the function, so neither a start on a
-//! root nor a function that touches 0 is an event.
+//! Invariants: the bits of the run do not change. An event is a change of sign of the function, so a start on a root is
+//! no event, and neither is a function that touches 0.
 
 mod event;
 
@@ -24,7 +24,7 @@ use core::cell::OnceCell;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
 
-/// A state at which an event happened.
+/// A state at which an event occurred.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Located<V: Vector> {
     /// The index of the event in the list given to [`Events::new`].
@@ -40,13 +40,13 @@ pub struct Located<V: Vector> {
 /// If a function has different signs before and after a step, `Events` locates its root by shorter steps of the same
 /// scheme on a copy, so the error of the state has the order of the scheme. To rounding, the function is 0 there, and
 /// the state is the one that [`advance_until`](crate::Integrator::advance_until) returns for the time of the event.
-/// (A scheme that carries a second point starts this point anew in a shorter step. The state is then shifted so that
-/// it meets the run at the end of the step.) The run itself does not change.
+/// The run itself does not change. A scheme that carries a second point begins a shorter step with a new second point.
+/// The states of shorter steps are then corrected so that the whole step ends at the state of the run.
 ///
-/// Two roots within one step are found if the values after three steps show that there can be two: the function has
-/// fallen towards 0 by more than half its value, and falls by less than half as much in the step. Further roots are
-/// missed; shorter steps find them. A change of sign at a pole or a jump is no event. Several events in one step come
-/// in the order of time.
+/// Two roots within one step are found if the values after three consecutive steps indicate them: the function has
+/// approached 0 by more than half its value in the previous step, and by less than half as much in this step. More
+/// roots within one step are missed; shorter steps find them. A change of sign at a pole or a jump is no event. Several
+/// events in one step are in the order of time.
 ///
 /// An event that is [ending](Event::ending) ends the run, and the state of the run is then the one at the
 /// event. After [`go_on`](crate::Integrator::go_on) the run continues from the end of its last step.
@@ -83,35 +83,34 @@ pub struct Located<V: Vector> {
 #[derive(Debug, Clone)]
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,
-    /// The history of each function: as many as there are events, once attached.
+    /// The history of each event's function; empty before the observer is attached.
     histories: Vec<History<V::Scalar>>,
     /// The last step and the state after it.
     before: Option<(u64, State<V>)>,
     located: Vec<Located<V>>,
-    /// Events of the last step after the one that ended the run.
+    /// Located events of the last step that are not yet recorded: those after the event that ended the run.
     pending: VecDeque<Located<V>>,
     end: Option<State<V>>,
     failure: Option<Error>,
 }
 
-/// A function's value after a step, and its past: besides the last sign that is not 0, the values after two
-/// steps alone.
+/// The values of a function after the last two steps, and its last sign that is not 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct History<T> {
-    /// The index of an observable; none for a closure.
+    /// The index of an observable; `None` for a closure.
     observable: Option<usize>,
-    /// The value of the event there.
+    /// The value after the last step.
     value: T,
-    /// Its change in the last step, or 0.
+    /// The change in the last step; 0 if it is unknown.
     change: T,
-    /// Its last sign.
+    /// The last sign that is not 0; 0 if there is none.
     side: i8,
-    /// The number of times the event happened.
+    /// The number of events so far.
     count: u64,
 }
 
 impl<T: Real> History<T> {
-    /// Goes on to a value after the next step.
+    /// Accepts the value after the next step.
     fn advance<V: Vector<Scalar = T>>(&mut self, event: &Event<V>, value: T) {
         let unwrapped = event.unwrapped(self.value, value);
         self.change = unwrapped - self.value;
@@ -123,7 +122,7 @@ impl<T: Real> History<T> {
     }
 }
 
-/// Why an event of an unknown name cannot be located, with the names that are known.
+/// Returns the reason and remedy for an event whose name is unknown, with the names that are known.
 fn unknown(name: &str, known: &[Observable]) -> String {
     let mut text = String::from("the system declares none of this name\nhelp: ");
     let mut lead = "it declares";
@@ -138,7 +137,7 @@ fn unknown(name: &str, known: &[Observable]) -> String {
 }
 
 impl<V: Vector> Events<V> {
-    /// An observer of these events.
+    /// Creates an observer of these events.
     pub fn new(events: impl IntoIterator<Item = Event<V>>) -> Self {
         Events {
             events: events.into_iter().collect(),
@@ -169,7 +168,7 @@ impl<V: Vector> Events<V> {
         of_name.map(|(_, history)| history.count).sum()
     }
 
-    /// The value of an event at a state.
+    /// Returns the value of an event's function at a state.
     fn value<S: System<V::Scalar, Vector = V>>(
         event: &Event<V>,
         observable: Option<usize>,
@@ -183,12 +182,12 @@ impl<V: Vector> Events<V> {
         }
     }
 
-    /// The functions at the first state.
+    /// Evaluates the functions at the first state.
     fn begin<S: System<V::Scalar, Vector = V>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
     ) -> Result<(), Error> {
-        // A step back tells where functions come from; a run may begin where there is none.
+        // A step back gives the previous values. At a boundary of the domain it may fail.
         let back = V::Scalar::zero() - view.between.interval();
         let before = view.between.part(view.state, back).ok();
         self.histories.clear();
@@ -227,7 +226,7 @@ impl<V: Vector> Events<V> {
         }
     }
 
-    /// The events of a step from `before` to the present state, in the order of time.
+    /// Locates the events of a step from `before` to the present state, in the order of time.
     fn step<S: System<V::Scalar, Vector = V>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
@@ -235,10 +234,9 @@ impl<V: Vector> Events<V> {
     ) -> Result<(), Error> {
         let time = view.between.between(before.t, view.state.t);
         let (zero, one) = (V::Scalar::zero(), V::Scalar::one());
-        // A part of a step starts anew, without the values that a scheme carries besides the state,
-        // so the part for the whole step misses the end of the step; other schemes miss it by
-        // rounding only. The difference is distributed in proportion, so that the whole step ends
-        // at its end.
+        // A part of a step begins from a state, without further values that a scheme carries. Therefore the part that
+        // is a whole step may not end at the present state; for schemes that carry only the state, the difference is
+        // due to rounding. It is added in proportion to the time, so that a whole step ends at the present state.
         let missed = OnceCell::new();
         let part = |theta: V::Scalar| -> Result<State<V>, Error> {
             let mut state = view.between.part(before, theta * time)?;
@@ -256,7 +254,7 @@ impl<V: Vector> Events<V> {
             let at = |state: &State<V>| {
                 Self::value::<S>(event, history.observable, view.prepared, state)
             };
-            // Counted on from the value before, angles do not jump.
+            // Angles are unwrapped from the previous value, so that they do not jump.
             let from = history.value;
             let unwrapped = |value| event.unwrapped(from, value);
             let here = at(view.state);
@@ -268,11 +266,12 @@ impl<V: Vector> Events<V> {
             };
             let end = Sample { at: one, value };
             let (now, was) = (side(value), history.side);
-            // Towards 0, in two steps.
-            let towards = V::Scalar::constant(-2.0 * f64::from(was), 0.0);
-            let (fell, falls) = (towards * history.change, towards * (value - from));
-            let is_convex = (falls + falls).lt(fell).any();
-            let may_dip = was != 0 && now == was && is_convex && from.abs().lt(fell).any();
+            // Twice the approach to 0 in the previous step and in this one.
+            let toward_zero = V::Scalar::constant(-2.0 * f64::from(was), 0.0);
+            let (last_approach, approach) =
+                (toward_zero * history.change, toward_zero * (value - from));
+            let is_convex = (approach + approach).lt(last_approach).any();
+            let may_dip = was != 0 && now == was && is_convex && from.abs().lt(last_approach).any();
             let mut ends = Vec::new();
             if was != 0 && now == -was {
                 ends.push((start, end));
@@ -288,7 +287,7 @@ impl<V: Vector> Events<V> {
                     0 => left,
                     _ => root(left, right, &mut function)?,
                 };
-                // At poles and jumps values stay as large as they are at the ends.
+                // At a pole or a jump, the value near the change of sign is as large as at the ends.
                 let bound = left.value.magnitude().max(right.value.magnitude());
                 let is_end = [left, right]
                     .iter()
@@ -307,14 +306,14 @@ impl<V: Vector> Events<V> {
             }
             history.advance(event, here);
         }
-        // Stable: simultaneous events come in their own order.
+        // The sort is stable: simultaneous events are in the order of the list of events.
         found.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
         self.pending
             .extend(found.into_iter().map(|(_, located)| located));
         Ok(())
     }
 
-    /// Counts what happened, up to an event that ends the run.
+    /// Records located events, up to an event that ends the run.
     fn record(&mut self) -> ControlFlow<()> {
         while let Some(located) = self.pending.pop_front() {
             let number = located.event;
@@ -334,7 +333,7 @@ impl<V: Vector> Events<V> {
         ControlFlow::Break(())
     }
 
-    /// Goes on to a state at whose step nothing happened.
+    /// Accepts the state after a step without events.
     fn skip<S: System<V::Scalar, Vector = V>>(&mut self, view: &View<'_, V::Scalar, S>) {
         for (event, history) in self.events.iter().zip(&mut self.histories) {
             let value = Self::value::<S>(event, history.observable, view.prepared, view.state);
@@ -350,7 +349,7 @@ impl<V: Vector> Events<V> {
     }
 }
 
-/// Adds `part` of the difference between an end and the point reached.
+/// Adds the fraction `part` of the difference between an end and the point reached.
 fn correct<V: Vector>(to: &mut V, part: V::Scalar, end: &V, reached: &V) {
     for index in 0..to.len() {
         let missed = end.component(index) - reached.component(index);
@@ -373,7 +372,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         let Some((step, mut before)) = self.before.take() else {
             return <Self as Observer<T, S>>::attach(self, view);
         };
-        // A run that ended between two steps may begin anew there, with another step.
+        // A run that ended between two steps may have been restarted at that state, with another step.
         let is_there = |end: &State<S::Vector>| end.t.equals(view.between.start()).all();
         if let Some(end) = self.end.take().filter(is_there) {
             self.pending.clear();
@@ -391,7 +390,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         }
         let made = match view.step == step + 1 {
             true => self.step(view, &before),
-            false => Err(self.error(0, "it is shown less than every step")),
+            false => Err(self.error(0, "its observer does not receive every step")),
         };
         before.clone_from(view.state);
         self.before = Some((view.step, before));
@@ -402,8 +401,8 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
     }
 
     fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
-        // A closure is a function of one member's state. Where functions come from at the first state is found by
-        // a step back.
+        // Lanes do not evaluate closures. The previous values at the first state are found by a step back, when the
+        // observer is attached.
         let is_named = self.events.iter().all(|event| event.function.is_none());
         if !is_named || self.failure.is_some() || self.histories.len() != self.events.len() {
             return false;

@@ -1,34 +1,36 @@
 //! One-step maps: schemes prepared for a given step.
 //!
-//! Input: the carried value, and the time. Output: the value a step later. Invariants: a map owns
-//! constants and no state, so threads share one, stages of a composition share its scratch, and a
-//! part of a step is another map; nothing allocates or dispatches inside a step; the carried value
-//! depends on the number of steps made and on nothing else, so that the bits of a trajectory are the
-//! same however it is cut into blocks and whoever observes it.
+//! Input: the carried value and the time. Output: the carried value one step later. Invariants:
+//!
+//! - A map owns constants and no state. Therefore threads share a map, stages of a composition share its scratch, and a
+//!   part of a step is another map.
+//! - Nothing allocates or dispatches inside a step.
+//! - The carried value depends only on the start and the number of steps made, so that the bits of a trajectory do not
+//!   depend on its division into blocks or on observers.
 
 use crate::flow::Scratch;
 use crate::state::Carried;
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
-/// The scalar of the value a map carries.
+/// The scalar of the value that a map carries.
 pub type ScalarOf<M> = <<M as Map>::Carried as Vector>::Scalar;
 
 /// A one-step map Φ = close ∘ body ∘ open.
 ///
-/// The closing piece of a step and the opening piece of the next are one,
-/// [`join`](Map::join). What is carried after a step stands before its closing piece; whoever wants
-/// to see the state closes a copy.
+/// The closing piece of a step and the opening piece of the next are merged into [`join`](Map::join). Therefore the
+/// value carried after a step is the one before its closing piece. The state after the step is a copy to which
+/// [`close`](Map::close) was applied.
 pub trait Map {
-    /// All that is carried from step to step.
+    /// The value carried from step to step.
     type Carried: Carried;
-    /// Scratch, whose contents never matter.
+    /// Scratch. Results do not depend on its contents.
     type Work: Scratch<Self::Carried>;
 
-    /// The piece before the body of the first step, at its beginning.
+    /// Applies the piece before the body of the first step.
     #[inline(always)]
     fn open(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
-    /// The step from `t` to `end`, but for its opening and closing pieces.
+    /// Makes the step from `t` to `end`, without its opening and closing pieces.
     fn body(
         &self,
         t: ScalarOf<Self>,
@@ -36,23 +38,23 @@ pub trait Map {
         z: &mut Self::Carried,
         work: &mut Self::Work,
     );
-    /// The piece after the body, at the end of the step.
+    /// Applies the piece after the body, at the end of a step.
     #[inline(always)]
     fn close(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
-    /// True if [`close`](Map::close) changes coordinates, and the same for momenta: an observer of the
-    /// others alone needs no closed copy.
+    /// Returns whether [`close`](Map::close) changes coordinates, and whether it changes momenta. An observer that
+    /// reads only unchanged ones needs no closed copy.
     #[inline(always)]
     fn closing(&self) -> [bool; 2] {
         [true; 2]
     }
-    /// `close` of the step before, then `open`.
+    /// Applies `close` of the previous step, then `open`.
     #[inline(always)]
     fn join(&self, t: ScalarOf<Self>, z: &mut Self::Carried, work: &mut Self::Work) {
         self.close(t, z, work);
         self.open(t, z, work);
     }
-    /// Makes the step again that led to a value that is not finite, and says why it did. `first` is
-    /// whether it began with `open` instead of `join`.
+    /// Repeats a step that led to a value that is not finite, and returns the cause. `first` is true if the step began
+    /// with `open` instead of `join`.
     #[cold]
     fn explain(
         &self,
@@ -65,8 +67,8 @@ pub trait Map {
         Cause::Overflow
     }
 
-    /// [`join`](Map::join), and, if `closes`, [`close`](Map::close) of a copy: both begin at the same point, and what
-    /// they compute alike is computed once.
+    /// Applies [`join`](Map::join), and, if `closes`, [`close`](Map::close) to a copy. Both begin at the same point, so
+    /// common expressions are computed once.
     #[doc(hidden)]
     #[inline(always)]
     fn join_and_close(
@@ -83,7 +85,7 @@ pub trait Map {
         }
     }
 
-    /// Makes the steps from number `made` to number `end`, of which the piece before the first body has been made.
+    /// Makes the steps after the first `made`, up to number `end`. The piece before the first body has been applied.
     #[doc(hidden)]
     #[inline(always)]
     fn go_on<C: Times<ScalarOf<Self>>>(
@@ -94,8 +96,8 @@ pub trait Map {
         z: &mut Self::Carried,
         work: &mut Self::Work,
     ) {
-        // Counted down to zero, which costs one instruction less; the number of the step is only
-        // computed where a system looks at the time. The body, the largest part, is compiled once.
+        // Counting down to zero saves an instruction. The number of the step is computed only if the system depends on
+        // time. The body, the largest part, is compiled once.
         let mut left = end - made;
         loop {
             let k = end - left;
@@ -121,7 +123,7 @@ pub trait Map {
         if n == 0 {
             return;
         }
-        // Moved out, the carried value is a variable of this loop alone and stays in registers.
+        // As a local variable, the carried value stays in registers during the loop.
         let mut carried = z.take();
         if made == 0 {
             self.open(clock.at(0), &mut carried, work);
@@ -132,7 +134,7 @@ pub trait Map {
         *z = carried;
     }
 
-    /// One whole step from `t` to `end`.
+    /// Makes one whole step from `t` to `end`.
     #[inline(always)]
     fn step(
         &self,
@@ -147,12 +149,12 @@ pub trait Map {
     }
 }
 
-/// Why a step led to a value that is not finite.
+/// The reason why a step led to a value that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cause {
-    /// A number grew beyond all bounds, or J∇H is not defined where it was asked for.
+    /// A number overflowed, or J∇H was evaluated outside its domain.
     Overflow,
-    /// The exact flow of this piece left its domain, or J∇H of it is not defined there.
+    /// The exact flow of this piece left its domain, or its J∇H was evaluated outside its domain.
     Piece(&'static str),
     /// The equations of an implicit step were not solved.
     Unsolved {
@@ -163,13 +165,13 @@ pub enum Cause {
     },
 }
 
-/// The step a map is made for.
+/// The step for which a map is prepared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step<T> {
     /// Its size.
     pub h: T,
-    /// The size of the step whose closing piece [`Map::join`] absorbs: `h` in a run, the stage before
-    /// in a composition.
+    /// The size of the step whose closing piece is part of [`Map::join`]: `h` in a run, the previous stage in a
+    /// composition.
     pub before: T,
 }
 
@@ -185,13 +187,13 @@ impl<T: Copy> Step<T> {
 pub struct Clock<T> {
     /// The time at step 0.
     pub start: T,
-    /// The time one step advances.
+    /// The duration of one step.
     pub interval: T,
 }
 
 /// The times of steps.
 pub trait Times<T> {
-    /// The time after so many steps.
+    /// Returns the time after `made` steps.
     fn at(&self, made: u64) -> T;
 }
 
@@ -203,26 +205,26 @@ impl<T: Real> Times<T> for Clock<T> {
 }
 
 impl<T: Real> Clock<T> {
-    /// The clock of one step.
+    /// Creates the clock of one step.
     #[inline(always)]
     pub(crate) fn between(start: T, end: T) -> Self {
         let interval = end - start;
         Clock { start, interval }
     }
 
-    /// The time after `made` steps.
+    /// Returns the time after `made` steps.
     ///
-    /// Pure, so that it vanishes where a system does not look at the time; exact in the number
-    /// of steps up to 2⁵³.
+    /// The function is pure, so that the compiler removes it if the system does not depend on time. The number of steps
+    /// is exact up to 2⁵³.
     #[inline(always)]
     pub fn at(&self, made: u64) -> T {
-        // Signed conversion is one instruction, unsigned is not.
+        // Conversion of signed integers takes one instruction, of unsigned integers several.
         self.interval
             .fma(T::constant(made as i64 as f64, 0.0), self.start)
     }
 }
 
-/// One of two maps: a choice of the scheme that is made at run time, once a block of steps.
+/// One of two maps, between which a scheme chooses at run time. The choice is made once per block of steps.
 #[derive(Debug, Clone)]
 pub enum Either<A, B> {
     /// The first.
@@ -231,7 +233,7 @@ pub enum Either<A, B> {
     Second(B),
 }
 
-/// Calls the same method of whichever map is there.
+/// Calls the same method of the present map.
 macro_rules! either {
     ($self:ident.$method:ident($($argument:expr),*; $work:ident)) => {
         match $self {
@@ -243,7 +245,7 @@ macro_rules! either {
 
 impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     type Carried = A::Carried;
-    /// Of the first, and of the second.
+    /// The scratch of the first map, and of the second.
     type Work = (A::Work, B::Work);
 
     #[inline(always)]

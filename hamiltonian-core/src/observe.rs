@@ -34,36 +34,38 @@ pub struct View<'a, T: Real, S: System<T>> {
     pub step: u64,
     /// Time, coordinates and momenta, all at the same time; finite.
     pub state: &'a State<S::Vector>,
-    /// The prepared system, with all that depends on its parameters alone computed.
+    /// The prepared system: expressions that depend only on parameters are computed.
     pub prepared: &'a S::Prepared,
-    /// The way to states at other times.
+    /// Computes states at other times.
     pub(crate) between: &'a dyn Between<S::Vector>,
 }
 
-/// The state near the present one at another time, by a part of a step.
+/// States at other times near the present one, computed by a part of a step.
 pub(crate) trait Between<V: Vector> {
+    /// Returns the state at the time `t`.
     fn state_at(&self, t: V::Scalar) -> Result<State<V>, Error>;
-    /// The state so much time after `from`, a state of the run, on the way to the next.
+    /// Returns the state at `time` after `from`, a state of the run, before the next one.
     fn part(&self, from: &State<V>, time: V::Scalar) -> Result<State<V>, Error>;
-    /// The time between two states, one step apart: the interval itself, without the rounding of times,
-    /// unless the time is carried.
+    /// Returns the time between two states one step apart. This is the interval itself, without the rounding errors of
+    /// times, unless the scheme carries the time.
     fn between(&self, from: V::Scalar, to: V::Scalar) -> V::Scalar;
-    /// The time one step advances.
+    /// Returns the duration of a step.
     fn interval(&self) -> V::Scalar;
-    /// The time at which the run began, or was given another step.
+    /// Returns the time at which the run began, or at which its step was changed.
     fn start(&self) -> V::Scalar;
 }
 
 impl<T: Real, S: System<T>> View<'_, T, S> {
-    /// The declared H at this state: in another time, `dt = g*ds`, without g and the momentum of time.
+    /// The declared H at this state. If the definition changes time, `dt = g*ds`, g and the momentum of time are not
+    /// part of it.
     pub fn energy(&self) -> T {
         declared_energy::<T, S>(self.prepared, self.state)
     }
 
-    /// The state at a time at most one step away, by a shorter step of the same scheme.
+    /// Returns the state at a time at most one step away, computed by a shorter step of the same scheme.
     ///
     /// # Errors
-    /// [`Error::Far`] for another time, those of a step.
+    /// [`Error::Far`] for a time further away, and errors of a step.
     pub fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
         self.between.state_at(t)
     }
@@ -97,15 +99,15 @@ pub trait Observer<T: Real, S: System<T>> {
     }
     /// Receives a state whose step number is a multiple of the interval; `Break` ends the run.
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
-    /// Visits the functions of the state that the observer follows, if it needs only their drifts,
-    /// at multiples of its interval, and the changes of their signs. Ensembles then follow them in
-    /// lanes.
+    /// Lists the functions of the state that the observer follows. Returns true if it needs only their drifts, at
+    /// multiples of its interval, and the changes of their signs. Ensembles then follow them in lanes.
     #[doc(hidden)]
     fn follow(&mut self, _: &mut FollowVisitor<T>) -> bool {
         false
     }
-    /// Shows an observer whose changes of signs lanes follow the state after a step, in the order of the run:
-    /// each at which a sign may have changed, and (`signs_kept`) at least two before it, at which none did.
+    /// Receives the state after a step in which a sign may have changed, if lanes follow signs for this observer.
+    /// Before that it receives at least the two previous states with `signs_kept`, since no sign changed in their
+    /// steps.
     #[doc(hidden)]
     fn pass(&mut self, _view: &View<'_, T, S>, _signs_kept: bool) -> ControlFlow<()> {
         ControlFlow::Continue(())
@@ -133,7 +135,7 @@ pub trait Observer<T: Real, S: System<T>> {
     }
 }
 
-/// The observer of a run that has none, `()`: only such a run takes one.
+/// Implemented for `()`, the observer of a run without one: `observe` can be called once.
 #[diagnostic::on_unimplemented(
     message = "this run has an observer: `{Self}`",
     label = "a run takes one observer",
@@ -144,9 +146,9 @@ pub trait Unobserved {}
 
 impl Unobserved for () {}
 
-/// The value that a closure given to [`watch`] returns: nothing, or whether the run continues.
+/// The return value of a closure given to [`watch`]: `()`, or a [`ControlFlow`] that may end the run.
 pub trait Verdict {
-    /// `Continue` or `Break`.
+    /// Returns `Break` if the run ends.
     fn control(self) -> ControlFlow<()>;
 }
 
@@ -162,7 +164,7 @@ impl Verdict for ControlFlow<()> {
     }
 }
 
-/// `Break` if either is.
+/// Returns `Break` if either is.
 fn both(a: ControlFlow<()>, b: ControlFlow<()>) -> ControlFlow<()> {
     match a {
         ControlFlow::Continue(()) => b,
@@ -253,7 +255,7 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
         self.inner.end()
     }
     fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
-        // Signs are followed from step to step alone.
+        // Signs are compared after every step.
         self.inner.follow(visitor) && (self.steps == 1 || !visitor.has_sections())
     }
     fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
@@ -304,8 +306,8 @@ impl<T: Real, S: System<T>> Observer<T, S> for () {
     }
 }
 
-/// The greatest common divisor, so that every member of a tuple is reached; `u64::MAX`, the
-/// interval of `()`, divides nothing and is passed over.
+/// Returns the interval that reaches both observers of a tuple: the greatest common divisor. `u64::MAX`, the interval
+/// of `()`, is ignored.
 fn common(a: u64, b: u64) -> u64 {
     let (mut a, mut b) = (a.max(1), b.max(1));
     if a == u64::MAX || b == u64::MAX {
@@ -375,7 +377,7 @@ tuple!(A 0, B 1, C 2, D 3);
 tuple!(A 0, B 1, C 2, D 3, E 4);
 tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 
-/// Fails to compile over packs of lanes: what an observer makes of one trajectory would be that of lane 0.
+/// Fails to compile over packs of lanes, of which an observer would only evaluate lane 0.
 ///
 /// This compiles:
 /// ```
@@ -389,7 +391,7 @@ tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 /// run.advance(1)?;
 /// # Ok::<(), Error>(())
 /// ```
-/// Each of these ends the same lines, and does not:
+/// With each of these observers it does not:
 /// ```compile_fail
 /// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
 #[doc = include_str!("doc/oscillator.md")]

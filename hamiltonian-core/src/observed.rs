@@ -1,7 +1,7 @@
-//! An observable of a system, as a function on phase space with all its derivatives.
+//! An observable of a system as a Hamiltonian.
 //!
-//! Input: a system and the name of a monitor of it. Output: [`Observed`], a system whose H is that monitor.
-//! Invariant: derivatives are those of the observable's own code, over dual numbers.
+//! Input: a system and the name of one of its observables. Output: [`Observed`], a system whose H is the observable.
+//! Invariant: derivatives are computed by the observable's code over dual numbers.
 
 use crate::error::Error;
 use crate::flow::VectorField;
@@ -13,17 +13,17 @@ use alloc::vec::Vec;
 use core::fmt;
 use hamiltonian_lanes::{Dual, Pack, Real};
 
-/// A monitor (invariant, event) of a system as a Hamiltonian: its value for H.
+/// A system whose Hamiltonian is a monitor, invariant or event of another system.
 ///
-/// It is a monitor function for [`TimeTransformed`](crate::TimeTransformed), and its flow is the symmetry
-/// that an invariant generates. Derivatives are taken over dual numbers, once for each coordinate and
-/// momentum, the second along a direction likewise.
+/// It can be the monitor function of [`TimeTransformed`](crate::TimeTransformed). Its flow is the symmetry that an
+/// invariant generates. Derivatives are computed over dual numbers: one evaluation for each coordinate and momentum,
+/// for the gradient and for the product of the Hessian and a vector.
 ///
 /// ```
 /// use hamiltonian::schemes::author::Observed;
 #[doc = include_str!("doc/oscillator.md")]
 ///
-/// // The oscillator declares none.
+/// // The oscillator declares no observable.
 /// assert!(Observed::new(Oscillator {}, "height").is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,10 +33,10 @@ pub struct Observed<S> {
 }
 
 impl<S: System<f64>> Observed<S> {
-    /// The observable of that name: `height`, or `angular_momentum[2]` for a component.
+    /// Creates the system for the observable of this name: `height`, or `angular_momentum[2]` for a component.
     ///
     /// # Errors
-    /// [`Error::Unknown`] where the system declares none, [`Error::Timed`] where time is in it.
+    /// [`Error::Unknown`] if the system does not declare it, [`Error::Timed`] if it depends on time.
     pub fn new(system: S, name: &str) -> Result<Self, Error> {
         let found = S::observable_index(name).and_then(|index| {
             let observable = S::OBSERVABLES.get(index)?;
@@ -59,18 +59,18 @@ impl<S: System<f64>> Observed<S> {
 }
 
 impl<S> Unforced for Observed<S> {}
-/// A monitor with time in it makes none.
+/// [`Observed::new`] refuses observables that depend on time.
 impl<S> Autonomous for Observed<S> {}
 
 /// The vectors of a system over a scalar.
-type Of<S, T> = <S as System<T>>::Vector;
+type VectorOf<S, T> = <S as System<T>>::Vector;
 
 impl<T, S> System<T> for Observed<S>
 where
     T: Real,
     S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
 {
-    type Vector = Of<S, T>;
+    type Vector = VectorOf<S, T>;
     type Prepared = ReadyObserved<
         T,
         <S as System<T>>::Prepared,
@@ -95,7 +95,7 @@ where
             index: self.index,
         }
     }
-    fn zeros(&self) -> Of<S, T> {
+    fn zeros(&self) -> VectorOf<S, T> {
         <S as System<T>>::zeros(&self.system)
     }
 }
@@ -121,9 +121,9 @@ where
     index: usize,
 }
 
-/// The components of `from` without derivatives, in a vector of the shape of `like`.
+/// Lifts the components of `from` to constants, in a vector of the shape of `like`.
 #[inline(always)]
-fn fixed<V: Vector, W: Vector<Scalar = Dual<V::Scalar>>>(like: &W, from: &V) -> W {
+fn lift_constant<V: Vector, W: Vector<Scalar = Dual<V::Scalar>>>(like: &W, from: &V) -> W {
     let mut lifted = like.clone();
     for i in 0..from.len() {
         *lifted.component_mut(i) = Dual::fixed(from.component(i));
@@ -131,9 +131,9 @@ fn fixed<V: Vector, W: Vector<Scalar = Dual<V::Scalar>>>(like: &W, from: &V) -> 
     lifted
 }
 
-/// The components of `from` with those of `along` as their derivatives, in a vector of the shape of `like`.
+/// Lifts the components of `from` with those of `along` as derivatives, in a vector of the shape of `like`.
 #[inline(always)]
-fn moved<V, W>(like: &W, from: &V, along: &V) -> W
+fn lift_along<V, W>(like: &W, from: &V, along: &V) -> W
 where
     V: Vector,
     W: Vector<Scalar = Dual<Dual<V::Scalar>>>,
@@ -153,7 +153,7 @@ where
     F: Dynamics<Dual<T>>,
     G: Dynamics<Dual<Dual<T>>>,
 {
-    /// The derivatives by the components of q and by those of p that are asked for.
+    /// Computes the derivatives by the components of q and of p, if a vector for them is given.
     #[inline(always)]
     fn derivatives(
         &self,
@@ -164,7 +164,7 @@ where
         mut by_p: Option<&mut P::Vector>,
     ) {
         let (prepared, zeros) = &self.first;
-        let (mut q, mut p) = (fixed(zeros, q), fixed(zeros, p));
+        let (mut q, mut p) = (lift_constant(zeros, q), lift_constant(zeros, p));
         let (t, one) = (Dual::fixed(t), T::one());
         for i in 0..q.len() {
             if let Some(by_q) = &mut by_q {
@@ -224,7 +224,7 @@ where
     ) {
         let (prepared, zeros) = &self.second;
         let t = Dual::fixed(Dual::fixed(t));
-        let (mut q, mut p) = (moved(zeros, q, vq), moved(zeros, p, vp));
+        let (mut q, mut p) = (lift_along(zeros, q, vq), lift_along(zeros, p, vp));
         let (one, zero) = (Dual::fixed(T::one()), Dual::fixed(T::zero()));
         for i in 0..q.len() {
             q.component_mut(i).eps = one;

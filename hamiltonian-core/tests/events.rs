@@ -385,7 +385,7 @@ fn events_that_cannot_be_located_are_errors() {
     let error = run.advance(2).unwrap_err();
     assert_eq!(
         text(error),
-        "the event `t` cannot be located: it is shown less than every step"
+        "the event `t` cannot be located: its observer does not receive every step"
     );
     // Another event than the saved run had.
     let mut run = new().observe(Events::new([at("t", |t| t - 1.0)]));

@@ -1,8 +1,8 @@
 //! Integration of members to their ends, in the lanes of one pack type.
 //!
 //! Input: a scheme and a host. Output: the host has received every member at each of its stops. Invariants:
-//! a member's bits depend only on its own run and on the arithmetic of the pack. Lanes are refilled only between blocks.
-//! A member that fails does not delay the others, since it is replayed after them.
+//! a member's bits depend only on its own run and on the arithmetic of the pack. Lanes are refilled only between
+//! blocks. A member that fails does not delay the others, since it is replayed after them.
 
 pub(super) mod deviations;
 mod rows;

@@ -237,8 +237,8 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
         self
     }
 
-    /// Makes `n` steps, and calls a closure with the whole ensemble after every `steps` steps (0 counts as 1) and at the
-    /// end. [`ControlFlow::Break`] stops the ensemble.
+    /// Makes `n` steps, and calls a closure with the whole ensemble after every `steps` steps (0 counts as 1) and at
+    /// the end. [`ControlFlow::Break`] stops the ensemble.
     ///
     /// The closure may draw pictures, report progress or check a condition on all members.
     ///
@@ -374,8 +374,8 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         O: Observer<f64, S>,
     {
         for chunk in &mut self.chunks {
-            // Members that have ended are loaded too, since their observers have saved data. Restoring takes a view, from
-            // which an observer reads the shape of states.
+            // Members that have ended are loaded too, since their observers have saved data. Restoring takes a view,
+            // from which an observer reads the shape of states.
             let finished = core::mem::take(&mut chunk.finished);
             let failed = |one: &(&usize, &Finished<_>)| matches!(one.1, Finished::Failed(..));
             let failed = finished.iter().filter(failed);

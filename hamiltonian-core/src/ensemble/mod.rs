@@ -63,7 +63,8 @@ pub struct Member {
 impl Member {
     /// Returns member `index` of an ensemble with the seed `seed`.
     ///
-    /// The seed of a member is number `index` of the SplitMix64 sequence that begins at a mixed `seed` (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453, doi:10.1145/2660193.2660195).
+    /// The seed of a member is number `index` of the SplitMix64 sequence whose state is the first number of
+    /// the sequence of `seed` (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453, doi:10.1145/2660193.2660195).
     pub fn new(index: usize, seed: u64) -> Self {
         let state = mixed(seed.wrapping_add(GAMMA));
         let seed = mixed(state.wrapping_add(GAMMA.wrapping_mul((index as u64).wrapping_add(1))));

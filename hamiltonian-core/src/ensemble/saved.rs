@@ -88,8 +88,8 @@ impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
 impl<S: System<f64>> Ensemble<S> {
     /// Continues a saved ensemble with the same bits. The same closure must make its members.
     ///
-    /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. A member that
-    /// had failed has the error [`Error::Before`].
+    /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. A member
+    /// that had failed has the error [`Error::Before`].
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]

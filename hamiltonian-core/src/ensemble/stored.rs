@@ -27,16 +27,16 @@ where
 {
     /// Runs the chunks of this shard that are missing in the store at `path`, and writes each when it is done.
     ///
-    /// The store is a Zarr v3 directory, which zarr-python and xarray open; it is created if there is none. A sweep that
-    /// was killed continues with the first missing chunk. Processes with different shards write to one store without
-    /// coordination.
+    /// The store is a Zarr v3 directory, which zarr-python and xarray open; it is created if there is none. A sweep
+    /// that was killed continues with the first missing chunk. Processes with different shards write to one store
+    /// without coordination.
     ///
-    /// The store has one array per column. Further arrays have each member's `status` (see [`Status`]), the `time` of its
-    /// end and its number of `steps`. With [`record_at`](Sweep::record_at), columns have a second dimension `t`. With
-    /// [`rows`](Sweep::rows), each chunk has a group with its rows and the `member` of each row.
+    /// The store has one array per column. Further arrays have each member's `status` (see [`Status`]), the `time` of
+    /// its end and its number of `steps`. With [`record_at`](Sweep::record_at), columns have a second dimension `t`.
+    /// With [`rows`](Sweep::rows), each chunk has a group with its rows and the `member` of each row.
     ///
-    /// Unless the sweep is [`reproducible`](Sweep::reproducible), all chunks of a store must be computed at the same CPU
-    /// level.
+    /// Unless the sweep is [`reproducible`](Sweep::reproducible), all chunks of a store must be computed at the same
+    /// CPU level.
     ///
     /// # Errors
     /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; [`StoreError`](crate::errors::StoreError) if the

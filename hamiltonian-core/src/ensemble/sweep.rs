@@ -65,8 +65,8 @@ pub(crate) enum EndPoint<'a> {
 /// # Bits
 /// As for an [`Ensemble`](crate::Ensemble), the bits of a member depend on neither threads nor chunks nor shards. With
 /// [`reproducible`](Sweep::reproducible), a member has the bits of a single run on every CPU. The part of a step before
-/// the end is computed over `f64` without fused products, in both modes. So are the values of observers, except those of
-/// [`EnergyDrift`](crate::observers::EnergyDrift) and [`Monitors`](crate::observers::Monitors).
+/// the end is computed over `f64` without fused products, in both modes. So are the values of observers, except those
+/// of [`EnergyDrift`](crate::observers::EnergyDrift) and [`Monitors`](crate::observers::Monitors).
 pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
     pub(crate) count: usize,
     pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
@@ -102,7 +102,8 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
         Self::try_new(count, move |member| Ok(make(member)), scheme, step)
     }
 
-    /// Does the same as [`new`](Sweep::new) with a closure that returns a `Result`. Its error becomes that of the member.
+    /// Does the same as [`new`](Sweep::new) with a closure that returns a `Result`. Its error becomes that of the
+    /// member.
     pub fn try_new<M: Ensembles<S>>(
         count: usize,
         make: impl Fn(Member) -> Result<(S, State<S::Vector>), Error> + Send + Sync + 'a,
@@ -143,8 +144,8 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self.with(Arc::new(observer), ())
     }
 
-    /// Records one row per member: the numbers that the closure computes at its end, in columns of these names. A member
-    /// that failed has NaN in its row.
+    /// Records one row per member: the numbers that the closure computes at its end, in columns of these names. A
+    /// member that failed has NaN in its row.
     pub fn record<const N: usize>(
         self,
         columns: [&str; N],
@@ -156,8 +157,8 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
 
     /// Records one row per member and time. The closure receives the member at each time.
     ///
-    /// The times are in the direction of the run, and members end at the last one. The first column of tables, `member`,
-    /// has the index of the member.
+    /// The times are in the direction of the run, and members end at the last one. The first column of tables,
+    /// `member`, has the index of the member.
     pub fn record_at<const N: usize>(
         self,
         times: impl IntoIterator<Item = f64>,
@@ -169,8 +170,8 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self.recorded(&columns, true, Some(times), Box::new(write))
     }
 
-    /// Records any number of rows per member, for example the states of a section. The first column of tables, `member`,
-    /// has the index of the member.
+    /// Records any number of rows per member, for example the states of a section. The first column of tables,
+    /// `member`, has the index of the member.
     pub fn rows<const N: usize, I: IntoIterator<Item = [f64; N]>>(
         self,
         columns: [&str; N],
@@ -262,8 +263,8 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
         self
     }
 
-    /// Sets the number of members in a chunk (0 counts as 1). A chunk is the unit of work of a thread, and has a file per
-    /// array in a store.
+    /// Sets the number of members in a chunk (0 counts as 1). A chunk is the unit of work of a thread, and has a file
+    /// per array in a store.
     #[must_use]
     pub fn chunk(mut self, members: usize) -> Self {
         self.chunk = Some(members.max(1));
@@ -298,7 +299,8 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
         self
     }
 
-    /// Calls a closure after each chunk with the number of finished members and the number of all members of this shard.
+    /// Calls a closure after each chunk with the number of finished members and the number of all members of this
+    /// shard.
     #[must_use]
     pub fn progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
         self.progress = Some(Box::new(closure));

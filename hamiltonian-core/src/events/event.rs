@@ -1,4 +1,4 @@
-//! An event: a function of the state, with the roots that count.
+//! An event: a function of the state, and the selection of its roots.
 //!
 //! Input: a name, or a closure. Output: an [`Event`], and differences of its values.
 
@@ -13,7 +13,7 @@ use hamiltonian_lanes::Real;
 
 /// A function of the state whose roots a run locates, see [`Events`](crate::observers::Events).
 ///
-/// By default both directions count and the run continues. Methods change this:
+/// By default, roots in both directions are events and the run continues. Methods change this:
 ///
 /// ```
 /// use hamiltonian::nalgebra::SVector;
@@ -71,8 +71,8 @@ impl<V: Vector> Event<V> {
         Event { slope: -1, ..self }
     }
 
-    /// Selects points at which the function is a multiple of `period`, which is positive: for angles, which grow or
-    /// jump by 2π. In each step the function must change by less than half a period.
+    /// Selects points at which the function is a multiple of `period`, which is positive. This is for angles, which
+    /// grow without bound or jump by 2π. In each step the function must change by less than half a period.
     #[must_use]
     pub fn modulo(self, period: V::Scalar) -> Self {
         Event {
@@ -96,8 +96,7 @@ impl<V: Vector> Event<V> {
         }
     }
 
-    /// The name and the roots that count, which a resumed run must have too. The end of the run may
-    /// be changed.
+    /// Returns the name and the selection of roots, which a resumed run must repeat. It may change the end of the run.
     pub(super) fn text(&self) -> String {
         let direction = match self.slope {
             0 => "",
@@ -108,7 +107,7 @@ impl<V: Vector> Event<V> {
         format!("{}{direction}{}", self.name, period.unwrap_or_default())
     }
 
-    /// The difference of two values, or of a value and 0, modulo the period and of least size.
+    /// Reduces a difference of two values, or a value, by multiples of the period to the least size.
     pub(super) fn difference(&self, value: V::Scalar) -> V::Scalar {
         let Some(period) = self.period else {
             return value;
@@ -120,7 +119,7 @@ impl<V: Vector> Event<V> {
         value - V::Scalar::constant(turns, 0.0) * period
     }
 
-    /// A value, continued from the one before without jumps of the period.
+    /// Returns a value plus the multiple of the period that brings it nearest to the previous value.
     pub(super) fn unwrapped(&self, from: V::Scalar, value: V::Scalar) -> V::Scalar {
         match self.period {
             None => value,

@@ -1,6 +1,6 @@
 //! The change of a function of the state.
 //!
-//! Input: its values. Output: the extremes and means of the change. Invariant: only sums are
+//! Input: values of the function. Output: the largest and the mean change. Invariant: only sums and the maximum are
 //! stored.
 
 use crate::checkpoint::Memory;
@@ -60,7 +60,7 @@ impl<T: Real> Deviation<T> {
         })
     }
 
-    /// The value f₀ at the start.
+    /// The value f₀ at the state at which the observer was attached.
     pub fn start(&self) -> T {
         self.start
     }

@@ -1,7 +1,7 @@
 //! The drift of functions of the state.
 //!
-//! Input: states of a run. Output: the extremes and means of H ([`EnergyDrift`]) and of the
-//! observables ([`Monitors`]). Invariant: only sums are stored.
+//! Input: states of a run. Output: the largest and the mean change of H ([`EnergyDrift`]) and of the observables
+//! ([`Monitors`]). Invariant: only sums and maxima are stored.
 
 use super::deviation::Deviation;
 use super::follow::FollowVisitor;
@@ -14,40 +14,40 @@ use alloc::vec::Vec;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
 
-/// The drift of H, see [`Deviation`]; in another time, `dt = g*ds`, that of the declared H.
+/// The drift of the declared H, see [`Deviation`].
 ///
-/// For a system that depends on time H is no invariant, and this is no error.
+/// If H depends on time, it is not conserved, and its drift is not an error of the scheme.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EnergyDrift<T = f64> {
     drift: Option<Deviation<T>>,
 }
 
 impl<T: Real> EnergyDrift<T> {
-    /// An observer that has seen nothing.
+    /// Creates an observer of the drift of H.
     pub fn new() -> Self {
         EnergyDrift { drift: None }
     }
 
-    /// The extremes seen; `None` before it is attached.
+    /// The drift; `None` before the observer is attached.
     pub fn drift(&self) -> Option<&Deviation<T>> {
         self.drift.as_ref()
     }
 
-    /// max |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
+    /// max |ΔH/H₀|; NaN before the observer is attached, and infinite or NaN if H₀ = 0.
     pub fn max_relative(&self) -> f64 {
         self.drift
             .as_ref()
             .map_or(f64::NAN, Deviation::max_relative)
     }
 
-    /// The mean of |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
+    /// The mean of |ΔH/H₀|; NaN before the observer is attached, and infinite or NaN if H₀ = 0.
     pub fn mean_relative(&self) -> f64 {
         self.drift
             .as_ref()
             .map_or(f64::NAN, Deviation::mean_relative)
     }
 
-    /// The mean of H; NaN before it is attached.
+    /// The mean of H; NaN before the observer is attached.
     pub fn mean(&self) -> f64 {
         self.drift.as_ref().map_or(f64::NAN, Deviation::mean)
     }
@@ -93,26 +93,26 @@ pub struct Monitors<T = f64> {
     monitors: Vec<Monitor<T>>,
 }
 
-/// One line of [`Monitors`].
+/// The drift of one observable in [`Monitors`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Monitor<T> {
-    /// The declared name, with the component in brackets for vectors.
+    /// The declared name; for a component of a vector, with its index in brackets.
     pub name: &'static str,
-    /// Its declaration.
+    /// The kind of declaration: monitor, invariant or event.
     pub kind: ObservableKind,
-    /// The extremes seen.
+    /// The drift.
     pub drift: Deviation<T>,
 }
 
 impl<T: Real> Monitors<T> {
-    /// An observer that has seen nothing.
+    /// Creates an observer of the drifts of all observables.
     pub fn new() -> Self {
         Monitors {
             monitors: Vec::new(),
         }
     }
 
-    /// All observables in declaration order; empty before it is attached.
+    /// All observables in declaration order; empty before the observer is attached.
     pub fn all(&self) -> &[Monitor<T>] {
         &self.monitors
     }

@@ -1,7 +1,7 @@
-//! What observers follow that lanes can follow for them.
+//! Quantities that lanes evaluate instead of observers.
 //!
-//! Input: observers. Output: the quantities whose drift or sign they follow, and back the drift. Invariant:
-//! an observer that lanes follow sees what it would see state by state, in the arithmetic of the lanes.
+//! Input: observers. Output: the quantities whose drift or sign they follow. Drifts are written back to the observers.
+//! Invariant: an observer then has the results that it would compute from each state, in the arithmetic of the lanes.
 
 use super::deviation::Deviation;
 use super::quantity::Quantity;
@@ -9,15 +9,15 @@ use super::section::Section;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
-/// A quantity of a member, and its drift so far.
+/// A quantity of a member, with its drift up to now.
 #[derive(Debug, Clone)]
 pub struct FollowedDrift<T> {
     pub(crate) quantity: Quantity,
-    /// None before the first state.
+    /// `None` before the first state.
     pub(crate) drift: Option<Deviation<T>>,
 }
 
-/// All that lanes follow for an observer.
+/// The quantities that lanes follow for an observer.
 #[derive(Debug, Clone)]
 pub struct FollowedQuantities<T> {
     pub(crate) drifts: Vec<FollowedDrift<T>>,
@@ -39,17 +39,17 @@ impl<T> FollowedQuantities<T> {
     }
 }
 
-/// A visitor of what an observer follows, see [`Observer::follow`](crate::Observer::follow).
+/// A visitor of the quantities that an observer follows, see [`Observer::follow`](crate::Observer::follow).
 #[derive(Debug)]
 pub struct FollowVisitor<T> {
     followed: FollowedQuantities<T>,
-    /// The drift that is given back next; none while they are taken.
+    /// The index of the drift that is written back next; `None` while quantities are listed.
     next_written: Option<usize>,
 }
 
 impl<T: Real> FollowVisitor<T> {
-    /// Takes all that an observer follows, if lanes can follow it: nothing otherwise. The storage of `into` is
-    /// used again.
+    /// Lists the quantities that an observer follows. The list is empty if lanes cannot follow all of them. The storage
+    /// of `into` is reused.
     pub(crate) fn list(into: &mut FollowedQuantities<T>, follow: impl FnOnce(&mut Self) -> bool) {
         let mut followed = core::mem::take(into);
         followed.drifts.clear();
@@ -60,7 +60,7 @@ impl<T: Real> FollowVisitor<T> {
         };
         let is_all = follow(&mut visitor);
         let FollowedQuantities { drifts, sections } = &mut visitor.followed;
-        // Lanes go on for some steps after an event that ends a member, and drifts would too.
+        // Lanes make further steps after an event that ends a member, and drifts would include these steps.
         let would_overrun = !drifts.is_empty() && sections.iter().any(|section| section.ends);
         if !is_all || would_overrun {
             drifts.clear();
@@ -69,7 +69,7 @@ impl<T: Real> FollowVisitor<T> {
         *into = visitor.followed;
     }
 
-    /// Gives the drifts back.
+    /// Writes the drifts back to an observer.
     pub(crate) fn write_back(
         followed: &mut FollowedQuantities<T>,
         follow: impl FnOnce(&mut Self) -> bool,
@@ -82,19 +82,19 @@ impl<T: Real> FollowVisitor<T> {
         *followed = visitor.followed;
     }
 
-    /// Visits a function whose sign is followed.
+    /// Lists a function whose sign the observer follows.
     pub(crate) fn section(&mut self, section: Section<T>) {
         if self.next_written.is_none() {
             self.followed.sections.push(section);
         }
     }
 
-    /// Returns true if signs are followed.
+    /// Returns true if any function whose sign is followed was listed.
     pub(crate) fn has_sections(&self) -> bool {
         !self.followed.sections.is_empty()
     }
 
-    /// Visits a drift.
+    /// Lists a drift, or writes it back.
     pub(crate) fn drift(&mut self, quantity: Quantity, drift: &mut Option<Deviation<T>>) {
         match &mut self.next_written {
             Some(index) => {
@@ -111,7 +111,7 @@ impl<T: Real> FollowVisitor<T> {
     }
 }
 
-/// The drifts of a quantity in lanes.
+/// The drift of a quantity in lanes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LaneDrift<U> {
     pub(crate) quantity: Quantity,
@@ -122,7 +122,7 @@ pub(crate) struct LaneDrift<U> {
 }
 
 impl<U: Real> LaneDrift<U> {
-    /// A drift whose numbers are yet to be written.
+    /// Creates a drift whose numbers are written later.
     pub(crate) fn new(quantity: Quantity) -> Self {
         LaneDrift {
             quantity,
@@ -133,13 +133,13 @@ impl<U: Real> LaneDrift<U> {
         }
     }
 
-    /// Its numbers: the first value, the largest size, the sum of sizes, the sum.
+    /// Returns its numbers: the first value, the largest size of a change, the sum of sizes, the sum of changes.
     #[inline(always)]
     pub(crate) fn numbers(&self) -> [&U; 4] {
         [&self.start, &self.max, &self.sum_of_sizes, &self.sum]
     }
 
-    /// Its numbers, to be written.
+    /// Returns its numbers for writing.
     #[inline(always)]
     pub(crate) fn numbers_mut(&mut self) -> [&mut U; 4] {
         [
@@ -150,7 +150,7 @@ impl<U: Real> LaneDrift<U> {
         ]
     }
 
-    /// Begins some lanes with their first value, or records the value of those that are due.
+    /// Starts the drifts of the lanes `begins` at their first value, or records the value in lanes that are due.
     #[inline(always)]
     pub(crate) fn follow(&mut self, begins: Option<U::Mask>, due: Option<U::Mask>, value: U) {
         match begins {
@@ -159,7 +159,7 @@ impl<U: Real> LaneDrift<U> {
         }
     }
 
-    /// Begins some lanes with their first value.
+    /// Starts the drifts of some lanes at their first value.
     #[inline(always)]
     fn begin(&mut self, lanes: U::Mask, value: U) {
         self.start = U::select(lanes, value, self.start);
@@ -168,16 +168,16 @@ impl<U: Real> LaneDrift<U> {
         }
     }
 
-    /// As [`Deviation`] does, lane by lane: all of them, or those that are due.
+    /// Records a value as [`Deviation`] does, in all lanes or in those that are due.
     #[inline(always)]
     fn record(&mut self, due: Option<U::Mask>, value: U) {
         let mut change = value - self.start;
         if let Some(due) = due {
-            // A drift of 0 changes no bit of the others.
+            // Adding a change of 0 does not change the bits of the other lanes.
             change = U::select(due, change, U::zero());
         }
         let size = change.abs();
-        // A NaN is lost here, and stays in the sum of sizes.
+        // A NaN is dropped here, but it remains in the sum of sizes.
         self.max = U::select(self.max.lt(size), size, self.max);
         self.sum_of_sizes += size;
         self.sum += change;

@@ -6,19 +6,19 @@ use hamiltonian_lanes::Real;
 /// A function of the state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// H, as it was declared.
+    /// The declared H.
     Energy,
-    /// The observable of that index.
+    /// The observable with this index.
     Observable(usize),
 }
 
 impl Quantity {
-    /// True if it reads coordinates, and the same for momenta.
+    /// Returns whether it depends on coordinates, and whether it depends on momenta.
     pub(crate) fn reads<T: Real, S: System<T>>(self) -> [bool; 2] {
         let Quantity::Observable(index) = self else {
             return [true; 2];
         };
-        // The time may be carried with either.
+        // A scheme may carry the time as a coordinate or as a momentum.
         let declared = S::OBSERVABLES.get(index);
         let is_timed = declared.is_none_or(|observable| observable.depends_on_time);
         let reads = S::READS.get(index).filter(|_| !is_timed);

@@ -2,23 +2,22 @@
 //!
 //! Input: the values of a function after each step, lane by lane. Output: the lanes in which its
 //! sign may have changed, so that [`Events`](crate::observers::Events) must receive the step.
-//! Invariant: in a lane that is not returned, the observer would find nothing, and stores only two
-//! values after the step.
+//! Invariant: in a lane that is not returned, the observer would find no event.
 
 use hamiltonian_lanes::{Mask, Real};
 
 /// A function whose sign an observer follows, with its values after the last two steps.
 #[derive(Debug, Clone, Copy)]
 pub struct Section<T> {
-    /// The number of the function among the observables.
+    /// The index of the function among the observables.
     pub(crate) observable: usize,
-    /// The period: all multiples of it count as 0.
+    /// The period: multiples of it count as 0.
     pub(crate) period: Option<T>,
     /// The value after the last step.
     pub(crate) value: T,
     /// Its change in that step.
     pub(crate) change: T,
-    /// True if it may end the run.
+    /// True if the event may end the run.
     pub(crate) ends: bool,
 }
 
@@ -33,21 +32,21 @@ impl<T: Real> Section<T> {
     }
 }
 
-/// A function in lanes.
+/// A section in lanes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LaneSection<U> {
-    /// The number of the function among the observables.
+    /// The index of the function among the observables.
     pub(crate) observable: usize,
     pub(crate) period: Option<U>,
-    /// The value after the last step, at the place `newest`, and the one before, counted back from it if there is a
-    /// period. No value moves from one place to the other, since packs are long.
+    /// The value after the last step, at the index `newest`, and the one before. With a period, the one before is
+    /// unwrapped to be near the last. Values are not moved, since packs are long.
     values: [U; 2],
     newest: usize,
     /// True if all `section_lanes` were far from 0 after the last step.
     is_far: bool,
 }
 
-/// `x` to the nearest multiple of 1 below 2⁵¹: sums of this size have no digits after the point.
+/// Rounds `x` to the nearest integer, for |x| below 2⁵¹: adding 1.5·2⁵² leaves no digits after the point.
 #[inline(always)]
 fn nearest<U: Real>(x: U) -> U {
     let large = U::constant(6_755_399_441_055_744.0, 0.0);
@@ -55,7 +54,7 @@ fn nearest<U: Real>(x: U) -> U {
 }
 
 impl<U: Real> LaneSection<U> {
-    /// Creates a function whose values are to be written.
+    /// Creates a function whose values are written later.
     pub(crate) fn new(observable: usize, period: Option<U>) -> Self {
         LaneSection {
             observable,
@@ -66,7 +65,7 @@ impl<U: Real> LaneSection<U> {
         }
     }
 
-    /// The value after the last step and the one before, to be written.
+    /// Returns the value after the last step and the one before, for writing.
     #[inline(always)]
     pub(crate) fn values_mut(&mut self) -> &mut [U; 2] {
         self.newest = 0;
@@ -85,16 +84,17 @@ impl<U: Real> LaneSection<U> {
         [self.value(), &self.values[(self.newest + 1) & 1]]
     }
 
-    /// Accepts the value after the next step and returns true if nothing can have happened in the
-    /// `section_lanes`: a short form of [`lanes_to_mark`](LaneSection::lanes_to_mark) for the usual step.
+    /// Accepts the value after the next step and returns true if the observers of `section_lanes` do not need the step.
+    /// Otherwise the value is not accepted. This is a fast form of [`lanes_to_mark`](LaneSection::lanes_to_mark) for
+    /// the usual step.
     #[inline(always)]
     pub(crate) fn try_skip(&mut self, value: U, section_lanes: U::Mask) -> bool {
         if self.period.is_some() {
             return false;
         }
-        // The ratio of the last value to this one is between a small number and 1.476. Then the
-        // sign is the same, and the function decreases by less than half of its value, so `lanes_to_mark`
-        // finds nothing in the next step either.
+        // A lane is far from 0 if the ratio of the last value to this one is between 1/262144 and 1.476. Then the sign
+        // is the same, and the function decreases by less than half of its value, so `lanes_to_mark` returns no lane in
+        // the next step either.
         let least = U::constant(1.0 / 262_144.0, 0.0);
         let above = least.fma(-value, *self.value());
         let below = U::constant(3.1, 0.0).fma(value, U::constant(-2.1, 0.0) * *self.value());
@@ -108,12 +108,10 @@ impl<U: Real> LaneSection<U> {
         is_far && was_far
     }
 
-    /// Accepts the values after the next step. Returns the lanes in which something can have
-    /// happened.
+    /// Accepts the value after the next step. Returns the lanes in which the observer may find an event.
     ///
-    /// An observer evaluates the function once more without fused products. A lane is loud, at this
-    /// step and at the next, if its value is so small relative to its change that the rounding of
-    /// either might decide the sign.
+    /// The observer evaluates the function again without fused products. Therefore a lane is also returned, at this
+    /// step and at the next, if its value is so small relative to its change that rounding may decide the sign.
     #[inline(always)]
     pub(crate) fn lanes_to_mark(&mut self, value: U) -> U::Mask {
         let [&from, &before] = self.last();
@@ -128,19 +126,19 @@ impl<U: Real> LaneSection<U> {
         };
         let change = unwrapped - from;
         (self.values, self.newest) = ([value, value - change], 0);
-        // from·unwrapped is above a small part of the square of the change.
+        // The signs are the same, and from·unwrapped is not small relative to the square of the change.
         let least = U::constant(1.0 / 1_048_576.0, 0.0);
         let product = change.fma(from, from * from);
-        let is_steady = (least * change).fma(-change, product);
-        let steady = U::zero().lt(is_steady);
-        // As in `Events`, times the value before; the factor allows for rounding.
-        let fell = changed * U::constant(-2.002, 0.0);
-        let is_near = (from * from).lt(from * fell);
+        let margin = (least * change).fma(-change, product);
+        let steady = U::zero().lt(margin);
+        // The condition of `Events` for two roots in one step, multiplied by `from`. The factor allows for rounding.
+        let last_approach = changed * U::constant(-2.002, 0.0);
+        let is_near = (from * from).lt(from * last_approach);
         let to_mark = !steady | is_near;
         if !is_near.any() {
             return to_mark;
         }
-        let falls = change * U::constant(-4.0, 0.0);
-        !steady | (is_near & (from * falls).lt(from * fell))
+        let approach = change * U::constant(-4.0, 0.0);
+        !steady | (is_near & (from * approach).lt(from * last_approach))
     }
 }

@@ -1,9 +1,9 @@
 //! Members with deviations, in the lanes of one pack type.
 //!
 //! Input: a scheme and members at their starts, with a number of deviations each. Output: an indicator of chaos or an
-//! error for each member. Invariants: each deviation is computed by a run over dual numbers. A lane makes the operations
-//! of [`Tangent`](crate::tangents::Tangent) in the same order, so its bits depend only on its member and on the
-//! arithmetic of the pack.
+//! error for each member. Invariants: each deviation is computed by a run over dual numbers. A lane makes the
+//! operations of [`Tangent`](crate::tangents::Tangent) in the same order, so its bits depend only on its member and on
+//! the arithmetic of the pack.
 
 use super::rows::{Begin, Prepare, gather, load, scatter, store};
 use super::scalar::explain;

@@ -1,7 +1,8 @@
 //! Conversion between numbers of members and lanes, out of line.
 //!
-//! Input: numbers of members, or of lanes. Output: numbers of lanes, or of members. Invariant: each function is compiled
-//! once per pack type and never inlined, since the length of its code is proportional to the width of the pack.
+//! Input: numbers of members, or of lanes. Output: numbers of lanes, or of members. Invariant: each function is
+//! compiled once per pack type and never inlined, since the length of its code is proportional to the width of the
+//! pack.
 
 use super::MaskIn;
 use crate::map::{Map, Step};

@@ -127,7 +127,8 @@ where
     }
 
     /// Passes the states after a step and after the two steps before it to the observers of some lanes, except states
-    /// that they have received. `last_three` has the carried values. `signs_kept` is true if no sign changed in the step.
+    /// that they have received. `last_three` has the carried values. `signs_kept` is true if no sign changed in the
+    /// step.
     #[inline(never)]
     pub(super) fn pass_states<L: Level>(
         &mut self,

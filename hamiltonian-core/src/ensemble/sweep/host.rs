@@ -1,7 +1,7 @@
 //! The host of a chunk of a sweep.
 //!
-//! Input: indices. Output: a [`Batch`] of records. Invariant: a member's numbers depend only on its index, the sweep and
-//! its seed.
+//! Input: indices. Output: a [`Batch`] of records. Invariant: a member's numbers depend only on its index, the sweep
+//! and its seed.
 
 use super::{EndPoint, Sweep};
 use crate::ensemble::Member;

@@ -56,14 +56,28 @@ pub struct Gauss<const S: usize> {
 impl<const S: usize> Default for Gauss<S> {
     /// At most 100 iterations of each method.
     fn default() -> Self {
+        Gauss::<S>::default()
+    }
+}
+
+impl<const S: usize> Gauss<S> {
+    /// Returns the scheme with at most 100 iterations of each method.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// assert_eq!(Gauss::<2>::default(), Gauss::<2>::default().at_most(100));
+    /// ```
+    #[must_use]
+    // If the number of stages is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
         Gauss {
             coefficients: Collocation::gauss(),
             max_iterations: 100,
         }
     }
-}
 
-impl<const S: usize> Gauss<S> {
     /// The number of iterations of the fixed point, and then of Newton's method, after which an
     /// unsolved step is an error; 100 by default.
     #[must_use]

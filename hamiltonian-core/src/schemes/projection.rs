@@ -59,8 +59,31 @@ fn inner<T: Real, S: System<T>, W: Splitting>(
 /// assert!((run.advance(100)?.q[0] - 10.0_f64.cos()).abs() < 1e-8);
 /// # Ok::<(), Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MidpointProjected<M>(pub M);
+
+impl<M: Default> Default for MidpointProjected<M> {
+    /// The default of the table.
+    fn default() -> Self {
+        MidpointProjected::<M>::default()
+    }
+}
+
+impl<M: Default> MidpointProjected<M> {
+    /// Returns the scheme with the default of its table.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// assert_eq!(MidpointProjected::<KahanLi8>::default(), MidpointProjected(KahanLi8));
+    /// ```
+    #[must_use]
+    // If the table is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
+        MidpointProjected(M::default())
+    }
+}
 
 impl<M: Splitting> Listed for MidpointProjected<M> {
     fn entry(&self) -> Entry {
@@ -164,6 +187,22 @@ pub struct Mixed<M> {
 impl<M: Default> Default for Mixed<M> {
     /// Coordinates as they are, momenta averaged.
     fn default() -> Self {
+        Mixed::<M>::default()
+    }
+}
+
+impl<M: Default> Mixed<M> {
+    /// Returns the scheme that leaves coordinates as they are and averages momenta.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// assert_eq!(Mixed::<Strang>::default(), Mixed { table: Strang, coordinates: 1.0, momenta: 0.5 });
+    /// ```
+    #[must_use]
+    // If the table is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
         Mixed {
             table: M::default(),
             coordinates: 1.0,
@@ -285,6 +324,23 @@ pub struct Semiexplicit<M> {
 impl<M: Default> Default for Semiexplicit<M> {
     /// At most 50 iterations.
     fn default() -> Self {
+        Semiexplicit::<M>::default()
+    }
+}
+
+impl<M: Default> Semiexplicit<M> {
+    /// Returns the scheme with at most 50 iterations.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// let scheme = Semiexplicit { table: Suzuki4, max_iterations: 50 };
+    /// assert_eq!(Semiexplicit::<Suzuki4>::default(), scheme);
+    /// ```
+    #[must_use]
+    // If the table is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
         Semiexplicit {
             table: M::default(),
             max_iterations: 50,

@@ -58,14 +58,28 @@ pub struct GaussNystrom<const S: usize> {
 impl<const S: usize> Default for GaussNystrom<S> {
     /// At most 100 iterations.
     fn default() -> Self {
+        GaussNystrom::<S>::default()
+    }
+}
+
+impl<const S: usize> GaussNystrom<S> {
+    /// Returns the scheme with at most 100 iterations.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// assert_eq!(GaussNystrom::<2>::default(), GaussNystrom::<2>::default().at_most(100));
+    /// ```
+    #[must_use]
+    // If the number of stages is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
         GaussNystrom {
             coefficients: Collocation::gauss(),
             max_iterations: 100,
         }
     }
-}
 
-impl<const S: usize> GaussNystrom<S> {
     /// A step that is not solved after so many iterations is an error; 100 unless said here.
     #[must_use]
     pub fn at_most(self, max_iterations: u32) -> Self {

@@ -243,12 +243,27 @@ impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, 
 pub struct MomentumVariational<const S: usize>(Variational<S, S>);
 
 impl<const S: usize> Default for MomentumVariational<S> {
+    /// At most 100 iterations.
     fn default() -> Self {
-        MomentumVariational(Variational::lobatto())
+        MomentumVariational::<S>::default()
     }
 }
 
 impl<const S: usize> MomentumVariational<S> {
+    /// Returns the scheme with at most 100 iterations.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// assert_eq!(MomentumVariational::<3>::default(), MomentumVariational::<3>::default().at_most(100));
+    /// ```
+    #[must_use]
+    // If the number of points is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
+        MomentumVariational(Variational::lobatto())
+    }
+
     /// A step that is not solved after so many iterations is an error; 100 unless said here.
     #[must_use]
     pub fn at_most(self, max_iterations: u32) -> Self {

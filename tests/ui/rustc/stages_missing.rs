@@ -1,0 +1,14 @@
+use hamiltonian::prelude::*;
+
+hamiltonian! {
+    /// A pendulum.
+    pub struct Pendulum {}
+    H(theta; p) = p^2/2 - cos(theta)
+}
+
+fn main() -> Result<(), Error> {
+    let start = State::new([0.5], [0.0]);
+    let mut run = Integrator::new(&Pendulum {}, Gauss::default(), start, 0.1)?;
+    run.advance(10)?;
+    Ok(())
+}

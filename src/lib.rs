@@ -1,9 +1,7 @@
-//! One line of mathematics, differentiated at compile time, becomes exact, fast,
-//! structure-preserving dynamics.
+//! Hamiltonian systems from one line of mathematics, integrated with structure-preserving schemes.
 //!
-//! Input: a Hamiltonian in the language of [`hamiltonian!`], a start, a scheme, a step. Output: a
-//! run. Invariant: this crate has no code of its own. It joins the macro and the library under one name, also
-//! in a program that renames the dependency.
+//! The macro [`hamiltonian!`] checks and differentiates a Hamiltonian H(q, p) at compile time. An [`Integrator`] runs
+//! the system from a start, with a scheme and a step.
 //!
 //! ```
 //! use hamiltonian::prelude::*;
@@ -27,23 +25,30 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! [`prelude`] has the names that most programs need. [`language`] is the reference of the macro.
-//! [`schemes`] lists the schemes, [`observers`] what can be recorded of a run. [`gallery`] shows the pictures of the
-//! examples.
+//! | module | contents |
+//! |---|---|
+//! | [`prelude`] | the names that most programs need |
+//! | [`language`] | the reference of the macro |
+//! | [`schemes`] | the list of schemes |
+//! | [`observers`] | what a run can record |
+//! | [`tangents`] | Lyapunov exponents and periodic orbits |
+//! | `plot` | pictures of results, with the feature `plot` |
+//! | [`gallery`] | the pictures of the examples |
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
+// This crate has no code of its own: it joins the macro and the library under one name, also in a program that renames
+// the dependency.
+
 pub use hamiltonian_core::*;
 
-/// The scalars with several lanes, and the levels of CPUs they belong to.
 #[doc(inline)]
 pub use hamiltonian_lanes as lanes;
 
 /// The linear algebra that vectors are stored in. Norms and decompositions (`state.q.norm()`) need
 /// the feature `linear-algebra`; sums, products and `dot` do not.
-// Not in the root of the core, since the glob would put its pages among ours.
 #[doc(no_inline)]
-pub use hamiltonian_core::private::nalgebra;
+pub use hamiltonian_core::nalgebra;
 
 /// The only paths that code emitted by [`hamiltonian!`] names.
 #[doc(hidden)]

@@ -110,6 +110,10 @@ pub use table::Table;
 pub use transformed::TimeTransformed;
 pub use vector::{IntoVector, Vector, shape};
 
+// Hidden, since the glob of the facade would put its pages among those of the library.
+#[doc(hidden)]
+pub use nalgebra;
+
 /// Observers receive the states of a run; events are located between steps.
 ///
 /// An [`Observer`] receives a [`View`] of the run after each step, or after each n-th step

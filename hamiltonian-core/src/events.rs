@@ -76,10 +76,9 @@ pub struct Located<V: Vector> {
 /// ```
 ///
 /// # Errors
-/// The run returns [`Error::Event`] for a name that the system does not declare and for a period that is not
-/// positive. It does so inside [`every`](crate::observers::every), since `Events` needs the state after every step. It
-/// also returns the errors of the shorter steps. Over packs of lanes it does not compile, since each lane has events of
-/// its own.
+/// The run returns [`Error::Event`] for a name that the system does not declare, for a period that is not positive, and
+/// inside [`every`](crate::observers::every), since `Events` needs the state after every step. It also returns the
+/// errors of the shorter steps. Over packs of lanes it does not compile, since each lane has events of its own.
 #[derive(Debug, Clone)]
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,

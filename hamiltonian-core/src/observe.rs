@@ -99,8 +99,9 @@ pub trait Observer<T: Real, S: System<T>> {
     }
     /// Receives a state whose step number is a multiple of the interval; `Break` ends the run.
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
-    /// Lists the functions of the state that the observer follows. Returns true if it needs only their drifts, at
-    /// multiples of its interval, and the changes of their signs. Ensembles then follow them in lanes.
+    /// Lists the functions of the state that the observer follows, or accepts their drifts from the visitor. Returns
+    /// true if the observer needs only drifts, at multiples of its interval, and changes of signs. Ensembles then
+    /// follow them in lanes.
     #[doc(hidden)]
     fn follow(&mut self, _: &mut FollowVisitor<T>) -> bool {
         false

@@ -162,7 +162,7 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
     /// The number of words that a member carries.
     pub(crate) width: usize,
     pub(crate) step: f64,
-    /// The time of one step.
+    /// The duration of one step.
     pub(crate) interval: f64,
     /// True if steps differ in duration.
     pub(crate) varies: bool,

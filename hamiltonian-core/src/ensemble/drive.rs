@@ -389,7 +389,7 @@ where
     }
 
     /// Removes the members that are not finite after a block. They will be replayed step by step. A member that is
-    /// being replayed has failed.
+    /// being replayed is passed to the host with its error.
     #[cold]
     #[inline(never)]
     fn remove_failed<L: Level>(

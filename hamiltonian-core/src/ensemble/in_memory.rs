@@ -314,7 +314,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         self.closed(number, key..key + 1, None).pop()
     }
 
-    /// The number of steps that each member has made.
+    /// The number of steps that one member has made; `None` if there is no such index.
     pub fn steps_of(&self, index: usize) -> Option<u64> {
         let number = self
             .chunks

@@ -54,7 +54,7 @@ pub struct Deviations<'r, T: Real, S: System<T>> {
     /// The number of deviations per member.
     pub(crate) count: usize,
     pub(crate) step: T,
-    /// The time of one step.
+    /// The duration of one step.
     pub(crate) interval: T,
     pub(crate) steps: u64,
     /// The number of steps between two renormalisations.

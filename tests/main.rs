@@ -43,6 +43,7 @@ mod periodic;
 pub mod planets;
 mod potentials;
 mod processed;
+mod profiles;
 pub mod readme;
 mod reindexed;
 pub mod sizes;

@@ -95,6 +95,8 @@ pub struct Outcome {
     pub success: bool,
     /// Everything it said.
     pub text: String,
+    /// What the program printed that it ran.
+    pub printed: String,
 }
 
 /// Writes a workspace.
@@ -145,6 +147,7 @@ impl Workspace {
         Outcome {
             success: output.status.success(),
             text: String::from_utf8_lossy(&output.stderr).into_owned(),
+            printed: String::from_utf8_lossy(&output.stdout).into_owned(),
         }
     }
 

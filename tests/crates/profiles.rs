@@ -1,0 +1,148 @@
+//! Runs over each driver of loops, and the stages of implicit schemes, for programs that are compiled with
+//! different optimisations.
+
+use mechanics::prelude::*;
+use mechanics::{Scheme, Vector};
+
+hamiltonian! {
+    /// Neighbours, periodic and with an open end.
+    pub struct Ring { n: usize }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }
+        + sum(i in 1..n) { if q[i] < q[i - 1] { (q[i] - q[i - 1])^4/4 } else { sin(q[i])*q[i - 1] } }
+}
+
+hamiltonian! {
+    /// Bodies with those before them.
+    pub struct Bodies { n: usize }
+    H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/(2 + i) }
+        - sum(i in 0..n, j in 0..i) { (j + 1)/sqrt(norm_squared(q[i] - q[j]) + 1) }
+}
+
+hamiltonian! {
+    /// Rows of a matrix, and a sum inside a function.
+    pub struct Rows { n: usize }
+    H(q[n]; p[n]) = sqrt(1 + sum(i in 0..n) { p[i]^2 }) + sum(i in 0..n, j in 0..n) { cos(q[i] - 2*q[j])/n }
+}
+
+hamiltonian! {
+    /// A field on two axes.
+    pub struct Field { n: usize, m: usize }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) {
+        p[i][j]^2/2 + u[i][j]^4/4 + ((u[(i + 1) % n][j] - u[i][j])^2 + (u[i][(j + 1) % m] - u[i][j])^2)/2
+    }
+}
+
+hamiltonian! {
+    /// A field on three axes, with two values at each site.
+    pub struct Solid { n: usize, m: usize, k: usize }
+    H(u[n][m][k][2]; p[n][m][k][2]) = sum(a in 0..n, b in 0..m, c in 0..k) {
+        norm_squared(p[a][b][c])/2 + norm_squared(u[a][b][c])^2/4 + norm_squared(u[a][b][(c + 2) % k] - u[a][b][c])/2
+    } + sum(a in 1..n, b in 0..m, c in 0..k) { dot(u[a][b][c], u[a - 1][b][c]) }
+}
+
+hamiltonian! {
+    /// Functions and a division, without loops.
+    pub struct Pendulum { l = 10.0 }
+    H(theta; p) = p^2/(2*l^2) - l*cos(theta)
+}
+
+hamiltonian! {
+    /// The paper's equation (34).
+    pub struct Product {}
+    H = 0.5*(q^2 + 1)*(p^2 + 1)
+}
+
+/// Takes the bits of a run's end into a number.
+fn run<S, M>(into: &mut u64, system: S, scheme: M)
+where
+    S: System<f64>,
+    M: Scheme<f64, S>,
+{
+    let mut start = State {
+        q: system.zeros(),
+        p: system.zeros(),
+        t: 0.0,
+    };
+    for k in 0..start.q.len() {
+        // Exact, so that no function of a library comes in.
+        *start.q.component_mut(k) = ((7 * k % 16) as f64 - 7.5) / 16.0;
+        *start.p.component_mut(k) = ((5 * k % 32) as f64 - 15.5) / 64.0;
+    }
+    let mut run =
+        Integrator::new(&system, scheme, start, 0.0625).expect("the start and the step are good");
+    let end = run.advance(4).expect("the run stays finite");
+    let energy = system.energy(end);
+    for x in end.q.components().chain(end.p.components()).chain([energy]) {
+        *into = (*into ^ x.to_bits())
+            .wrapping_mul(0x0000_0100_0000_01b3)
+            .rotate_left(17);
+    }
+}
+
+/// A number for each kind of run, in which each bit of each end counts.
+pub fn ends() -> Vec<(&'static str, u64)> {
+    let mut ends = Vec::new();
+    let mut of = |name, runs: &dyn Fn(&mut u64)| {
+        let mut end = 0;
+        runs(&mut end);
+        ends.push((name, end));
+    };
+    let sizes = || 1..=40;
+    of("neighbours", &|end| {
+        for n in sizes() {
+            run(end, Ring::new(n).expect("a size"), StormerVerlet::default());
+        }
+    });
+    of("pairs", &|end| {
+        for n in sizes() {
+            run(
+                end,
+                Bodies::new(n).expect("a size"),
+                StormerVerlet::default(),
+            );
+        }
+    });
+    of("rows", &|end| {
+        for n in sizes() {
+            run(end, Rows::new(n).expect("a size"), StormerVerlet::default());
+        }
+    });
+    of("two axes", &|end| {
+        for n in sizes() {
+            run(
+                end,
+                Field::new(n, 3).expect("two sizes"),
+                StormerVerlet::default(),
+            );
+            run(
+                end,
+                Field::new(3, n).expect("two sizes"),
+                StormerVerlet::default(),
+            );
+        }
+    });
+    of("three axes", &|end| {
+        for n in sizes() {
+            run(
+                end,
+                Solid::new(2, 3, n).expect("three sizes"),
+                StormerVerlet::default(),
+            );
+        }
+    });
+    of("stages", &|end| {
+        run(end, Pendulum::default(), Gauss::<4>::default());
+        run(end, Pendulum::default(), GaussNystrom::<8>::default());
+        run(end, Product {}, Gauss::<8>::default());
+        run(end, Ring::new(5).expect("a size"), Gauss::<4>::default());
+    });
+    of("implicit schemes", &|end| {
+        run(end, Product {}, ImplicitMidpoint::default());
+        run(end, Product {}, DiscreteGradient::default());
+    });
+    of("exact flows", &|end| {
+        run(end, Product {}, Strang);
+        run(end, Pendulum::default(), BlanesMoan4);
+    });
+    ends
+}

@@ -54,24 +54,8 @@ fn three_pieces_have_the_order_of_two() {
     let (q, p) = (&[0.4, 0.7][..], &[0.2, 0.15][..]);
     is(4.0, slope(&Hand(Polar::<3>), Processed4::default(), q, p));
     is(4.0, slope(&Hand(Polar::<4>), Processed4::default(), q, p));
-    is(6.0, own_slope(&Hand(Polar::<3>), q, p));
-    is(6.0, own_slope(&Hand(Polar::<4>), q, p));
-}
-
-/// The slope of the errors of [`Processed6`] from its own end with an eighth of the step, which has the least error.
-fn own_slope<const N: usize>(system: &Hand<Polar<N>, 2>, q: &[f64], p: &[f64]) -> f64
-where
-    Hand<Polar<N>, 2>: Split<DoubleDouble> + Exact,
-{
-    let start = start::<DoubleDouble, _>(system, q, p);
-    let end = |n: u64| {
-        let h = DoubleDouble::one() / DoubleDouble::from(n as f64);
-        let run = Integrator::new(system, Processed6::default(), start.clone(), h);
-        run.unwrap().advance(n).unwrap().clone()
-    };
-    let exact = end(1024);
-    let error = |n: u64| difference(&end(n), &exact);
-    (error(64) / error(128)).log2()
+    is(6.0, slope(&Hand(Polar::<3>), Processed6::default(), q, p));
+    is(6.0, slope(&Hand(Polar::<4>), Processed6::default(), q, p));
 }
 
 /// What is carried is the kernel's point, so the bits do not depend on who looks, and how often.

@@ -97,19 +97,7 @@ where
     let mut model = symbolic::system(signature, "n", parameters, h);
     let structure = structure::analyse(&mut model);
     assert!(structure.separable.is_ok());
-    let purposes = [
-        Purpose::Energy,
-        Purpose::EnergyAndGradient,
-        Purpose::TimeDerivative,
-        Purpose::HessianVector,
-        Purpose::GradientQ,
-        Purpose::GradientP,
-        Purpose::Gradient,
-        Purpose::VectorField,
-        Purpose::Kick,
-        Purpose::Drift,
-    ];
-    let program = derive(&mut model, &purposes).expect("a program");
+    let program = derive(&mut model, &symbolic::PURPOSES).expect("a program");
     let mut some = numbers(n as u64);
     let [q, p, vq, vp] = [(); 4].map(|()| some.by_ref().take(n).collect::<Vec<f64>>());
     let mut point = interpret::Point::<f64>::new();

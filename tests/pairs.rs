@@ -54,19 +54,7 @@ where
     let mut model = symbolic::system("q[n]; p[n]", "n", "m[n]", h);
     assert!(structure::analyse(&mut model).separable.is_ok());
     // Values that other functions read as well are prepared in advance.
-    let purposes = [
-        Purpose::Energy,
-        Purpose::EnergyAndGradient,
-        Purpose::TimeDerivative,
-        Purpose::HessianVector,
-        Purpose::GradientQ,
-        Purpose::GradientP,
-        Purpose::Gradient,
-        Purpose::VectorField,
-        Purpose::Kick,
-        Purpose::Drift,
-    ];
-    let program = derive(&mut model, &purposes).expect("a program");
+    let program = derive(&mut model, &symbolic::PURPOSES).expect("a program");
     let mut some = numbers(n as u64);
     let [q, p] = [(); 2].map(|()| some.by_ref().take(n).collect::<Vec<f64>>());
     let mut point = Point::<f64>::new();

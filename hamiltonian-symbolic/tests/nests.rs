@@ -1,7 +1,7 @@
 //! Systems with sums that stay loops: against dual numbers over the same H added up term by term,
 //! and against the same system written out over scalar coordinates; the operations of the loops.
 
-use crate::common;
+use crate::common::{self, PURPOSES};
 use crate::soundness;
 use crate::systems::{GRAVITY, Instance, Place, SQUARE_ROOT, SYSTEMS, System, TODA, at};
 use crate::tape;
@@ -13,20 +13,6 @@ use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 use std::collections::HashMap;
-
-const ALL: [Purpose; 11] = [
-    Purpose::Energy,
-    Purpose::GradientQ,
-    Purpose::GradientP,
-    Purpose::Gradient,
-    Purpose::EnergyAndGradient,
-    Purpose::TimeDerivative,
-    Purpose::ParameterGradient,
-    Purpose::HessianVector,
-    Purpose::VectorField,
-    Purpose::Kick,
-    Purpose::Drift,
-];
 
 /// Returns true if a purpose stores at a place.
 fn stores(purpose: Purpose, place: Place) -> bool {
@@ -127,7 +113,7 @@ fn judge(what: &str, got: Traced, want: DoubleDouble, skipped: &mut usize) {
 
 fn against_duals(system: &System, n: usize) {
     let mut instance = Instance::new(system, n);
-    let program = derive(&mut instance.model, &ALL).unwrap();
+    let program = derive(&mut instance.model, &PURPOSES).unwrap();
     soundness::check(&program);
     let mut random = Random(5);
     let few = if n > 7 { 4 } else { 64 };
@@ -174,9 +160,9 @@ fn against_duals(system: &System, n: usize) {
 
 fn against_written_out(system: &System, n: usize) {
     let mut instance = Instance::new(system, n);
-    let looped = derive(&mut instance.model, &ALL).unwrap();
+    let looped = derive(&mut instance.model, &PURPOSES).unwrap();
     let (mut model, pairs, parameters) = instance.written_out(system.h);
-    let written = derive(&mut model, &ALL).unwrap();
+    let written = derive(&mut model, &PURPOSES).unwrap();
     let mut point: Point<f64> = Point::new();
     (point.t, point.c) = (instance.values[&Place::Time], instance.coefficient);
     for (number, pair) in pairs.iter().enumerate() {
@@ -444,7 +430,7 @@ fn what_does_not_depend_on_a_loop_stands_outside() {
 #[test]
 fn the_program_does_not_grow_with_n() {
     for system in SYSTEMS {
-        let derived = |n| derive(&mut Instance::new(system, n).model, &ALL).unwrap();
+        let derived = |n| derive(&mut Instance::new(system, n).model, &PURPOSES).unwrap();
         assert_eq!(derived(8), derived(10_000 / 8usize.pow(system.order)));
     }
 }

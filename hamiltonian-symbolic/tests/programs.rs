@@ -1,7 +1,7 @@
 //! Properties of scheduled programs: sound, deterministic, never more work than written, and the
 //! rules about domains.
 
-use crate::common;
+use crate::common::{self, PURPOSES};
 use crate::soundness;
 use crate::tree::{Random, grow};
 use hamiltonian_symbolic::dag::{Array, Column, Side};
@@ -11,26 +11,12 @@ use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::{NoProgram, derive};
 use hamiltonian_symbolic::program::{Function, Instruction, Program, Purpose};
 
-const ALL: [Purpose; 11] = [
-    Purpose::Energy,
-    Purpose::GradientQ,
-    Purpose::GradientP,
-    Purpose::Gradient,
-    Purpose::EnergyAndGradient,
-    Purpose::TimeDerivative,
-    Purpose::ParameterGradient,
-    Purpose::HessianVector,
-    Purpose::VectorField,
-    Purpose::Kick,
-    Purpose::Drift,
-];
-
 #[test]
 fn programs_of_random_expressions_are_sound() {
     let mut random = Random(11);
     for _ in 0..common::cases(1_000, 3_000) {
         let (tree, _) = grow(&mut random);
-        let program = derive(&mut tree.model(), &ALL).unwrap();
+        let program = derive(&mut tree.model(), &PURPOSES).unwrap();
         if std::panic::catch_unwind(|| soundness::check(&program)).is_err() {
             panic!("{}", tree.text());
         }
@@ -42,8 +28,8 @@ fn the_same_model_gives_the_same_program() {
     let mut random = Random(12);
     for _ in 0..300 {
         let (tree, _) = grow(&mut random);
-        let first = derive(&mut tree.model(), &ALL).unwrap();
-        let second = derive(&mut tree.model(), &ALL).unwrap();
+        let first = derive(&mut tree.model(), &PURPOSES).unwrap();
+        let second = derive(&mut tree.model(), &PURPOSES).unwrap();
         assert_eq!(first, second);
     }
 }

@@ -1,6 +1,7 @@
 //! The same trees through the engine and its interpreter, as the macro's back end drives it.
 
 use super::{At, Outputs};
+use crate::symbolic::PURPOSES;
 use crate::tree::{PAIRS, PARAMETERS, Tree};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Parameter, Side};
 use hamiltonian_symbolic::interpret::{Outcome, Point, run};
@@ -24,22 +25,14 @@ impl Interpreted {
             .hamiltonian
             .is_some_and(|h| model.dag.dependence(h).on(Dependence::P));
         let structure = structure::analyse(&mut model);
-        let mut wanted = vec![
-            Purpose::Energy,
-            Purpose::EnergyAndGradient,
-            Purpose::TimeDerivative,
-            Purpose::HessianVector,
-            Purpose::GradientQ,
-            Purpose::GradientP,
-            Purpose::Gradient,
-            Purpose::VectorField,
-        ];
+        let (always, separable) = PURPOSES.split_at(8);
+        let mut wanted = always.to_vec();
         if let Ok(split) = &structure.separable {
             let split = model.dag.add(&[split.kinetic, split.potential]);
             if !separates_as_written(&mut model) {
                 model.hamiltonian = Some(split);
             }
-            wanted.extend([Purpose::Kick, Purpose::Drift]);
+            wanted.extend(&separable[..2]);
         } else if let Ok(splitting) = split::find(&mut model) {
             model.pieces = splitting.pieces;
         }

@@ -9,7 +9,23 @@ use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
 use hamiltonian_symbolic::loops::{Sample, sample};
 use hamiltonian_symbolic::model::{External, Group, Model, ParameterDeclaration, Shape};
 use hamiltonian_symbolic::op::Op;
+use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
+
+/// What the macro asks for where H is separable, in its order; the first eight wherever it is not.
+pub const PURPOSES: [Purpose; 11] = [
+    Purpose::Energy,
+    Purpose::EnergyAndGradient,
+    Purpose::TimeDerivative,
+    Purpose::HessianVector,
+    Purpose::GradientQ,
+    Purpose::GradientP,
+    Purpose::Gradient,
+    Purpose::VectorField,
+    Purpose::Kick,
+    Purpose::Drift,
+    Purpose::ParameterGradient,
+];
 
 /// A model from a signature like `q[n][3], s; p[n][3], u; t`, names of sizes, and parameters like
 /// `G m[n] a`. Sizes named `f/2` in `externals` are Rust functions with their arity.

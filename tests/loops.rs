@@ -42,6 +42,14 @@ hamiltonian! {
         + sum(i in 0..n) { q[i]*q[(n - 1 - i) % n]^2*p[(2*i + 1) % n] }/10
 }
 
+hamiltonian! {
+    /// Parameters with three axes: neighbours of each.
+    pub struct Weighed { n: usize, w: [n][2][n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n, j in 0..2, k in 0..n) {
+        w[i][j][k]*q[i]*q[k] + w[(i + 1) % n][1 - j][(k - 2) % n]*cos(q[k])
+    }
+}
+
 /// The lengths of loops: all tails, and blocks with and without a rest.
 fn lengths() -> impl Iterator<Item = usize> {
     (1..=40).chain([63, 64, 65, 127, 128, 129, 136, 200, 257, 300])
@@ -162,5 +170,17 @@ fn the_interpreter_sums_in_the_same_order() {
              + sum(i in 0..n) { k[i]*cos(q[(i - 2) % n] - q[i])/4 + q[i]^2*q[(i + 5) % n]*(i + 1)/100 }",
         ];
         interpreted(&Ring::new(n, some(n)).unwrap(), n, ring, &[some(n)]);
+    }
+    for n in [1, 2, 7, 32, 37] {
+        let weighed = [
+            "q[n]; p[n]",
+            "w[n][2][n]",
+            "sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n, j in 0..2, k in 0..n) {
+                w[i][j][k]*q[i]*q[k] + w[(i + 1) % n][1 - j][(k - 2) % n]*cos(q[k]) }",
+        ];
+        let w = some(2 * n * n);
+        let rows = w.chunks(n).map(<[f64]>::to_vec).collect::<Vec<_>>();
+        let lists = rows.chunks(2).map(<[Vec<f64>]>::to_vec).collect::<Vec<_>>();
+        interpreted(&Weighed::new(n, lists).unwrap(), n, weighed, &[w]);
     }
 }

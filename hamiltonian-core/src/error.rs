@@ -42,10 +42,10 @@ pub enum Error {
         /// The number of components given.
         found: usize,
     },
-    /// An axis of coordinates has the wrong extent.
+    /// An axis of an array has the wrong extent.
     #[error("axis {axis} of `{name}` must have the extent {expected}, found {found}")]
     Extent {
-        /// The name of the coordinate or momentum.
+        /// The name of the coordinate, momentum or parameter.
         name: &'static str,
         /// The number of the axis, from 0 on.
         axis: usize,

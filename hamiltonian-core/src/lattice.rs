@@ -1,21 +1,24 @@
-//! Coordinates with several axes.
+//! Arrays with several axes.
 //!
 //! Input: extents and elements. Output: [`Lattice`]. Invariant: elements are stored in the order of the
 //! declaration, the last index fastest, so that a loop over the last axis moves on by one.
 
 mod nested;
 
-pub use nested::MatrixOf;
+pub use nested::{MatrixOf, lattice};
 
 use crate::error::Error;
-use crate::uneven::Uneven;
+use crate::uneven::{Uneven, named, same_part};
 use crate::vector::Vector;
 use alloc::boxed::Box;
+use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt;
 use core::ops::{Index, IndexMut};
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Mask, Real};
 
-/// An array with `R` axes: the coordinates `u[n][m]` are a `Lattice<f64, 2>`.
+/// An array with `R` axes: the coordinates `u[n][m]` are a `Lattice<f64, 2>`, and the parameter `w[n][m][k]` is a
+/// `Lattice<f64, 3>`.
 ///
 /// Element `[i, j]` stands at `i·m + j` of [`as_slice`](Lattice::as_slice).
 ///
@@ -78,6 +81,19 @@ impl<T, const R: usize> Lattice<T, R> {
     #[must_use]
     pub fn extents(&self) -> [usize; R] {
         self.extents
+    }
+
+    /// Returns the array of `f` of each element.
+    #[must_use]
+    pub fn map<U>(&self, f: impl FnMut(T) -> U) -> Lattice<U, R>
+    where
+        T: Copy,
+    {
+        Lattice {
+            extents: self.extents,
+            elements: self.elements.iter().copied().map(f).collect(),
+            uneven: self.uneven.clone(),
+        }
     }
 
     /// The elements in the order of the declaration, the last index fastest.
@@ -181,6 +197,55 @@ pub fn fits(name: &'static str, extents: &[usize]) -> Result<(), Error> {
     match product(extents) {
         Some(number) if has_room(number) => Ok(()),
         _ => Err(Error::Memory { name }),
+    }
+}
+
+/// The name of an element, given its number in the order of the declaration: `u[1][2]`.
+pub(crate) fn element(name: &str, extents: &[usize], number: usize) -> String {
+    let mut rest: usize = extents.iter().product();
+    let place = |extent: &usize| {
+        rest /= extent;
+        number / rest % extent
+    };
+    named(name, &extents.iter().map(place).collect::<Vec<_>>())
+}
+
+/// Writes the elements of a parameter with several axes, `w[0][1][2] = 1.5`, each on a line.
+///
+/// # Errors
+/// Those of the writer.
+pub fn describe_lattice<T: Real, const R: usize>(
+    out: &mut dyn fmt::Write,
+    name: &str,
+    array: &Lattice<T, R>,
+) -> fmt::Result {
+    let mut elements = array.elements.iter().enumerate();
+    elements.try_for_each(|(number, value)| {
+        writeln!(out, "{} = {value:?}", element(name, &array.extents, number))
+    })
+}
+
+/// Checks the extents and the numbers of a parameter with several axes.
+///
+/// # Errors
+/// [`Error::Row`] if nested lists differ in length, [`Error::Extent`] if an extent is not the declared one,
+/// [`Error::Memory`] if no array has so many elements, [`Error::Parameter`] for the first number that is NaN.
+pub fn check_lattice<T: Real, const R: usize>(
+    name: &'static str,
+    extents: [usize; R],
+    given: &Lattice<T, R>,
+) -> Result<(), Error> {
+    let Some(number) = product(&extents) else {
+        return Err(Error::Memory { name });
+    };
+    let found = (&given.extents[..], given.elements.len());
+    same_part(name, given.uneven(0), (&extents, number), found)?;
+    let is_nan = |value: &T| !value.equals(*value).all();
+    match given.elements.iter().position(is_nan) {
+        None => Ok(()),
+        Some(number) => Err(Error::Parameter {
+            name: element(name, &extents, number),
+        }),
     }
 }
 

@@ -6,6 +6,7 @@
 
 use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::{Error, TableError};
+use crate::lattice;
 use crate::observe::{Observer, View, one_trajectory};
 use crate::state::State;
 use crate::system::{Group, System, clock};
@@ -333,16 +334,11 @@ pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
         };
         let extents = vector.extents(group.part);
         if !extents.is_empty() {
-            for element in 0..len {
-                let mut rest = len;
-                let index = |extent: &usize| {
-                    rest /= extent;
-                    format!("[{}]", element / rest % extent)
-                };
+            for number in 0..len {
                 names.push(Name {
                     group: *group,
-                    indices: extents.iter().map(index).collect(),
-                    index: before + element,
+                    indices: lattice::element("", extents, number),
+                    index: before + number,
                 });
             }
             continue;

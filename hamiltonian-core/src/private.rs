@@ -30,7 +30,9 @@ pub use crate::kernel::{
     Adds, Damped, Drift, Field, FieldOf, Kernel, Kick, Linear, Matrices, Motion, Moves, Numbered,
     OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
 };
-pub use crate::lattice::{Lattice, MatrixOf, check_extents, fits};
+pub use crate::lattice::{
+    Lattice, MatrixOf, check_extents, check_lattice, describe_lattice, fits, lattice,
+};
 pub use crate::loops::{
     Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, wrapped,
 };

@@ -11,6 +11,7 @@ use crate::flow::{Piece, Pieces, VectorField};
 pub mod gather;
 
 use crate::state::{Gradient, Point, State};
+use crate::uneven::same_part;
 use crate::vector::Vector;
 use gather::{InLanes, Kept};
 use hamiltonian_lanes::{Dual, Real};
@@ -467,39 +468,14 @@ pub trait Cyclic {
 /// An error where a part has not the length the system asks for, with the name of the first group
 /// in it.
 fn same_shape<V: Vector>(
-    mut groups: impl Iterator<Item = (usize, &'static str)> + Clone,
+    groups: impl Iterator<Item = (usize, &'static str)> + Clone,
     expected: &V,
     found: &V,
 ) -> Result<(), Error> {
-    let mut name = |k| {
-        let found = groups.find(|(part, _)| *part == k);
-        found.map_or("", |(_, name)| name)
-    };
-    for k in 0..V::PARTS {
-        if let Some(uneven) = found.uneven(k) {
-            return Err(uneven.error(name(k), expected.extents(k)));
-        }
-        // Nested lists show no extents inside an empty one.
-        let is_empty = expected.part(k).is_empty() && found.part(k).is_empty();
-        let extents = expected.extents(k).iter().zip(found.extents(k));
-        let mut others = extents.enumerate().filter(|(_, (a, b))| a != b);
-        if let (false, Some((axis, (expected, found)))) = (is_empty, others.next()) {
-            return Err(Error::Extent {
-                name: name(k),
-                axis,
-                expected: *expected,
-                found: *found,
-            });
-        }
-        let (expected, found) = (expected.part(k).len(), found.part(k).len());
-        if expected != found {
-            let name = name(k);
-            return Err(Error::Shape {
-                name,
-                expected,
-                found,
-            });
-        }
-    }
-    Ok(())
+    (0..V::PARTS).try_for_each(|k| {
+        let group = groups.clone().find(|(part, _)| *part == k);
+        let name = group.map_or("", |(_, name)| name);
+        let [expected, own] = [expected, found].map(|v| (v.extents(k), v.part(k).len()));
+        same_part(name, found.uneven(k), expected, own)
+    })
 }

@@ -1,6 +1,6 @@
-//! Nested lists whose parts have different lengths.
+//! Arrays of another shape than the expected one, and nested lists whose parts have different lengths.
 //!
-//! Input: two of the parts. Output: the error that names one of them, once the extents are known.
+//! Input: extents, or two of the parts. Output: the error that names an axis or a part.
 
 use crate::error::Error;
 use alloc::format;
@@ -29,4 +29,34 @@ impl Uneven {
 pub(crate) fn named(name: &str, at: &[usize]) -> String {
     at.iter()
         .fold(String::from(name), |name, index| format!("{name}[{index}]"))
+}
+
+/// An error where the extents or the number of elements of an array are not the expected ones.
+pub(crate) fn same_part(
+    name: &'static str,
+    uneven: Option<&Uneven>,
+    expected: (&[usize], usize),
+    found: (&[usize], usize),
+) -> Result<(), Error> {
+    if let Some(uneven) = uneven {
+        return Err(uneven.error(name, expected.0));
+    }
+    let ((axes, expected), (own, found)) = (expected, found);
+    // Nested lists show no extents inside an empty one.
+    let is_empty = expected == 0 && found == 0;
+    let mut extents = axes.iter().zip(own).enumerate();
+    match extents.find(|(_, (a, b))| !is_empty && a != b) {
+        Some((axis, (expected, found))) => Err(Error::Extent {
+            name,
+            axis,
+            expected: *expected,
+            found: *found,
+        }),
+        None if expected != found => Err(Error::Shape {
+            name,
+            expected,
+            found,
+        }),
+        None => Ok(()),
+    }
 }

@@ -97,7 +97,7 @@ impl Default for Definition {
 pub enum Field {
     /// `name: usize`
     Size(Size),
-    /// `name`, `name = 1.0`, `name: [s]`, `name: [s][s]`
+    /// `name`, `name = 1.0`, `name: [s]`, `name: [s][s]`, …
     Parameter(ParameterId),
     /// `name: fn(a, …)`
     Function(FunctionId),
@@ -121,7 +121,7 @@ pub struct Parameter {
     pub attributes: Vec<TokenStream>,
     /// The name of the field.
     pub name: Ident,
-    /// Scalar, vector or matrix.
+    /// A number or an array.
     pub ty: Type,
     /// Its default, number by number.
     pub default: Option<Vec<NodeId>>,

@@ -197,7 +197,7 @@ fn derivatives_by_element_are_those_of_the_system_written_out() {
             let (rows, columns) = match m.groups[0].shape.clone() {
                 Shape::Vector(rows) => (rows, 1),
                 Shape::Matrix(rows, _) => (rows, 2),
-                Shape::Scalar => panic!(),
+                Shape::Scalar | Shape::Lattice(..) => panic!(),
             };
             let k = field::elements(&mut m.dag, &rows);
             for column in 0..columns {

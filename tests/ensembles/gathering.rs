@@ -9,14 +9,15 @@ use hamiltonian::schemes::author::{Dynamics, Gather, Group, Observable, VectorFi
 
 hamiltonian! {
     /// Oscillators, each with its spring.
-    pub struct Springs { k: [3], c = 0.1 }
-    H(q[3]; p[3]) = sum(i in 0..3) { p[i]^2/2 + k[i]*q[i]^2/2 } + c*q[0]^2*q[1]
+    pub struct Springs { k: [3], c = 0.1, d: [2][1][3] }
+    H(q[3]; p[3]) = sum(i in 0..3) { p[i]^2/2 + k[i]*q[i]^2/2 + d[1][0][i]*q[i]^4 } + c*q[0]^2*q[1]
 }
 
 hamiltonian! {
     /// A chain of masses, whose length is set at run time, in the well of a matrix.
-    pub struct Masses { n: usize, m: [n], w: [n][n] }
-    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) } + sum(i in 0..n, j in 0..n) { w[i][j]*q[i]*q[j] }
+    pub struct Masses { n: usize, m: [n], w: [n][n], d: [n][2][n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) }
+        + sum(i in 0..n, j in 0..n) { w[i][j]*q[i]*q[j] + d[i][1][j]*q[i]^2*q[j]^2 }
 }
 
 #[test]
@@ -40,6 +41,7 @@ fn arrays_of_each_member() {
             let springs = Springs {
                 k: [1.0, 2.0 - at, at].into(),
                 c: 0.1 * at,
+                d: [[[0.0; 3]], [[0.1, at, 0.2]]],
             };
             (springs, State::new([at, 0.3, -at], [0.2, at, 0.1]))
         };
@@ -47,7 +49,8 @@ fn arrays_of_each_member() {
         let masses = |member: Member| {
             let at = part(member.index);
             let w = vec![vec![0.3, 0.1 * at, 0.0], vec![0.2; 3], vec![at, 0.1, 0.5]];
-            let masses = Masses::new(3, vec![1.0, 1.0 + at, 2.0 - at], w).expect("three masses");
+            let d = vec![[[0.0; 3], [0.1, 0.2 * at, 0.3]]; 3];
+            let masses = Masses::new(3, vec![1.0, 1.0 + at, 2.0 - at], w, d).expect("three masses");
             (masses, State::new(vec![at, 0.3, -at], vec![0.2, at, 0.1]))
         };
         agrees(masses, StormerVerlet::default());

@@ -90,7 +90,7 @@ macro_rules! levels {
 levels!(1 2, 2 3, 3 4);
 
 /// The lattice of a nested list.
-fn lattice<N: Nested<R>, const R: usize>(list: N) -> Lattice<N::Scalar, R> {
+pub fn lattice<N: Nested<R>, const R: usize>(list: N) -> Lattice<N::Scalar, R> {
     let mut elements = Vec::new();
     let (extents, uneven) = match list.flat(&mut elements) {
         Ok(extents) => (extents, None),

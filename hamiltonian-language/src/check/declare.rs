@@ -124,38 +124,55 @@ impl Checker<'_> {
         default: &Expression,
     ) -> Option<Vec<NodeId>> {
         let root = &self.ast.nodes[default.root.0 as usize];
-        let rows = match (ty, &root.kind) {
-            (Type::Matrix(..), ExprKind::Vector(rows)) => {
-                let read = self.visit(default, Vec::new(), Some(default.root));
-                let rows = rows.iter().map(|row| read.value(*row));
-                rows.collect::<Option<Vec<_>>>()?
+        let extents = ty.extents();
+        let (inner, outer) = match extents.split_last() {
+            Some((last, outer)) => (Type::Vector(*last), outer),
+            None => (Type::Scalar, &[][..]),
+        };
+        // The lists of all axes but the last are no expressions.
+        let (mut lists, mut roots) = (Vec::new(), vec![default.root]);
+        let mut fits = true;
+        for extent in outer {
+            let mut parts = Vec::new();
+            for root in &roots {
+                match &self.ast.nodes[root.0 as usize].kind {
+                    ExprKind::Vector(items) if *extent == Extent::Literal(items.len() as u64) => {
+                        parts.extend(items);
+                    }
+                    _ => fits = false,
+                }
             }
-            _ => vec![self.expression(default)?],
-        };
-        let all_are = |of| rows.iter().all(|row| self.type_of(*row) == of);
-        let (fits, help) = match ty {
-            Type::Scalar => (all_are(ty), "write one number"),
-            Type::Vector(Extent::Literal(_)) => (all_are(ty), LIST),
-            Type::Matrix(Extent::Literal(count), columns @ Extent::Literal(_)) => (
-                rows.len() as u64 == count && all_are(Type::Vector(columns)),
-                "write its rows: `[[1.0, 2.0], [3.0, 4.0]]`",
-            ),
-            _ => (
-                false,
-                "remove it and give the value to `new`: an array with a default has literal extents",
-            ),
-        };
+            lists.append(&mut roots);
+            roots = parts;
+        }
+        let mut rows = Vec::new();
+        if fits {
+            let read = self.visit(default, Vec::new(), &lists);
+            let values = roots.iter().map(|root| read.value(*root));
+            rows = values.collect::<Option<Vec<_>>>()?;
+            fits = rows.iter().all(|row| self.type_of(*row) == inner);
+        }
         if !fits {
-            let message = match ty {
-                Type::Matrix(..) => format!(
-                    "the default of `{name}` does not list the rows of {}",
+            let message = match rows.as_slice() {
+                [found] if outer.is_empty() => format!(
+                    "the default of `{name}` is {}, but the parameter is {}",
+                    self.type_shown(self.type_of(*found)),
                     self.type_shown(ty)
                 ),
                 _ => format!(
-                    "the default of `{name}` is {}, but the parameter is {}",
-                    self.type_shown(self.type_of(rows[0])),
+                    "the default of `{name}` does not list the rows of {}",
                     self.type_shown(ty)
                 ),
+            };
+            let is_open = |extent: &Extent| matches!(extent, Extent::Size(_));
+            let help = match ty {
+                _ if extents.iter().any(is_open) => {
+                    "remove it and give the value to `new`: an array with a default has literal extents"
+                }
+                Type::Matrix(..) => "write its rows: `[[1.0, 2.0], [3.0, 4.0]]`",
+                Type::Array(_) => "write a list for each index: `[[[1.0, 2.0]], [[3.0, 4.0]]]`",
+                Type::Vector(_) => LIST,
+                _ => "write one number",
             };
             self.report.error(root.spans, message, help);
             return None;
@@ -210,19 +227,19 @@ impl Checker<'_> {
         };
         let numbers = sizes.iter().filter_map(literal);
         let numbers = numbers.fold(1u64, u64::saturating_mul);
-        if numbers > LARGEST {
+        let is_open = |size: &Size| match size {
+            Size::Name(name) => {
+                (self.out.sizes.iter()).any(|one| one.run_time && one.name == *name)
+            }
+            Size::Literal(..) => false,
+        };
+        if numbers > LARGEST && !sizes.iter().any(is_open) {
             let rows = &sizes[0];
             let message = format!(
                 "an array of {numbers} numbers does not fit on the stack, where at most {LARGEST} may stand"
             );
             let help = "set the size at run time, which keeps the numbers on the heap: `pub struct Name { n: usize }` and `[n]`";
             self.report.error(rows.span(), message, help);
-            return None;
-        }
-        if let [_, _, third, ..] = sizes {
-            let message = "parameters have at most two extents";
-            let help = "write several arrays; coordinates may have up to four extents";
-            self.report.error(third.span(), message, help);
             return None;
         }
         // All unknown sizes are reported.

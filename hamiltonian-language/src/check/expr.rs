@@ -34,7 +34,7 @@ impl Frame {
 impl Checker<'_> {
     /// A whole right side.
     pub(super) fn expression(&mut self, expression: &Expression) -> Option<NodeId> {
-        self.visit(expression, Vec::new(), None)
+        self.visit(expression, Vec::new(), &[])
             .value(expression.root)
     }
 
@@ -95,7 +95,7 @@ impl Checker<'_> {
         &mut self,
         expression: &Expression,
         arguments: Vec<(Symbol, Option<NodeId>)>,
-        skipped: Option<ExprId>,
+        skipped: &[ExprId],
     ) -> Frame {
         let values = Vec::with_capacity(expression.nodes.len());
         let mut frame = Frame {
@@ -106,7 +106,7 @@ impl Checker<'_> {
         let outer = self.active.len();
         for index in expression.nodes.clone() {
             let id = ExprId(index);
-            let value = if skipped == Some(id) {
+            let value = if skipped.contains(&id) {
                 None
             } else {
                 self.node(id, &frame)
@@ -279,8 +279,7 @@ impl Checker<'_> {
             (BinaryOp::Mul, Type::Scalar, ty) => Some(ty),
             (BinaryOp::Mul | BinaryOp::Div, ty, Type::Scalar) => Some(ty),
             (BinaryOp::Mul, Type::Matrix(rows, columns), Type::Vector(extent))
-                if columns == extent
-                    && matches!(self.out.nodes[a.0 as usize].kind, Kind::Parameter(_)) =>
+                if columns == extent && self.is_of_parameter(a) =>
             {
                 Some(Type::Vector(rows))
             }
@@ -359,7 +358,15 @@ impl Checker<'_> {
         self.refuse(raw, message, help)
     }
 
-    /// An operand that is a scalar, vector or matrix.
+    /// Returns true for a parameter, and for an element of one.
+    fn is_of_parameter(&self, mut node: NodeId) -> bool {
+        while let Kind::Index { base, .. } = self.out.nodes[node.0 as usize].kind {
+            node = base;
+        }
+        matches!(self.out.nodes[node.0 as usize].kind, Kind::Parameter(_))
+    }
+
+    /// An operand that is a number or an array.
     pub(super) fn number(&mut self, raw: ExprId, frame: &Frame) -> Option<(NodeId, Type)> {
         let value = frame.value(raw)?;
         let ty = self.type_of(value);
@@ -579,7 +586,7 @@ impl Checker<'_> {
             return None;
         }
         self.call_depth += 1;
-        let value = self.visit(body, bound, None).value(body.root);
+        let value = self.visit(body, bound, &[]).value(body.root);
         self.call_depth -= 1;
         value
     }

@@ -35,7 +35,8 @@ impl Checker<'_> {
             ExprKind::Vector(items) if count > 1 => Some(items.clone()),
             _ => None,
         };
-        let frame = self.visit(value, Vec::new(), items.is_some().then_some(root));
+        let list = items.as_ref().map(|_| root);
+        let frame = self.visit(value, Vec::new(), list.as_slice());
         let items = match items {
             Some(items) => items,
             None if count == 1 => vec![root],
@@ -142,7 +143,7 @@ impl Checker<'_> {
         }
         let root = value.root;
         self.active.extend(&self.out.force_rows);
-        let frame = self.visit(value, arguments, None);
+        let frame = self.visit(value, arguments, &[]);
         self.active.truncate(self.active.len() - names.len());
         let Some((value, found)) = self.number(root, &frame) else {
             return;

@@ -86,7 +86,7 @@ impl<'a> Checker<'a> {
         // at the calls.
         let unknown = symbols.iter().map(|symbol| (*symbol, None)).collect();
         let errors = self.report.errors().len();
-        self.visit(value, unknown, None);
+        self.visit(value, unknown, &[]);
         self.lets.push(LetFunction {
             arguments: symbols,
             body: value,

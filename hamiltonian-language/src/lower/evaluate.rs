@@ -13,7 +13,7 @@ use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Part, Side};
-use hamiltonian_symbolic::index::{Domain, Index};
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::legendre::ElementMap;
 use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::REPLACING;
@@ -249,15 +249,13 @@ impl<'a> Evaluator<'a> {
             (Kind::Time, _) => dag.time(),
             (Kind::Parameter(parameter), _) => {
                 let parameter = Parameter(parameter.0 as u16);
-                match demand.indices.as_slice() {
-                    [] => dag.parameter(parameter),
-                    [row] => dag.element(Array::Parameter(parameter), row.clone(), None),
-                    [row, column, ..] => dag.element(
-                        Array::Parameter(parameter),
-                        row.clone(),
-                        Some(column.clone()),
-                    ),
-                }
+                let shape = &model.parameters[usize::from(parameter.0)].shape;
+                let (row, column) = match demand.indices.as_slice() {
+                    [] => return dag.parameter(parameter),
+                    [row, column] if shape.axes().is_empty() => (row.clone(), Some(column.clone())),
+                    indices => (number(indices, shape.axes()), None),
+                };
+                dag.element(Array::Parameter(parameter), row, column)
             }
             (Kind::Capture(capture), _) => dag.parameter(Parameter(
                 (checked.parameters.len() + capture.0 as usize) as u16,
@@ -419,17 +417,11 @@ impl<'a> Evaluator<'a> {
                 Some(column) => column as u16,
                 None => return self.fault(node, "its column is not a literal"),
             },
-            Shape::Scalar | Shape::Vector(_) => 0,
+            _ => 0,
         };
-        let axes = &model.groups[usize::from(group)].axes;
         let row = match shape {
             Shape::Scalar => Index::constant(0),
-            Shape::Vector(_) | Shape::Matrix(..) => {
-                let inner = axes.iter().zip(&demand.indices).skip(1);
-                inner.fold(demand.indices[0].clone(), |row, (extent, index)| {
-                    row.row_of(extent.clone(), index.clone())
-                })
-            }
+            shape => number(&demand.indices, shape.axes()),
         };
         let of = |group| Column {
             side: Side::Q,
@@ -531,6 +523,14 @@ impl<'a> Evaluator<'a> {
             .collect();
         dag.add(&terms)
     }
+}
+
+/// The number of an element of a lattice with these extents; the one index of another array.
+fn number(indices: &[Index], axes: &[Affine]) -> Index {
+    let inner = axes.iter().zip(indices).skip(1);
+    inner.fold(indices[0].clone(), |row, (extent, index)| {
+        row.row_of(extent.clone(), index.clone())
+    })
 }
 
 fn is_zero(dag: &Dag, node: Node) -> bool {

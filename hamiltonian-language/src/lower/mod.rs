@@ -29,7 +29,7 @@ use hamiltonian_symbolic::model::{
 };
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Span;
-use scope::{axes, group_shape, shape};
+use scope::{group_shape, shape};
 
 /// The number of nodes at which an expression is refused: its program would exceed the cap many
 /// times over.
@@ -221,7 +221,8 @@ impl Evaluator<'_> {
                 || match at_rows.first() {
                     Some(id) => self.demands.loops.is_unrolled(*id),
                     None => {
-                        matches!(shape, Shape::Vector(_)) && self.demands.loops.by_number(*root)
+                        matches!(shape, Shape::Vector(_) | Shape::Lattice(..))
+                            && self.demands.loops.by_number(*root)
                     }
                 };
             let places: Vec<Index> = match rows {
@@ -234,11 +235,11 @@ impl Evaluator<'_> {
                     }
                 },
             };
-            let axes = model.groups[group].axes.clone();
+            let axes = shape.axes();
             let places = if axes.is_empty() {
                 places
             } else {
-                sites(&mut model.dag, &axes)
+                sites(&mut model.dag, axes)
             };
             for (row, column) in places
                 .iter()
@@ -309,7 +310,6 @@ fn declarations(checked: &Checked) -> Option<Model> {
             momentum: group.momentum.to_string(),
             velocity: group.velocity.as_ref().map(ToString::to_string),
             shape: group_shape(group)?,
-            axes: axes(group),
         })
     };
     Some(Model {

@@ -3,7 +3,6 @@
 //! Input: types of check. Output: shapes of the model. Invariant: sizes have the same numbers in both.
 
 use crate::checked::{Extent, Group, Type};
-use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::model::Shape;
 
 /// A shape.
@@ -12,24 +11,21 @@ pub fn shape(ty: Type) -> Shape {
         Type::Bool | Type::Scalar => Shape::Scalar,
         Type::Vector(rows) => Shape::Vector(rows.affine()),
         Type::Matrix(rows, columns) => Shape::Matrix(rows.affine(), columns.affine()),
-        Type::Array(_) => Shape::Vector(ty.elements().unwrap_or_default()),
+        Type::Array(_) => lattice(ty).unwrap_or(Shape::Scalar),
     }
 }
 
-/// The extents of the axes of a lattice, row after row; none of other groups.
-pub fn axes(group: &Group) -> Vec<Affine> {
-    let extents = group.ty.extents().into_iter();
-    match group.is_lattice {
-        true => extents.map(Extent::affine).collect(),
-        false => Vec::new(),
-    }
+/// The shape of an array that is stored row after row; `None` if the number of elements overflows.
+fn lattice<C>(ty: Type) -> Option<Shape<C>> {
+    let extents = ty.extents().into_iter().map(Extent::affine);
+    Some(Shape::Lattice(ty.elements()?, extents.collect()))
 }
 
-/// The shape of a group of coordinates: a lattice is a vector of its elements, the columns of
-/// another matrix are literal. `None` if they are not; `check` refuses that.
+/// The shape of a group of coordinates: the columns of a matrix that is no lattice are literal. `None` if they are
+/// not; `check` refuses that.
 pub fn group_shape(group: &Group) -> Option<Shape<u16>> {
     if group.is_lattice {
-        return Some(Shape::Vector(group.ty.elements()?));
+        return lattice(group.ty);
     }
     Some(match group.ty {
         Type::Bool | Type::Scalar => Shape::Scalar,

@@ -133,10 +133,7 @@ fn signature(model: &Model) -> String {
         Shape::Scalar => String::new(),
         Shape::Vector(rows) => format!("[{}]", print::extent(model, rows)),
         Shape::Matrix(rows, columns) => format!("[{}][{columns}]", print::extent(model, rows)),
-    };
-    let extents = |group: &hamiltonian_symbolic::model::Group| match group.axes.as_slice() {
-        [] => shape(&group.shape),
-        axes => {
+        Shape::Lattice(_, axes) => {
             let extents = axes.iter().map(|axis| print::extent(model, axis));
             extents.map(|extent| format!("[{extent}]")).collect()
         }
@@ -145,7 +142,7 @@ fn signature(model: &Model) -> String {
         let names = model
             .groups
             .iter()
-            .map(|group| format!("{}{}", name(group), extents(group)));
+            .map(|group| format!("{}{}", name(group), shape(&group.shape)));
         names.collect::<Vec<_>>().join(", ")
     };
     let (coordinates, momenta) = (

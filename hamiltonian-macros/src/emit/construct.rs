@@ -8,6 +8,7 @@ use super::context::Context;
 use super::{allowances, documented, lex, located, reach};
 use hamiltonian_language::ast::Header;
 use hamiltonian_language::checked::{Extent, Field, Parameter, Type};
+use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -92,6 +93,15 @@ fn default_of(context: Context, number: usize, scalar: &str) -> String {
             array(&(0..columns).map(column).collect::<Vec<_>>())
         }
         Type::Vector(_) => array(&numbers),
+        Type::Array(_) => {
+            // From the innermost lists to the whole.
+            let extents = context.model.parameters[number].shape.axes().iter().rev();
+            let extents = extents.filter_map(Affine::as_constant);
+            let lists = extents.fold(numbers, |parts, extent| {
+                parts.chunks(extent as usize).map(array).collect()
+            });
+            return lists.concat();
+        }
         _ => return numbers.concat(),
     };
     format!("__h::core::convert::From::from({value})")
@@ -146,8 +156,8 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         names.push(name);
         let value = format!("_a{number}");
         let (local, given) = (lex(&value), argument(name));
-        let ty = lex(&context.storage(shape, scalar));
-        if *shape == Shape::Scalar {
+        let ty = lex(&context.field(shape, scalar));
+        if *shape == Shape::Scalar || context.typed_axes(shape).is_some() {
             arguments.extend(quote! { #given: #ty, });
             lets.extend(quote! { let #local = #given; });
         } else {
@@ -172,21 +182,32 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             arguments.extend(quote! { #given: #from, });
             lets.extend(quote! { let #local = #made; });
         }
+        let is_dynamic = context.is_dynamic(shape);
+        let field = match is_dynamic {
+            true => set_by_new(&value),
+            false => value.clone(),
+        };
+        let _ = write!(fields, "{name}: {field}, ");
+        if let Shape::Lattice(_, axes) = shape {
+            let (extents, given) = (context.axes(axes), context.stored(shape, &value));
+            let _ = writeln!(
+                checks,
+                "__h::check_lattice(\"{name}\", {extents}, &{given})?;"
+            );
+            continue;
+        }
         let whole = match shape {
             Shape::Scalar => as_slice(shape, &format!("[{value}]")),
             _ => as_slice(shape, &value),
         };
         let _ = writeln!(numbers, "__h::check_parameter(\"{name}\", {whole})?;");
-        if !context.is_dynamic(shape) {
-            let _ = write!(fields, "{name}: {value}, ");
-            continue;
+        if is_dynamic {
+            let (rows, columns) = context.extents(shape);
+            let _ = writeln!(
+                checks,
+                "__h::check_extents(\"{name}\", [{rows}, {columns}], [{value}.nrows(), {value}.ncols()])?;",
+            );
         }
-        let _ = write!(fields, "{name}: {}, ", set_by_new(&value));
-        let (rows, columns) = context.extents(shape);
-        let _ = writeln!(
-            checks,
-            "__h::check_extents(\"{name}\", [{rows}, {columns}], [{value}.nrows(), {value}.ncols()])?;",
-        );
     }
     if names.is_empty() {
         return TokenStream::new();
@@ -323,11 +344,11 @@ pub fn getters(context: Context, item: &Header) -> TokenStream {
     out
 }
 
-/// The rank of a parameter, its rows and its numbers, of the array `name`.
+/// The rank of a parameter that is no lattice, its rows and its numbers, of the array `name`.
 pub fn as_slice(shape: &Shape, name: &str) -> String {
     match shape {
         Shape::Scalar => format!("0, 1, &{name}"),
-        Shape::Vector(_) => format!("1, {name}.nrows(), {name}.as_slice()"),
+        Shape::Vector(_) | Shape::Lattice(..) => format!("1, {name}.nrows(), {name}.as_slice()"),
         Shape::Matrix(..) => format!("2, {name}.nrows(), {name}.as_slice()"),
     }
 }

@@ -88,6 +88,13 @@ impl<'a> Context<'a> {
         usize::from(function) < self.generics.functions.len()
     }
 
+    /// An array parameter of `_self` over `T`.
+    pub fn lifted(self, parameter: u16) -> String {
+        let shape = &self.model.parameters[usize::from(parameter)].shape;
+        let field = format!("_self.{}", self.generics.field(parameter));
+        format!("{}.map(T::lift)", self.stored(shape, &field))
+    }
+
     /// The number of an element where it is read; that of a matrix of parameters counts row after row.
     pub fn number(self, array: Array, row: &Index, column: Option<&Index>) -> Index {
         if let (Array::Parameter(parameter), Some(column)) = (array, column)

@@ -128,7 +128,7 @@ impl<'a> Emission<'a> {
                 Slice::Read(Array::Held(number)) => format!("_made.{number}"),
                 _ => format!("_b{}", array.name().trim_start_matches("_a")),
             };
-            match context.is_dynamic(&shape(context, array)) {
+            match context.is_on_heap(&shape(context, array)) {
                 true => format!("__h::Arc::new({place})"),
                 false => place,
             }
@@ -353,12 +353,15 @@ impl<'a> Emission<'a> {
                 );
                 continue;
             }
-            let value = context.generics.lifted_array(at);
-            let whole = as_slice(&parameter.shape, "_b");
-            let _ = writeln!(
-                lines,
-                "let _b = {value};\n__h::describe_parameter(_out, \"{name}\", {whole})?;"
-            );
+            let value = context.lifted(at);
+            let described = match parameter.shape {
+                Shape::Lattice(..) => format!("__h::describe_lattice(_out, \"{name}\", &_b)"),
+                _ => {
+                    let whole = as_slice(&parameter.shape, "_b");
+                    format!("__h::describe_parameter(_out, \"{name}\", {whole})")
+                }
+            };
+            let _ = writeln!(lines, "let _b = {value};\n{described}?;");
         }
         for (at, (ty, arity)) in context.generics.functions.iter().enumerate() {
             let name = &context.definition.checked.functions[at].name;
@@ -440,11 +443,7 @@ impl<'a> Emission<'a> {
             );
         }
         for (at, parameter) in context.model.parameters.iter().enumerate() {
-            let zero = context.zero(&parameter.shape);
-            let zero = match context.is_dynamic(&parameter.shape) {
-                true => set_by_new(&zero),
-                false => zero,
-            };
+            let zero = context.field_of_zeros(&parameter.shape);
             let _ = write!(fields, "{}: {zero}, ", context.generics.field(at as u16));
         }
         let body = with_self(&format!(
@@ -500,7 +499,7 @@ fn groups(model: &Model, layout: Layout) -> String {
     for (at, group) in model.groups.iter().enumerate() {
         let columns = group.shape.columns();
         let rank = match &group.shape {
-            _ if !group.axes.is_empty() => group.axes.len(),
+            Shape::Lattice(_, axes) => axes.len(),
             Shape::Scalar => 0,
             Shape::Vector(_) => 1,
             Shape::Matrix(..) => 2,

@@ -68,6 +68,10 @@ impl Bodies<'_> {
                             out,
                             "let {name} = __h::SetByNew::get_mut(&mut _d.{field}).as_mut_slice();"
                         ),
+                        Shape::Lattice(_, axes) => {
+                            let flat = ".as_flattened_mut()".repeat(axes.len() - 1);
+                            writeln!(out, "let {name} = _d.{field}{flat};")
+                        }
                         _ => writeln!(out, "let {name} = _d.{field}.as_mut_slice();"),
                     };
                 }

@@ -200,12 +200,7 @@ impl Generics {
         format!("T::lift(_self.{})", self.field(parameter))
     }
 
-    /// An array field of `_self` over `T`.
-    pub fn lifted_array(&self, parameter: u16) -> String {
-        format!("_self.{}.map(T::lift)", self.field(parameter))
-    }
-
-    /// The same for a matrix, transposed: row after row.
+    /// A matrix field of `_self` over `T`, transposed: row after row.
     pub fn lifted_rows(&self, parameter: u16) -> String {
         let field = self.field(parameter);
         format!("_self.{field}.transpose().map(T::lift)")

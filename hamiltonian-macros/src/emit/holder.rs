@@ -97,8 +97,8 @@ impl Holder {
             Datum::Array(array) => {
                 let shape = shape(context, array);
                 let ty = context.storage(&shape, "T");
-                // All holders of a run share arrays that are sized at run time.
-                match context.is_dynamic(&shape) {
+                // All holders of a run share arrays that are on the heap.
+                match context.is_on_heap(&shape) {
                     true => format!("__h::Arc<{ty}>"),
                     false => ty,
                 }
@@ -302,7 +302,7 @@ impl Receiver<'_> {
                 "let _b{number} = {};\nlet {name} = _b{number}.as_slice();",
                 match context.model.parameters[usize::from(number)].shape {
                     Shape::Matrix(..) => context.generics.lifted_rows(number),
-                    _ => context.generics.lifted_array(number),
+                    _ => context.lifted(number),
                 }
             ),
             (Receiver::Holder(holder), _) => {

@@ -163,7 +163,7 @@ fn struct_field(context: Context, item: &Header, scalar: &str, field: Field) -> 
             let parameter = &definition.checked.parameters[number.0 as usize];
             let (name, visibility) = (&parameter.name, &item.visibility);
             let shape = &context.model.parameters[number.0 as usize].shape;
-            let ty = with_root(lex(&context.storage(shape, scalar)), root);
+            let ty = with_root(lex(&context.field(shape, scalar)), root);
             let docs = documented(&parameter.attributes, &format!(" Parameter `{name}` of H."));
             if context.is_dynamic(shape) {
                 quote! { #docs #name: #root::private::SetByNew<#ty>, }

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 /// The traits the struct derives: it is `Copy` where static vectors are.
 pub fn derives(context: Context) -> String {
-    let is_static = |group: &Group| !context.is_on_heap(group);
+    let is_static = |group: &Group| !context.is_on_heap(&group.shape.of_parameter());
     let copy = match context.groups.iter().all(is_static) {
         true => "__h::Copy, ",
         false => "",
@@ -129,7 +129,7 @@ pub fn implementations(context: Context) -> String {
         } else {
             let _ = writeln!(parts, "{pattern} => self.{field}.as_slice(),");
             let _ = writeln!(columns, "{at} => __h::Vector::columns(&self.{field}, 0),");
-            if !group.axes.is_empty() {
+            if !group.shape.axes().is_empty() {
                 let _ = writeln!(extents, "{at} => __h::Vector::extents(&self.{field}, 0),");
                 let _ = writeln!(uneven, "{at} => __h::Vector::uneven(&self.{field}, 0),");
             }

@@ -3,6 +3,7 @@
 //! Input: the groups and shapes of a model. Output: text of types and values, and the bindings of slices
 //! at the top of a function body. Invariant: extents that are set at run time are in no type.
 
+use super::construct::set_by_new;
 use super::context::{Context, ZERO};
 use super::layout::{Layout, Slice};
 use hamiltonian_symbolic::index::Affine;
@@ -20,11 +21,16 @@ impl Context<'_> {
     pub fn is_dynamic(self, shape: &Shape) -> bool {
         match shape {
             Shape::Scalar => false,
-            Shape::Vector(rows) => self.is_set_at_run_time(rows),
+            Shape::Vector(rows) | Shape::Lattice(rows, _) => self.is_set_at_run_time(rows),
             Shape::Matrix(rows, columns) => {
                 self.is_set_at_run_time(rows) || self.is_set_at_run_time(columns)
             }
         }
+    }
+
+    /// Returns true if the numbers of an array are on the heap.
+    pub fn is_on_heap(self, shape: &Shape) -> bool {
+        matches!(shape, Shape::Lattice(..)) || self.is_dynamic(shape)
     }
 
     /// Returns true if the number of columns is set at run time.
@@ -37,8 +43,55 @@ impl Context<'_> {
         let extent = |extent: &Affine| self.indices.plain(extent);
         match shape {
             Shape::Scalar => ("1usize".into(), "1usize".into()),
-            Shape::Vector(rows) => (extent(rows), "1usize".into()),
+            Shape::Vector(rows) | Shape::Lattice(rows, _) => (extent(rows), "1usize".into()),
             Shape::Matrix(rows, columns) => (extent(rows), extent(columns)),
+        }
+    }
+
+    /// The extents of a lattice, as an array.
+    pub fn axes(self, axes: &[Affine]) -> String {
+        let extents: Vec<String> = (axes.iter())
+            .map(|extent| self.indices.plain(extent))
+            .collect();
+        format!("[{}]", extents.join(", "))
+    }
+
+    /// The extents of a lattice that has them in the type of its field, a list of lists.
+    pub fn typed_axes(self, shape: &Shape) -> Option<&[Affine]> {
+        let is_typed = !shape.axes().is_empty() && !self.is_dynamic(shape);
+        is_typed.then(|| shape.axes())
+    }
+
+    /// The type of a list of lists, or its value, given that of a number.
+    fn nested(self, axes: &[Affine], number: &str) -> String {
+        let extents = axes.iter().rev();
+        extents.fold(number.to_owned(), |inner, extent| {
+            format!("[{inner}; {}]", self.constant_extent(extent))
+        })
+    }
+
+    /// The type of the field of a parameter.
+    pub fn field(self, shape: &Shape, scalar: &str) -> String {
+        match self.typed_axes(shape) {
+            Some(axes) => self.nested(axes, scalar),
+            None => self.storage(shape, scalar),
+        }
+    }
+
+    /// The expression of zeros in the field of a parameter.
+    pub fn field_of_zeros(self, shape: &Shape) -> String {
+        match self.typed_axes(shape) {
+            Some(axes) => self.nested(axes, ZERO),
+            None if self.is_dynamic(shape) => set_by_new(&self.zero(shape)),
+            None => self.zero(shape),
+        }
+    }
+
+    /// The field of an array, such as `_self.w`, in the type of [`Context::storage`].
+    pub fn stored(self, shape: &Shape, field: &str) -> String {
+        match self.typed_axes(shape) {
+            Some(axes) => format!("__h::lattice::<_, {}>({field})", axes.len()),
+            None => field.to_owned(),
         }
     }
 
@@ -57,14 +110,15 @@ impl Context<'_> {
             Shape::Matrix(rows, columns) => {
                 format!("__h::SMatrix<{scalar}, {}, {}>", text(rows), text(columns))
             }
+            Shape::Lattice(_, axes) => format!("__h::Lattice<{scalar}, {}>", axes.len()),
         }
     }
 
     /// The type of the number of rows.
     pub fn rows_dimension(self, shape: &Shape) -> String {
         match shape {
-            Shape::Scalar => "__h::Const<1>".to_owned(),
-            Shape::Vector(rows) | Shape::Matrix(rows, _) => self.dimension(rows),
+            Shape::Matrix(rows, _) => self.dimension(rows),
+            _ => "__h::Const<1>".to_owned(),
         }
     }
 
@@ -94,51 +148,28 @@ impl Context<'_> {
             Shape::Scalar => return ZERO.to_owned(),
             Shape::Vector(rows) => (dimension(rows), "__h::Const::<1>".to_owned()),
             Shape::Matrix(rows, columns) => (dimension(rows), dimension(columns)),
+            Shape::Lattice(_, axes) => return format!("__h::Lattice::zeros({})", self.axes(axes)),
         };
         format!("__h::Matrix::from_element_generic({rows}, {columns}, {ZERO})")
     }
 
     /// The type of the coordinates of a group.
     pub fn group_storage(self, group: &Group, scalar: &str) -> String {
-        match group.axes.len() {
-            0 => self.storage(&group.shape.of_parameter(), scalar),
-            rank => format!("__h::Lattice<{scalar}, {rank}>"),
-        }
-    }
-
-    /// The expression of the zero coordinates of a group.
-    fn group_zero(self, group: &Group) -> String {
-        if group.axes.is_empty() {
-            return self.zero(&group.shape.of_parameter());
-        }
-        format!("__h::Lattice::zeros({})", self.axes(group))
+        self.storage(&group.shape.of_parameter(), scalar)
     }
 
     /// The check that the coordinates of a group, if a size is set at run time, fit into memory.
     pub fn room(self, group: &Group) -> Option<String> {
         let name = &group.coordinate;
-        if group.axes.is_empty() {
-            let shape = group.shape.of_parameter();
-            let (rows, columns) = self.extents(&shape);
-            return (self.is_dynamic(&shape))
-                .then(|| format!("__h::fits({name:?}, &[{rows}, {columns}])?;\n"));
-        }
-        let is_open = |extent: &Affine| self.is_set_at_run_time(extent);
-        (group.axes.iter().any(is_open))
-            .then(|| format!("__h::fits({name:?}, &{})?;\n", self.axes(group)))
-    }
-
-    /// The extents of the axes of a lattice, as an array.
-    fn axes(self, group: &Group) -> String {
-        let extents: Vec<String> = (group.axes.iter())
-            .map(|extent| self.indices.plain(extent))
-            .collect();
-        format!("[{}]", extents.join(", "))
-    }
-
-    /// Returns true if the coordinates of a group are on the heap.
-    pub fn is_on_heap(self, group: &Group) -> bool {
-        !group.axes.is_empty() || self.is_dynamic(&group.shape.of_parameter())
+        let shape = group.shape.of_parameter();
+        let extents = match &shape {
+            Shape::Lattice(_, axes) => self.axes(axes),
+            shape => {
+                let (rows, columns) = self.extents(shape);
+                format!("[{rows}, {columns}]")
+            }
+        };
+        (self.is_dynamic(&shape)).then(|| format!("__h::fits({name:?}, &{extents})?;\n"))
     }
 
     /// The type of coordinates and of momenta over `T`.
@@ -152,7 +183,7 @@ impl Context<'_> {
 
     /// The expression of the zero vector, where run-time sizes are called as in bodies.
     pub fn zeros(self) -> String {
-        let zero = |group: &Group| self.group_zero(group);
+        let zero = |group: &Group| self.zero(&group.shape.of_parameter());
         let groups = self.groups;
         match self.layout {
             Layout::Scalars => {
@@ -204,7 +235,7 @@ impl Context<'_> {
                 (Layout::Mixed, _) => format!("{vector}.{coordinate}.as{suffix}_slice()"),
                 _ => format!("__h::Vector::part{suffix}({vector}, 0)"),
             };
-            let is_cut = shape.columns() > 1 || self.is_on_heap(group);
+            let is_cut = shape.columns() > 1 || self.is_on_heap(&shape.of_parameter());
             let _ = match shape.rows() {
                 Some(rows) if self.layout != Layout::Scalars && is_cut => {
                     let rows = self.indices.plain(rows);

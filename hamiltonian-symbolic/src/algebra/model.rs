@@ -23,41 +23,56 @@ pub enum Shape<C = Affine> {
     Vector(Affine),
     /// `[rows][columns]`
     Matrix(Affine, C),
+    /// `[a][b][c]…`: the number of elements, which are a vector, row after row, to everything that does not name
+    /// them, and the extents.
+    Lattice(Affine, Vec<Affine>),
 }
 
 impl<C> Shape<C> {
-    /// The rows of an array.
+    /// The rows of an array; of a lattice the elements.
     #[must_use]
     pub fn rows(&self) -> Option<&Affine> {
         match self {
             Shape::Scalar => None,
-            Shape::Vector(rows) | Shape::Matrix(rows, _) => Some(rows),
+            Shape::Vector(rows) | Shape::Matrix(rows, _) | Shape::Lattice(rows, _) => Some(rows),
         }
     }
-    /// The number of rows, mutable.
-    pub fn rows_mut(&mut self) -> Option<&mut Affine> {
+    /// The extents of a lattice; none of others.
+    #[must_use]
+    pub fn axes(&self) -> &[Affine] {
         match self {
-            Shape::Scalar => None,
-            Shape::Vector(rows) | Shape::Matrix(rows, _) => Some(rows),
+            Shape::Lattice(_, axes) => axes,
+            _ => &[],
+        }
+    }
+    /// Changes the number of rows, and the extents of a lattice.
+    pub fn for_each_extent(&mut self, mut change: impl FnMut(&mut Affine)) {
+        match self {
+            Shape::Scalar => {}
+            Shape::Vector(rows) | Shape::Matrix(rows, _) => change(rows),
+            Shape::Lattice(rows, axes) => {
+                change(rows);
+                axes.iter_mut().for_each(change);
+            }
         }
     }
     /// `q`, `q[2]`, `q[2][0]`
     pub fn element(&self, name: &str, row: impl Display, column: impl Display) -> String {
         match self {
             Shape::Scalar => name.to_owned(),
-            Shape::Vector(_) => format!("{name}[{row}]"),
+            Shape::Vector(_) | Shape::Lattice(..) => format!("{name}[{row}]"),
             Shape::Matrix(..) => format!("{name}[{row}][{column}]"),
         }
     }
 }
 
 impl Shape<u16> {
-    /// The number of columns; 1 of a scalar and of a vector.
+    /// The number of columns; 1 of all but matrices.
     #[must_use]
     pub fn columns(&self) -> u16 {
         match self {
-            Shape::Scalar | Shape::Vector(_) => 1,
             Shape::Matrix(_, columns) => *columns,
+            _ => 1,
         }
     }
     /// Rows, 1 of a scalar, and columns, where the rows are literal.
@@ -75,6 +90,7 @@ impl Shape<u16> {
             Shape::Matrix(rows, columns) => {
                 Shape::Matrix(rows.clone(), Affine::constant(i64::from(*columns)))
             }
+            Shape::Lattice(elements, axes) => Shape::Lattice(elements.clone(), axes.clone()),
         }
     }
 }
@@ -90,9 +106,6 @@ pub struct Group {
     pub velocity: Option<String>,
     /// The shape of all.
     pub shape: Shape<u16>,
-    /// The extents of the axes of an array whose elements, row after row, are a vector to everything that
-    /// does not name them; empty of others.
-    pub axes: Vec<Affine>,
 }
 
 /// The indices of an element that is given by its number, of an array with these axes.
@@ -117,7 +130,6 @@ impl Group {
             momentum: momentum.into(),
             velocity: None,
             shape: Shape::Scalar,
-            axes: Vec::new(),
         }
     }
     /// The name of one side.
@@ -329,18 +341,19 @@ impl Model {
     fn group_of(&self, group: u16) -> &Group {
         &self.groups[usize::from(group % REPLACING)]
     }
-    /// The extents of the axes of an array whose elements are a vector, row after row; none of others.
+    /// The extents of a lattice; none of other arrays.
     #[must_use]
     pub fn axes(&self, array: Array) -> &[Affine] {
         match array {
             Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
-                &self.group_of(at.group).axes
+                self.group_of(at.group).shape.axes()
             }
-            Array::Parameter(_) | Array::Held(_) => &[],
+            Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].shape.axes(),
+            Array::Held(_) => &[],
         }
     }
-    /// The indices of all axes, the first one first: of an array with axes those of the element that an
-    /// index is the number of.
+    /// The indices of all axes, the first one first: of a lattice those of the element that an index is the number
+    /// of.
     #[must_use]
     pub fn places(&self, array: Array, row: &Index) -> Vec<Index> {
         let axes: Option<Vec<i64>> = self.axes(array).iter().map(Affine::as_constant).collect();
@@ -352,8 +365,8 @@ impl Model {
             _ => row.axes(),
         }
     }
-    /// The name of an element of the array `name`, given its row (of an array with axes the number of the
-    /// element) and column, and what extents are.
+    /// The name of an element of the array `name`, given its row (of a lattice the number of the element) and
+    /// column, and what extents are.
     #[must_use]
     pub fn element(
         &self,

@@ -165,7 +165,7 @@ fn describe(
         Kind::Element(Array::Parameter(parameter), row, None) => {
             match &parameters[usize::from(parameter.0)].shape {
                 Shape::Vector(rows) => (Reads::Access(Box::new(row.clone()), rows.clone()), false),
-                Shape::Scalar | Shape::Matrix(..) => (Reads::More, false),
+                _ => (Reads::More, false),
             }
         }
         Kind::Sum(..) => of_children(),

@@ -61,13 +61,13 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
             Shape::Matrix(rows, columns) => {
                 Shape::Matrix(rows, columns.as_constant().unwrap() as u16)
             }
+            Shape::Lattice(elements, axes) => Shape::Lattice(elements, axes),
         };
         model.groups.push(Group {
             coordinate,
             momentum,
             velocity: None,
             shape,
-            axes: Vec::new(),
         });
     }
     model
@@ -101,11 +101,15 @@ fn declared(model: &Model, text: &str) -> (String, Shape) {
             }
         })
         .collect();
-    let mut extents = extents.into_iter();
-    let shape = match (extents.next(), extents.next()) {
-        (None, _) => Shape::Scalar,
-        (Some(rows), None) => Shape::Vector(rows),
-        (Some(rows), Some(columns)) => Shape::Matrix(rows, columns),
+    let shape = match extents.as_slice() {
+        [] => Shape::Scalar,
+        [rows] => Shape::Vector(rows.clone()),
+        [rows, columns] => Shape::Matrix(rows.clone(), columns.clone()),
+        extents => {
+            let mut all = extents.iter();
+            let elements = all.try_fold(Affine::constant(1), |n, m| n.checked_times(m));
+            Shape::Lattice(elements.unwrap(), extents.to_vec())
+        }
     };
     (name, shape)
 }
@@ -340,15 +344,21 @@ impl Parser<'_> {
         }
         if let Some(at) = self.model.parameters.iter().position(|p| p.name == name) {
             let parameter = Parameter(at as u16);
+            let axes = self.model.parameters[at].shape.axes().iter();
+            let mut axes = axes.skip(1).cloned();
             let mut indices = indices.into_iter();
-            return match indices.next() {
-                None => self.model.dag.parameter(parameter),
-                Some(row) => {
-                    self.model
-                        .dag
-                        .element(Array::Parameter(parameter), row, indices.next())
-                }
+            let Some(mut row) = indices.next() else {
+                return self.model.dag.parameter(parameter);
             };
+            let mut column = None;
+            for index in indices {
+                match axes.next() {
+                    Some(extent) => row = row.row_of(extent, index),
+                    None => column = Some(index),
+                }
+            }
+            let array = Array::Parameter(parameter);
+            return self.model.dag.element(array, row, column);
         }
         if let Some(at) = self.model.sizes.iter().position(|s| s == name) {
             return self.model.dag.extent(Size(at as u16));

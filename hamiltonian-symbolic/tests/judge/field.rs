@@ -25,7 +25,7 @@ pub fn extents(shape: &Shape, sizes: &[usize]) -> (usize, usize) {
     let value = |a: &Affine| a.value(&|_| 0, &|s| sizes[s.0 as usize] as i64) as usize;
     match shape {
         Shape::Scalar => (1, 1),
-        Shape::Vector(rows) => (value(rows), 1),
+        Shape::Vector(rows) | Shape::Lattice(rows, _) => (value(rows), 1),
         Shape::Matrix(rows, columns) => (value(rows), value(columns)),
     }
 }
@@ -44,7 +44,9 @@ impl Layout {
         for group in &model.groups {
             let (rows, columns) = match &group.shape {
                 Shape::Scalar => (1, 1),
-                Shape::Vector(rows) => extents(&Shape::Vector(rows.clone()), sizes),
+                Shape::Vector(rows) | Shape::Lattice(rows, _) => {
+                    extents(&Shape::Vector(rows.clone()), sizes)
+                }
                 Shape::Matrix(rows, columns) => {
                     let (rows, _) = extents(&Shape::Vector(rows.clone()), sizes);
                     (rows, usize::from(*columns))

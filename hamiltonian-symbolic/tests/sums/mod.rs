@@ -50,6 +50,8 @@ pub trait Arithmetic {
 pub struct World<V> {
     pub values: HashMap<String, Vec<Vec<V>>>,
     pub sizes: HashMap<String, i64>,
+    /// Of arrays whose one column has the elements row after row, their extents.
+    pub axes: HashMap<String, Vec<usize>>,
     pub loops: Vec<(String, i64)>,
 }
 
@@ -94,11 +96,16 @@ impl<V: Copy> World<V> {
                 if let Some(whole) = self.whole(name) {
                     return a.constant(&Rational::integer(whole));
                 }
-                let mut at = [0; 2];
-                for (at, index) in at.iter_mut().zip(indices) {
-                    *at = usize::try_from(self.integer(index)).unwrap();
-                }
-                self.values[name][at[1]][at[0]]
+                let number = |index| usize::try_from(self.integer(index)).unwrap();
+                let at: Vec<usize> = indices.iter().map(number).collect();
+                let [row, column] = match (self.axes.get(name), at.as_slice()) {
+                    (_, []) => [0, 0],
+                    (_, [row]) => [*row, 0],
+                    (_, [row, column]) => [*row, *column],
+                    (Some(axes), at) => [axes.iter().zip(at).fold(0, |n, (m, at)| n * m + at), 0],
+                    (None, _) => panic!("no extents of {name}"),
+                };
+                self.values[name][column][row]
             }
             Expression::Negative(x) => {
                 let x = self.evaluate(a, x);

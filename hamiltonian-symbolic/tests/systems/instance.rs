@@ -36,7 +36,7 @@ pub fn extents(shape: &Shape, n: usize) -> (usize, usize) {
     let value = |a: &Affine| usize::try_from(a.value(&|_| 0, &|_| n as i64)).unwrap();
     match shape {
         Shape::Scalar => (1, 1),
-        Shape::Vector(rows) => (value(rows), 1),
+        Shape::Vector(rows) | Shape::Lattice(rows, _) => (value(rows), 1),
         Shape::Matrix(rows, columns) => (value(rows), value(columns)),
     }
 }
@@ -102,6 +102,7 @@ impl Instance {
         let mut world = World {
             values: HashMap::new(),
             sizes: HashMap::from([("N".to_owned(), self.n as i64)]),
+            axes: HashMap::new(),
             loops: Vec::new(),
         };
         for (number, group) in self.model.groups.iter().enumerate() {
@@ -115,6 +116,9 @@ impl Instance {
             let place = |column, row| Place::Parameter(number, column, row);
             let columns = self.columns(&parameter.shape, place, &mut lift);
             world.values.insert(parameter.name.clone(), columns);
+            let axes = parameter.shape.axes().iter();
+            let axes = axes.map(|extent| extents(&Shape::Vector(extent.clone()), self.n).0);
+            world.axes.insert(parameter.name.clone(), axes.collect());
         }
         let time = lift(Place::Time, self.values[&Place::Time]);
         world.values.insert("t".into(), vec![vec![time]]);

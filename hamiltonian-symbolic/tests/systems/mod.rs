@@ -145,6 +145,14 @@ pub const SYSTEMS: &[System] = &[
         order: 2,
     },
     System {
+        name: "three axes",
+        signature: "q[N]; p[N]",
+        parameters: "w[N][2][N]",
+        h: "sum(i in 0..N, j in 0..2, k in 0..N) { w[i][j][k]*q[i]*p[k]^2 + w[(i + 1) % N][1 - j][k]^2*cos(q[k]) }
+            + sum(i in 1..N, k in 0..N) { w[i - 1][1][(k - 1) % N]/w[i][0][k]*q[i]^3 }",
+        order: 2,
+    },
+    System {
         name: "conditions",
         signature: "q[N]; p[N]",
         parameters: "k",

@@ -68,7 +68,7 @@ pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) ->
 fn extents(model: &Model, array: Array) -> (Option<Affine>, Option<Affine>) {
     match model.shape(array) {
         Shape::Scalar => (None, None),
-        Shape::Vector(rows) => (Some(rows), None),
+        Shape::Vector(rows) | Shape::Lattice(rows, _) => (Some(rows), None),
         Shape::Matrix(rows, columns) => (Some(rows), Some(columns)),
     }
 }

@@ -37,13 +37,12 @@ pub fn unroll_nodes(
     unrolled.dag = Dag::new();
     unrolled.sizes.clear();
     let place = Environment::new(sizes);
-    let literal = |rows: &mut Affine| *rows = Affine::constant(place.affine(rows));
+    let literal = |extent: &mut Affine| *extent = Affine::constant(place.affine(extent));
     for group in &mut unrolled.groups {
-        group.shape.rows_mut().map(literal);
-        group.axes.iter_mut().for_each(literal);
+        group.shape.for_each_extent(literal);
     }
     for parameter in &mut unrolled.parameters {
-        parameter.shape.rows_mut().map(literal);
+        parameter.shape.for_each_extent(literal);
         if let Shape::Matrix(_, columns) = &mut parameter.shape {
             literal(columns);
         }
@@ -109,7 +108,9 @@ impl Meaning for Unroller {
                 let mut column = column.as_ref().map(|c| place.index(c));
                 match self.model.shape(*array) {
                     Shape::Scalar => {}
-                    Shape::Vector(rows) => row = self.inside(*array, row, place.affine(&rows)),
+                    Shape::Vector(rows) | Shape::Lattice(rows, _) => {
+                        row = self.inside(*array, row, place.affine(&rows));
+                    }
                     Shape::Matrix(rows, columns) => {
                         row = self.inside(*array, row, place.affine(&rows));
                         column = column.map(|c| self.inside(*array, c, place.affine(&columns)));

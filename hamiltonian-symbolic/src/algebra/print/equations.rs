@@ -219,7 +219,7 @@ fn elements(
     own: &[(Index, Node)],
 ) -> Vec<(Option<Subscript>, Option<Node>)> {
     let domain = field::elements(&mut model.dag, rows);
-    if !model.groups[usize::from(at.group)].axes.is_empty() {
+    if !model.groups[usize::from(at.group)].shape.axes().is_empty() {
         return vec![(Some(Subscript::any(model, None)), None)];
     }
     let array = Array::Phase(at.conjugate());
@@ -265,7 +265,7 @@ impl Equation {
         let at = self.at;
         let group = &model.groups[usize::from(at.group)];
         let (own, conjugate) = (group.name(at.side), group.name(at.side.other()));
-        let mut indices: Vec<String> = match group.axes.len() {
+        let mut indices: Vec<String> = match group.shape.axes().len() {
             0 => self.row.iter().map(|row| row.name.clone()).collect(),
             count => (index_names(model).chain(std::iter::repeat("index")))
                 .take(count)

@@ -383,7 +383,7 @@ impl<'a> Writer<'a> {
         };
         match self.model.shape(array) {
             Shape::Scalar => Vec::new(),
-            Shape::Vector(_) => {
+            Shape::Vector(_) | Shape::Lattice(..) => {
                 let places = self.model.places(array, row).into_iter();
                 places.map(|place| self.index(&place)).collect()
             }

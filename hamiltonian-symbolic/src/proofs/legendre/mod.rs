@@ -109,7 +109,8 @@ pub fn transform(model: &mut Model, lagrangian: Node) -> Result<Legendre, NoHami
         Err(reason) => match transform.written_out(lagrangian) {
             Some((written, block)) => transform.solve(written, &[block]),
             None => {
-                let has_axes = transform.model.groups.iter().any(|g| !g.axes.is_empty());
+                let mut groups = transform.model.groups.iter();
+                let has_axes = groups.any(|group| !group.shape.axes().is_empty());
                 return Err(NoHamiltonian {
                     reason,
                     help: if has_axes { LATTICE } else { COUPLED },

@@ -363,7 +363,7 @@ impl Readable {
         let (name, row) = (&group.coordinate, row.affine.constant);
         match group.shape {
             Shape::Scalar => name.clone(),
-            Shape::Vector(_) => format!("{name}_{row}"),
+            Shape::Vector(_) | Shape::Lattice(..) => format!("{name}_{row}"),
             Shape::Matrix(..) => format!("{name}_{row}_{}", column.column),
         }
     }

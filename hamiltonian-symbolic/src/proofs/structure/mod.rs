@@ -190,7 +190,7 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
             None => {
                 // `i`, or `i][j` between the brackets.
                 let names = ["i", "j", "k"].into_iter().chain(std::iter::repeat("l"));
-                let names: Vec<&str> = names.take(group.axes.len().max(1)).collect();
+                let names: Vec<&str> = names.take(group.shape.axes().len().max(1)).collect();
                 found.push(element(&names.join("][")));
                 continue;
             }

@@ -195,7 +195,6 @@ fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
                     momentum: format!("{}_{}", old.momentum, chart.word()),
                     velocity: None,
                     shape: old.shape.clone(),
-                    axes: old.axes.clone(),
                 }]
             }
         };

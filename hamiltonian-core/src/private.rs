@@ -135,7 +135,7 @@ pub fn check_parameter<T: Real>(
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not fit this parameter",
     label = "expected an array of the declared extents",
-    note = "an extent that is a number or a const generic takes an array, `[1.0, 2.0]`; one that is set at run time takes a `Vec`, `vec![1.0, 2.0]`; with two extents each element is a row",
+    note = "an extent that is a number or a const generic takes an array, `[1.0, 2.0]`; one that is set at run time takes a `Vec`, `vec![1.0, 2.0]`; with several extents each element is a list",
     note = "write `1.0` instead of `1`: whole numbers are not converted",
     note = "`new` takes the sizes, then functions, then the parameters without a default, in the order of their declaration"
 )]

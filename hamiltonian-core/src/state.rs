@@ -81,7 +81,7 @@ impl<V: Vector> State<V> {
 #[diagnostic::on_unimplemented(
     message = "the start does not have the shape of the system's coordinates",
     label = "expected a start of another shape",
-    note = "an extent that is a number or a const generic takes arrays, `State::new([0.5, 1.0], [0.0, 0.0])`; one that is set at run time takes `Vec`s, `State::new(vec![0.5, 1.0], vec![0.0, 0.0])`; with two extents each element is a row"
+    note = "an extent that is a number or a const generic takes arrays, `State::new([0.5, 1.0], [0.0, 0.0])`; one that is set at run time takes `Vec`s, `State::new(vec![0.5, 1.0], vec![0.0, 0.0])`; with several extents each element is a list"
 )]
 pub trait IntoStart<V: Vector> {
     /// The state.

@@ -10,7 +10,7 @@ use hamiltonian_core::schemes::{
     inside::{Kernel4, Kernel6},
 };
 use hamiltonian_core::{
-    Exact, Scheme, Split,
+    Scheme,
     schemes::author::{Entry, Listed, OneStep},
 };
 

@@ -103,7 +103,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
     /// carried value of this step. `shown` is closed if [`closes`](Followed::closes). Returns true if the block
     /// should end.
     #[inline(always)]
-    fn evaluate<C: Carried<Vector = S::Vector, Scalar = U>>(
+    fn evaluate<L: Level, C: Carried<Vector = S::Vector, Scalar = U>>(
         &mut self,
         (k, t): (u64, U),
         shown: &C,
@@ -141,15 +141,94 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
                 continue;
             }
             let section = &mut self.sections[at - count];
-            if !section.try_skip(value, self.section_lanes) {
-                let lanes = section.lanes_to_mark(value) & self.section_lanes;
-                if lanes.any() {
-                    marks.to_mark = marks.to_mark | lanes;
-                    is_any_marked = true;
-                }
+            if !section.try_skip(value, &self.section_lanes) {
+                is_any_marked |= L::enter_at(FindMarks {
+                    section,
+                    value,
+                    section_lanes: &self.section_lanes,
+                    marks,
+                });
             }
         }
-        is_any_marked && marks.mark(k)
+        is_any_marked && L::enter_at(Mark { marks, step: k })
+    }
+
+    /// Makes the steps from number `k` to number `end`, of which the piece before the first body has been made, and
+    /// evaluates the functions whose sign is followed after each. They must not depend on what the closing piece
+    /// changes. Returns the number of the last step, since a block ends if too many steps are marked.
+    #[inline(always)]
+    fn go_on_with_sections<L: Level, R: Map<Carried: Carried<Vector = S::Vector, Scalar = U>>>(
+        &mut self,
+        map: &R,
+        (times, mut k, end): (&Times<U>, u64, u64),
+        z: &mut R::Carried,
+        work: &mut R::Work,
+        marks: &mut Marks<R::Carried, U::Mask>,
+    ) -> u64 {
+        loop {
+            map.body(times.at(k), times.at(k + 1), z, work);
+            k += 1;
+            marks.add(z);
+            let (t, point) = (z.time(times.at(k)), z.point());
+            let mut is_any_marked = false;
+            for section in &mut *self.sections {
+                let value = self
+                    .prepared
+                    .observable(section.observable, t, &point.q, &point.p);
+                if !section.try_skip(value, &self.section_lanes) {
+                    is_any_marked |= L::enter_at(FindMarks {
+                        section,
+                        value,
+                        section_lanes: &self.section_lanes,
+                        marks,
+                    });
+                }
+            }
+            if is_any_marked && L::enter_at(Mark { marks, step: k }) || k == end {
+                return k;
+            }
+            map.join(times.at(k), z, work);
+        }
+    }
+}
+
+/// A call of [`LaneSection::lanes_to_mark`]. It is out of line, since few steps need it and the compiler would move
+/// some of its operations into every step.
+struct FindMarks<'a, C, U: Real> {
+    section: &'a mut LaneSection<U>,
+    value: U,
+    section_lanes: &'a U::Mask,
+    marks: &'a mut Marks<C, U::Mask>,
+}
+
+impl<L: Level, C: Vector, U: Real> KernelAt<L> for FindMarks<'_, C, U> {
+    /// True if any lane will be marked.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let lanes = self.section.lanes_to_mark(self.value) & *self.section_lanes;
+        let is_any = lanes.any();
+        if is_any {
+            self.marks.to_mark = self.marks.to_mark | lanes;
+        }
+        is_any
+    }
+}
+
+/// A call of [`Marks::mark`], out of line.
+struct Mark<'a, C, M> {
+    marks: &'a mut Marks<C, M>,
+    step: u64,
+}
+
+impl<L: Level, C: Vector, M: Mask> KernelAt<L> for Mark<'_, C, M> {
+    /// True if the block should end.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        self.marks.mark(self.step)
     }
 }
 
@@ -199,14 +278,20 @@ where
         } = self;
         let times = *times;
         let mut end = made + n;
-        let has_sections = !followed.sections.is_empty();
-        let follows_any = has_sections || !followed.drifts.is_empty();
+        // Steps with few numbers are so fast that another loop, with nothing but them and the signs, is worth its code.
+        let is_small = const {
+            let size = size_of::<R::Carried>() + size_of::<R::Work>();
+            size <= 4 * size_of::<U>()
+        };
+        let only_sections = followed.has_sections() && followed.drifts.is_empty();
+        let in_loop = is_small && only_sections && !followed.closes;
+        let follows_any = !followed.sections.is_empty() || !followed.drifts.is_empty();
         // A local variable stays in registers in the loop.
         let mut z = spare.take();
         z.copy_from(carried);
         let mut k = made;
         // The next step whose state observers receive.
-        let mut due = match n > 0 && follows_any {
+        let mut due = match n > 0 && follows_any && !in_loop {
             true => made.saturating_add(followed.first),
             false => u64::MAX,
         };
@@ -239,7 +324,7 @@ where
                 let evaluates = k == due || followed.attach.is_some();
                 due = k.saturating_add(followed.interval);
                 stop = end.min(due);
-                if evaluates && followed.evaluate((k, t), &closed, marks) && k < end {
+                if evaluates && followed.evaluate::<L, _>((k, t), &closed, marks) && k < end {
                     end = k;
                     carried.copy_from(marks.newest());
                 }
@@ -256,6 +341,17 @@ where
             }
             if const { core::mem::needs_drop::<R::Carried>() } {
                 *shown = closed;
+            }
+            if in_loop {
+                k = followed.go_on_with_sections::<L, R>(
+                    map,
+                    (&times, k, end),
+                    &mut z,
+                    work,
+                    marks,
+                );
+                (end, stop) = (k, k);
+                continue;
             }
             // The loop of steps contains nothing else, so that the carried value stays in registers.
             map.go_on(&times, k, stop, &mut z, work);

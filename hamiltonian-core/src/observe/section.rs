@@ -88,18 +88,17 @@ impl<U: Real> LaneSection<U> {
     /// Otherwise the value is not accepted. This is a fast form of [`lanes_to_mark`](LaneSection::lanes_to_mark) for
     /// the usual step.
     #[inline(always)]
-    pub(crate) fn try_skip(&mut self, value: U, section_lanes: U::Mask) -> bool {
+    pub(crate) fn try_skip(&mut self, value: U, section_lanes: &U::Mask) -> bool {
         if self.period.is_some() {
             return false;
         }
         // A lane is far from 0 if the ratio of the last value to this one is between 1/262144 and 1.476. Then the sign
         // is the same, and the function decreases by less than half of its value, so `lanes_to_mark` returns no lane in
         // the next step either.
-        let least = U::constant(1.0 / 262_144.0, 0.0);
-        let above = least.fma(-value, *self.value());
+        let above = U::constant(-1.0 / 262_144.0, 0.0).fma(value, *self.value());
         let below = U::constant(3.1, 0.0).fma(value, U::constant(-2.1, 0.0) * *self.value());
         let is_far = U::zero().lt(above * below);
-        let is_far = !(!is_far & section_lanes).any();
+        let is_far = is_far.all() || !(!is_far & *section_lanes).any();
         let was_far = core::mem::replace(&mut self.is_far, is_far);
         if is_far && was_far {
             self.newest = (self.newest + 1) & 1;

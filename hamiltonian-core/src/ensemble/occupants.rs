@@ -368,13 +368,15 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
         due.any(|run| !run.followed.sections.is_empty())
     }
 
-    /// Calls a function with each running member whose observer follows signs. The function returns true if the member
-    /// stays.
+    /// Calls a function with each running member whose lane is one of `which` and whose observer follows signs. The
+    /// function returns true if the member stays.
     pub(crate) fn for_each_with_sections(
         &mut self,
+        which: impl Fn(usize) -> bool,
         mut of: impl FnMut(usize, &mut MemberRun<T, S>) -> bool,
     ) {
-        for (lane, (run, status)) in self.runs.iter_mut().zip(&mut self.status).enumerate() {
+        let lanes = self.runs.iter_mut().zip(&mut self.status).enumerate();
+        for (lane, (run, status)) in lanes.filter(|(lane, _)| which(*lane)) {
             let running = run.as_mut().filter(|_| *status == LaneStatus::Running);
             if let Some(run) = running.filter(|run| !run.followed.sections.is_empty())
                 && !of(lane, run)

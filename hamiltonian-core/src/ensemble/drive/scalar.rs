@@ -79,9 +79,10 @@ impl<T: Real> PassedStates<'_, T> {
         host: &mut dyn Host<T, S>,
     ) {
         let recipe: &dyn Recipe<T, S, M::Map> = scheme;
-        occupants.for_each_with_sections(|lane, run| {
+        let which = |lane: usize| self.which[lane];
+        occupants.for_each_with_sections(which, |lane, run| {
             let step = (run.made + self.ahead).checked_sub(self.back);
-            let Some(step) = step.filter(|step| self.which[lane] && *step > run.received) else {
+            let Some(step) = step.filter(|step| *step > run.received) else {
                 return true;
             };
             let mut rows = self.rows.chunks_exact(self.which.len());

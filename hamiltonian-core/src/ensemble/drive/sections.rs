@@ -86,11 +86,11 @@ where
             let [last, one_before] = lane_section.last();
             scatter::<L, T, P>(last, &mut values);
             scatter::<L, T, P>(one_before, &mut before);
-            occupants.for_each_with_sections(|lane, run| {
+            // A member whose sections were not yet in the lanes keeps its own values.
+            let which = |lane: usize| self.section_lanes.lane(lane as u32);
+            occupants.for_each_with_sections(which, |lane, run| {
                 let mut own = run.followed.sections.iter_mut();
-                let own = own.find(|section| section.is_of(function));
-                // A member whose sections were not yet in the lanes keeps its own values.
-                if let Some(section) = own.filter(|_| self.section_lanes.lane(lane as u32)) {
+                if let Some(section) = own.find(|section| section.is_of(function)) {
                     (section.value, section.change) = (values[lane], values[lane] - before[lane]);
                 }
                 true
@@ -117,10 +117,13 @@ where
         self.marks.steps = steps;
         if occupants.is_any_due_with_sections(n) {
             let mut which = vec![false; P::LANES as usize];
-            occupants.for_each_with_sections(|lane, run| {
-                which[lane] = run.made + n == run.stop;
-                true
-            });
+            occupants.for_each_with_sections(
+                |_| true,
+                |lane, run| {
+                    which[lane] = run.made + n == run.stop;
+                    true
+                },
+            );
             self.marks.copy_last(&mut self.last_three);
             self.pass_states::<L>(scheme, self.made + n, (true, &which), occupants, host);
         }

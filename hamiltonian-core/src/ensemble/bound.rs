@@ -69,7 +69,7 @@ where
     S: System<T>,
     M: Scheme<T, S>
         + InPack<T, S, L::Wide>
-        + InPack<T, S, Nf<L::Wide>>
+        + InPack<T, S, Nf<L::WideUnfused>>
         + InPack<T, S, W2<L>>
         + InPack<T, S, Nf<W2<L>>>,
     W: Work<T, S>,
@@ -89,7 +89,7 @@ where
             if fuses || const { !L::FUSES } {
                 work.at::<L, L::Wide, M>(scheme);
             } else {
-                work.at::<L, Nf<L::Wide>, M>(scheme);
+                work.at::<L, Nf<L::WideUnfused>, M>(scheme);
             }
         } else if fuses || const { !L::FUSES } {
             work.at::<L, W2<L>, M>(scheme);

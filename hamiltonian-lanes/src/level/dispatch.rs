@@ -144,6 +144,9 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     type Pack: Base;
     /// As many registers in lock-step as hide the latency of their operations.
     type Wide: Base;
+    /// [`Wide`](Level::Wide) for numbers that do not fuse. Their functions take more operations with more intermediate
+    /// results. The registers are fewer where those would not stay in registers.
+    type WideUnfused: Base;
     /// Four numbers on every level, in the fastest registers for them: four lanes take half the time of eight
     /// where numbers are divided, and one chain of operations is as long in both.
     type Four: Base;
@@ -355,11 +358,12 @@ pub fn dispatch_at_most<K: Kernel>(limit: Cpu, kernel: K) -> K::Output {
     }
 }
 
-/// One level: its type, its registers, how many of them are wide and how many hold eight numbers, its
+/// One level: its type, its registers, how many of them are wide, fused or not, and how many hold eight numbers, its
 /// features.
 macro_rules! level {
     (
-        $(#[$where:meta])* $level:ident, $scalar:ty, $register:ty, $wide:literal, $eight:literal, $four:ty
+        $(#[$where:meta])* $level:ident, $scalar:ty, $register:ty, $wide:literal, $unfused:literal, $eight:literal,
+        $four:ty
         $(, $features:literal)?
     ) => {
         $(#[$where])*
@@ -374,6 +378,7 @@ macro_rules! level {
             type Scalar = $scalar;
             type Pack = V<$register>;
             type Wide = W<V<$register>, $wide>;
+            type WideUnfused = W<V<$register>, $unfused>;
             type Eight = W<V<$register>, $eight>;
             type Four = $four;
             const CPU: Cpu = Cpu::$level;
@@ -427,6 +432,7 @@ level!(
     super::portable::Two,
     4,
     4,
+    4,
     W<V<super::portable::Two>, 2>
 );
 level!(
@@ -434,6 +440,7 @@ level!(
     Sse2,
     f64,
     core::arch::x86_64::__m128d,
+    4,
     4,
     4,
     W<V<core::arch::x86_64::__m128d>, 2>
@@ -444,6 +451,7 @@ level!(
     V<super::neon::One>,
     core::arch::aarch64::float64x2_t,
     8,
+    8,
     4,
     W<V<core::arch::aarch64::float64x2_t>, 2>
 );
@@ -452,6 +460,7 @@ level!(
     Avx2,
     V<super::avx2::One>,
     core::arch::x86_64::__m256d,
+    6,
     6,
     2,
     V<core::arch::x86_64::__m256d>,
@@ -463,6 +472,7 @@ level!(
     V<super::avx2::One>,
     core::arch::x86_64::__m512d,
     8,
+    4,
     1,
     V<core::arch::x86_64::__m256d>,
     "avx512f,avx512dq,avx512cd,avx512bw,avx512vl,avx2,fma"

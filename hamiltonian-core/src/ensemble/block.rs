@@ -141,14 +141,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
                 continue;
             }
             let section = &mut self.sections[at - count];
-            if !section.try_skip(value, &self.section_lanes) {
-                is_any_marked |= L::enter_at(FindMarks {
-                    section,
-                    value,
-                    section_lanes: &self.section_lanes,
-                    marks,
-                });
-            }
+            is_any_marked |= follow_sign::<L, _, _>(section, value, &self.section_lanes, marks);
         }
         is_any_marked && L::enter_at(Mark { marks, step: k })
     }
@@ -175,14 +168,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
                 let value = self
                     .prepared
                     .observable(section.observable, t, &point.q, &point.p);
-                if !section.try_skip(value, &self.section_lanes) {
-                    is_any_marked |= L::enter_at(FindMarks {
-                        section,
-                        value,
-                        section_lanes: &self.section_lanes,
-                        marks,
-                    });
-                }
+                is_any_marked |= follow_sign::<L, _, _>(section, value, &self.section_lanes, marks);
             }
             if is_any_marked && L::enter_at(Mark { marks, step: k }) || k == end {
                 return k;
@@ -190,6 +176,23 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             map.join(times.at(k), z, work);
         }
     }
+}
+
+/// Gives a section its value after a step. Returns true if any lane will be marked.
+#[inline(always)]
+fn follow_sign<L: Level, C: Vector, U: Real>(
+    section: &mut LaneSection<U>,
+    value: U,
+    section_lanes: &U::Mask,
+    marks: &mut Marks<C, U::Mask>,
+) -> bool {
+    !section.try_skip(value, section_lanes)
+        && L::enter_at(FindMarks {
+            section,
+            value,
+            section_lanes,
+            marks,
+        })
 }
 
 /// A call of [`LaneSection::lanes_to_mark`]. It is out of line, since few steps need it and the compiler would move

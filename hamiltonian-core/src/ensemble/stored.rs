@@ -147,10 +147,14 @@ where
             true => format!("{:?}", Cpu::best()),
             false => "any".to_string(),
         };
+        // The name, and the fields of the scheme if they say more.
+        let described = self.scheme.describe();
+        let mut described: Vec<&str> = described.lines().collect();
+        described.dedup();
         let attributes = vec![
             ("system".to_string(), S::NAME.into()),
             ("hamiltonian".to_string(), S::FORMULA.into()),
-            ("scheme".to_string(), self.scheme.describe().into()),
+            ("scheme".to_string(), described.join(": ").into()),
             ("step".to_string(), step),
             ("end".to_string(), end),
             ("seed".to_string(), self.seed.into()),

@@ -52,97 +52,97 @@ hamiltonian! {
     H = 0.5*(q^2 + 1)*(p^2 + 1)
 }
 
-/// Takes the bits of a run's end into a number.
-fn run<S, M>(into: &mut u64, system: S, scheme: M)
-where
-    S: System<f64>,
-    M: Scheme<f64, S>,
-{
-    let mut start = State {
-        q: system.zeros(),
-        p: system.zeros(),
-        t: 0.0,
-    };
-    for k in 0..start.q.len() {
-        // Exact, so that no function of a library comes in.
-        *start.q.component_mut(k) = ((7 * k % 16) as f64 - 7.5) / 16.0;
-        *start.p.component_mut(k) = ((5 * k % 32) as f64 - 15.5) / 64.0;
-    }
-    let mut run =
-        Integrator::new(&system, scheme, start, 0.0625).expect("the start and the step are good");
-    let end = run.advance(4).expect("the run stays finite");
-    let energy = system.energy(end);
-    for x in end.q.components().chain(end.p.components()).chain([energy]) {
-        *into = (*into ^ x.to_bits())
-            .wrapping_mul(0x0000_0100_0000_01b3)
-            .rotate_left(17);
+/// A number in which each bit of the ends of some runs counts.
+struct Ends {
+    step: f64,
+    number: u64,
+}
+
+impl Ends {
+    /// Adds the end of a run and H there.
+    fn add<S, M>(&mut self, system: S, scheme: M)
+    where
+        S: System<f64>,
+        M: Scheme<f64, S>,
+    {
+        let mut start = State {
+            q: system.zeros(),
+            p: system.zeros(),
+            t: 0.0,
+        };
+        for k in 0..start.q.len() {
+            // Exact, so that no function of a library comes in.
+            *start.q.component_mut(k) = ((7 * k % 16) as f64 - 7.5) / 16.0;
+            *start.p.component_mut(k) = ((5 * k % 32) as f64 - 15.5) / 64.0;
+        }
+        let mut run = Integrator::new(&system, scheme, start, self.step)
+            .expect("the start and the step are good");
+        let end = run.advance(4).expect("the run stays finite");
+        let energy = system.energy(end);
+        for x in end.q.components().chain(end.p.components()).chain([energy]) {
+            let mixed = (self.number ^ x.to_bits()).wrapping_mul(0x0000_0100_0000_01b3);
+            self.number = mixed.rotate_left(17);
+        }
     }
 }
 
-/// A number for each kind of run, in which each bit of each end counts.
-pub fn ends() -> Vec<(&'static str, u64)> {
+/// A number for each kind of run with this step, in which each bit of each end counts.
+pub fn ends(step: f64) -> Vec<(&'static str, u64)> {
     let mut ends = Vec::new();
-    let mut of = |name, runs: &dyn Fn(&mut u64)| {
-        let mut end = 0;
-        runs(&mut end);
-        ends.push((name, end));
+    let mut of = |name, runs: &dyn Fn(&mut Ends)| {
+        let mut of_kind = Ends { step, number: 0 };
+        runs(&mut of_kind);
+        ends.push((name, of_kind.number));
     };
     let sizes = || 1..=40;
-    of("neighbours", &|end| {
+    of("neighbours", &|ends| {
         for n in sizes() {
-            run(end, Ring::new(n).expect("a size"), StormerVerlet::default());
+            ends.add(Ring::new(n).expect("a size"), StormerVerlet::default());
         }
     });
-    of("pairs", &|end| {
+    of("pairs", &|ends| {
         for n in sizes() {
-            run(
-                end,
-                Bodies::new(n).expect("a size"),
-                StormerVerlet::default(),
-            );
+            ends.add(Bodies::new(n).expect("a size"), StormerVerlet::default());
         }
     });
-    of("rows", &|end| {
+    of("rows", &|ends| {
         for n in sizes() {
-            run(end, Rows::new(n).expect("a size"), StormerVerlet::default());
+            ends.add(Rows::new(n).expect("a size"), StormerVerlet::default());
         }
     });
-    of("two axes", &|end| {
+    of("two axes", &|ends| {
         for n in sizes() {
-            run(
-                end,
+            ends.add(
                 Field::new(n, 3).expect("two sizes"),
                 StormerVerlet::default(),
             );
-            run(
-                end,
+            ends.add(
                 Field::new(3, n).expect("two sizes"),
                 StormerVerlet::default(),
             );
         }
     });
-    of("three axes", &|end| {
+    of("three axes", &|ends| {
         for n in sizes() {
-            run(
-                end,
+            ends.add(
                 Solid::new(2, 3, n).expect("three sizes"),
                 StormerVerlet::default(),
             );
         }
     });
-    of("stages", &|end| {
-        run(end, Pendulum::default(), Gauss::<4>::default());
-        run(end, Pendulum::default(), GaussNystrom::<8>::default());
-        run(end, Product {}, Gauss::<8>::default());
-        run(end, Ring::new(5).expect("a size"), Gauss::<4>::default());
+    of("stages", &|ends| {
+        ends.add(Pendulum::default(), Gauss::<4>::default());
+        ends.add(Pendulum::default(), GaussNystrom::<8>::default());
+        ends.add(Product {}, Gauss::<8>::default());
+        ends.add(Ring::new(5).expect("a size"), Gauss::<4>::default());
     });
-    of("implicit schemes", &|end| {
-        run(end, Product {}, ImplicitMidpoint::default());
-        run(end, Product {}, DiscreteGradient::default());
+    of("implicit schemes", &|ends| {
+        ends.add(Product {}, ImplicitMidpoint::default());
+        ends.add(Product {}, DiscreteGradient::default());
     });
-    of("exact flows", &|end| {
-        run(end, Product {}, Strang);
-        run(end, Pendulum::default(), BlanesMoan4);
+    of("exact flows", &|ends| {
+        ends.add(Product {}, Strang);
+        ends.add(Pendulum::default(), BlanesMoan4);
     });
     ends
 }

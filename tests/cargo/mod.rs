@@ -95,7 +95,7 @@ pub struct Outcome {
     pub success: bool,
     /// Everything it said.
     pub text: String,
-    /// What the program printed that it ran.
+    /// The output of the program that cargo ran.
     pub printed: String,
 }
 

@@ -25,14 +25,13 @@ impl Interpreted {
             .hamiltonian
             .is_some_and(|h| model.dag.dependence(h).on(Dependence::P));
         let structure = structure::analyse(&mut model);
-        let (always, separable) = PURPOSES.split_at(8);
-        let mut wanted = always.to_vec();
+        let mut wanted = PURPOSES[..8].to_vec();
         if let Ok(split) = &structure.separable {
             let split = model.dag.add(&[split.kinetic, split.potential]);
             if !separates_as_written(&mut model) {
                 model.hamiltonian = Some(split);
             }
-            wanted.extend(&separable[..2]);
+            wanted.extend([Purpose::Kick, Purpose::Drift]);
         } else if let Ok(splitting) = split::find(&mut model) {
             model.pieces = splitting.pieces;
         }

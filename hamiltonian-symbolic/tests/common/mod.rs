@@ -12,7 +12,8 @@ use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
 
-/// What the macro asks for where H is separable, in its order; the first eight wherever it is not.
+/// The macro asks for these functions of a separable H, in this order. Of another H it asks for the first eight and
+/// the last.
 pub const PURPOSES: [Purpose; 11] = [
     Purpose::Energy,
     Purpose::EnergyAndGradient,

@@ -12,7 +12,7 @@
 //! | [`Level::Scalar`] | 1 | as the level's packs | a [`Kernel`]'s level |
 //! | [`Level::Pack`] | 2, 4 or 8 | one rounding on Neon, Avx2, Avx512 | the same: one register |
 //! | [`Level::Wide`] | 8, 16, 24 or 64 | the same | the same: registers in lock-step |
-//! | [`Level::WideUnfused`] | 8, 16, 24 or 32 | the same | the same, for packs in [`Nf`] |
+//! | [`Level::Several`] | 8, 16, 24 or 32 | the same | the same, for more numbers |
 //! | [`Level::Eight`] | 8 | the same | the same: as many registers as it takes |
 //! | [`W<P, K>`](W) | `K` × those of `P` | as `P` | any pack, `f64` too |
 //! | [`Nf<P>`](Nf) | those of `P` | two roundings: the bits of `f64` | any pack |

@@ -69,7 +69,8 @@ where
     S: System<T>,
     M: Scheme<T, S>
         + InPack<T, S, L::Wide>
-        + InPack<T, S, Nf<L::WideUnfused>>
+        + InPack<T, S, L::Several>
+        + InPack<T, S, Nf<L::Several>>
         + InPack<T, S, W2<L>>
         + InPack<T, S, Nf<W2<L>>>,
     W: Work<T, S>,
@@ -77,24 +78,38 @@ where
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let WorkAtLevel {
-            scheme,
-            work,
-            fuses,
-            ..
-        } = self;
-        // The widths differ only in speed. The conditions are constant, so the compiler emits no code for the other
-        // width. Levels without fused products have only one arithmetic.
-        if const { fits_in_registers::<T, S, M>() } {
-            if fuses || const { !L::FUSES } {
-                work.at::<L, L::Wide, M>(scheme);
-            } else {
-                work.at::<L, Nf<L::WideUnfused>, M>(scheme);
-            }
-        } else if fuses || const { !L::FUSES } {
-            work.at::<L, W2<L>, M>(scheme);
+        // The widths differ only in speed: more registers in lock-step hide more of the latency of a step, until its
+        // numbers do not stay in registers. The conditions are constant, so the compiler emits no code for the other
+        // widths.
+        if const { numbers::<T, S, M>() <= 2 } {
+            self.at::<L, L::Wide, Nf<L::Several>>();
+        } else if const { numbers::<T, S, M>() <= 4 } {
+            self.at::<L, L::Several, Nf<L::Several>>();
         } else {
-            work.at::<L, Nf<W2<L>>, M>(scheme);
+            self.at::<L, W2<L>, Nf<W2<L>>>();
+        }
+    }
+}
+
+impl<T, S, M, W> WorkAtLevel<'_, T, S, M, W>
+where
+    T: Real,
+    S: System<T>,
+    W: Work<T, S>,
+{
+    /// Does the work in one of two packs. Levels without fused products have only one arithmetic.
+    #[inline(always)]
+    fn at<L, Fused, Unfused>(self)
+    where
+        L: Level,
+        Fused: Pack,
+        Unfused: Pack,
+        M: InPack<T, S, Fused> + InPack<T, S, Unfused>,
+    {
+        if self.fuses || const { !L::FUSES } {
+            self.work.at::<L, Fused, M>(self.scheme);
+        } else {
+            self.work.at::<L, Unfused, M>(self.scheme);
         }
     }
 }
@@ -128,11 +143,10 @@ impl<T: Real, S: System<T>> Work<T, S> for DeviateMembers<'_, '_, T, S> {
     }
 }
 
-/// Returns true if a step has few enough numbers for several registers in lock-step to hide its latency. With
-/// more numbers, registers spill.
-const fn fits_in_registers<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
-    const MOST: usize = 4 * size_of::<f64>();
-    size_of::<<M::Map as Map>::Carried>() + size_of::<<M::Map as Map>::Work>() <= MOST
+/// The numbers of a step: those that it carries and its scratch.
+const fn numbers<T: Real, S: System<T>, M: Scheme<T, S>>() -> usize {
+    let size = size_of::<<M::Map as Map>::Carried>() + size_of::<<M::Map as Map>::Work>();
+    size.div_ceil(size_of::<f64>())
 }
 
 impl<S, M, T> Ensembles<S, T> for M

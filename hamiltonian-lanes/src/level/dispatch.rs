@@ -142,11 +142,11 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     type Scalar: Base;
     /// One register.
     type Pack: Base;
-    /// As many registers in lock-step as hide the latency of their operations.
+    /// As many registers in lock-step as hide the latency of their operations, for one or two numbers.
     type Wide: Base;
-    /// [`Wide`](Level::Wide) for numbers that do not fuse. Their functions take more operations with more intermediate
-    /// results. The registers are fewer where those would not stay in registers.
-    type WideUnfused: Base;
+    /// Registers in lock-step for three or four numbers, and for numbers that do not fuse, whose functions have more
+    /// intermediate results: as many as stay in registers.
+    type Several: Base;
     /// Four numbers on every level, in the fastest registers for them: four lanes take half the time of eight
     /// where numbers are divided, and one chain of operations is as long in both.
     type Four: Base;
@@ -358,11 +358,10 @@ pub fn dispatch_at_most<K: Kernel>(limit: Cpu, kernel: K) -> K::Output {
     }
 }
 
-/// One level: its type, its registers, how many of them are wide, fused or not, and how many hold eight numbers, its
-/// features.
+/// One level: its type, its registers, how many of them are wide, are several, and hold eight numbers, its features.
 macro_rules! level {
     (
-        $(#[$where:meta])* $level:ident, $scalar:ty, $register:ty, $wide:literal, $unfused:literal, $eight:literal,
+        $(#[$where:meta])* $level:ident, $scalar:ty, $register:ty, $wide:literal, $several:literal, $eight:literal,
         $four:ty
         $(, $features:literal)?
     ) => {
@@ -378,7 +377,7 @@ macro_rules! level {
             type Scalar = $scalar;
             type Pack = V<$register>;
             type Wide = W<V<$register>, $wide>;
-            type WideUnfused = W<V<$register>, $unfused>;
+            type Several = W<V<$register>, $several>;
             type Eight = W<V<$register>, $eight>;
             type Four = $four;
             const CPU: Cpu = Cpu::$level;

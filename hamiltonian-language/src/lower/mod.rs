@@ -6,6 +6,10 @@
 //!
 //! A vector is never built; parents demand components of it. `demand` passes these demands from the
 //! roots down to the leaves, `evaluate` answers them from the leaves up.
+//!
+//! Check and lower are two passes, because what is not demanded is not evaluated: `[1/0, x][1]` is a
+//! formula. One forward pass would meet `1/0` first. Only after a loop's body is it known whether the
+//! loop is unrolled, and a fault of the number put in is reported at tokens, which shared nodes lack.
 
 mod demand;
 mod domain;

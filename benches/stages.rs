@@ -19,7 +19,15 @@ mod planets;
 hamiltonian! {
     /// A planet on an ellipse.
     pub struct Kepler {}
-    H(x, y; u, v) = (u^2 + v^2)/2 - 1/sqrt(x^2 + y^2)
+    H(x, y; u, v) = (u^2 + v^2)/2 - 1/sqrt(x^2 + y^2);
+    monitor radius = sqrt(x^2 + y^2)
+}
+
+hamiltonian! {
+    /// The same in the time s, dt = r ds.
+    pub struct Sundman {}
+    H(x, y; u, v) = (u^2 + v^2)/2 - 1/sqrt(x^2 + y^2);
+    dt = sqrt(x^2 + y^2)*ds
 }
 
 hamiltonian! {
@@ -167,6 +175,7 @@ fn main() {
         h,
         former::gauss::<_, 8>,
     );
+    in_another_time();
     let start = State::new([0.1, -0.1], [0.3, 0.2]);
     let system = HenonHeiles {};
     compare(
@@ -257,6 +266,32 @@ fn main() {
     one_stage("(34)", &NonSeparable {}, State::new([-3.0], [0.0]), 0.01);
     let start = State::new([0.1, -0.1], [0.3, 0.2]);
     one_stage("Henon-Heiles", &HenonHeiles {}, start, 0.05);
+}
+
+/// Measures [`Gauss`] in the time of the distance, which the definition declares or a monitor is.
+fn in_another_time() {
+    let (gauss, h) = (Gauss::<8>::default(), TAU / 40.0);
+    let start = State::new([0.1, 0.0], [0.0, 19.0_f64.sqrt()]);
+    let system = Sundman {};
+    let declared = system.from_declared(&start);
+    compare(
+        "dt = r ds",
+        &system,
+        gauss,
+        &declared,
+        h,
+        former::gauss::<_, 8>,
+    );
+    let system = TimeTransformed::by(Kepler {}, "radius").expect("it is declared");
+    let start = system.start(&start).expect("r is positive");
+    compare(
+        "monitor r",
+        &system,
+        gauss,
+        &start,
+        h,
+        former::gauss::<_, 8>,
+    );
 }
 
 /// Measures [`Gauss`] with one stage against [`ImplicitMidpoint`].

@@ -41,6 +41,14 @@ hamiltonian! {
     H(q; p) = p^2/2 + omega^2*(q^2/2 + q^4/10)
 }
 
+hamiltonian! {
+    /// Kepler's problem, with monitors of its time.
+    pub struct Planet { mu = 1.0 }
+    H(x, y; u, v) = (u^2 + v^2)/2 - mu/sqrt(x^2 + y^2);
+    monitor radius = sqrt(x^2 + y^2);
+    monitor area = x^2 + y^2
+}
+
 /// The run after some steps, and between two of them, in lanes and without.
 fn same_bits<S, M>(system: &S, scheme: M, start: &State<S::Vector>, h: f64) -> State<S::Vector>
 where
@@ -104,6 +112,48 @@ fn lanes_change_no_bits() {
             GaussNystrom::<6>::default(), GaussNystrom::<8>::default(),
         );
     }
+}
+
+/// A system in another time is made of two, each of which is gathered.
+#[test]
+fn lanes_change_no_bits_in_another_time() {
+    let declared = State::new([0.1, 0.0], [0.0, 19.0_f64.sqrt()]);
+    for monitor in ["radius", "area"] {
+        let system = TimeTransformed::by(Planet::default(), monitor).unwrap();
+        let start = system.start(&declared).unwrap();
+        all_same!(&system, &start, 0.1;
+            Gauss::<4>::default(), Gauss::<6>::default(), Gauss::<8>::default(),
+            Gauss::<9>::default(), MomentumVariational::<5>::default(),
+        );
+    }
+    // H itself is a monitor that depends on momenta.
+    let system = TimeTransformed::new(NonSeparable {}, NonSeparable {});
+    let start = system.start(&State::new([-1.2], [0.4])).unwrap();
+    all_same!(&system, &start, 0.1; Gauss::<4>::default(), Gauss::<8>::default());
+    // A run of dual numbers, and one that is saved.
+    let system = TimeTransformed::by(Planet::default(), "radius").unwrap();
+    let end = |lanes| {
+        let start = State::over(
+            [Dual::variable(0.1), Dual::fixed(0.0)],
+            [Dual::fixed(0.0), Dual::fixed(19.0_f64.sqrt())],
+        );
+        let start = system.start(&start).unwrap();
+        let run = Integrator::new(&system, Gauss::<8>::default(), start, Dual::fixed(0.1));
+        let mut run = run.unwrap().lanes(lanes);
+        run.advance(30).unwrap();
+        run.state().q.x[0]
+    };
+    let (beside, alone) = (end(true), end(false));
+    assert_eq!((beside.re, beside.eps), (alone.re, alone.eps));
+    let start = system.start(&declared).unwrap();
+    let mut whole = Integrator::new(&system, Gauss::<8>::default(), start, 0.1).unwrap();
+    whole.advance(20).unwrap();
+    let saved = Checkpoint::from_bytes(&whole.checkpoint().to_bytes()).unwrap();
+    let again = Integrator::resume(&system, Gauss::<8>::default(), saved).unwrap();
+    let mut again = again.lanes(false);
+    again.advance(20).unwrap();
+    whole.advance(20).unwrap();
+    assert_eq!(again.state(), whole.state());
 }
 
 /// Newton's method solves steps longer than the fastest motion, which no fixed point does. (Lobatto's pairs

@@ -5,7 +5,7 @@
 
 use crate::error::Error;
 use crate::flow::VectorField;
-use crate::system::gather::Gather;
+use crate::system::gather::{Gather, InPack, Kept, with_whole};
 use crate::system::{Autonomous, Dynamics, Group, Observable, System, Unforced};
 use crate::vector::Vector;
 use alloc::string::ToString;
@@ -245,6 +245,154 @@ where
             c,
         }
     }
+    #[inline(always)]
+    fn add_field(
+        &self,
+        c: T,
+        t: T,
+        q: &P::Vector,
+        p: &P::Vector,
+        into_q: &mut P::Vector,
+        into_p: &mut P::Vector,
+    ) {
+        let (mut by_q, mut by_p) = (q.clone(), p.clone());
+        self.derivatives(t, q, p, Some(&mut by_q), Some(&mut by_p));
+        for i in 0..q.len() {
+            *into_p.component_mut(i) -= c * by_q.component(i);
+            *into_q.component_mut(i) += c * by_p.component(i);
+        }
+    }
+    #[inline(always)]
+    fn in_pack<L: Pack, K: InPack<T, P::Vector, L>>(
+        &self,
+        kept: &mut Kept,
+        kernel: K,
+    ) -> Option<K::Output> {
+        let ready = self;
+        self.plain
+            .in_pack::<L, _>(kept, ToFirst { ready, kernel })?
+    }
+}
+
+/// A kernel on its way to packs: the system over numbers is there, those over duals follow.
+struct ToFirst<'a, R, K> {
+    ready: &'a R,
+    kernel: K,
+}
+
+impl<T, P, F, G, L, K> InPack<T, P::Vector, L> for ToFirst<'_, ReadyObserved<T, P, F, G>, K>
+where
+    T: Real,
+    P: Dynamics<T>,
+    F: Dynamics<Dual<T>>,
+    G: Dynamics<Dual<Dual<T>>>,
+    L: Pack,
+    K: InPack<T, P::Vector, L>,
+{
+    type Output = Option<K::Output>;
+    #[inline(always)]
+    fn run<D>(self, plain: &D, kept: &mut Kept) -> Self::Output
+    where
+        D: Dynamics<T::Over<L>, Vector = <P::Vector as Vector>::Over<T::Over<L>>> + 'static,
+    {
+        let ToFirst { ready, kernel } = self;
+        let kernel = ToSecond {
+            ready,
+            plain,
+            kernel,
+        };
+        ready.first.0.in_pack::<L, _>(kept, kernel)?
+    }
+}
+
+/// The same with the system over duals.
+struct ToSecond<'a, R, D, K> {
+    ready: &'a R,
+    plain: &'a D,
+    kernel: K,
+}
+
+impl<T, P, F, G, D, L, K> InPack<Dual<T>, F::Vector, L>
+    for ToSecond<'_, ReadyObserved<T, P, F, G>, D, K>
+where
+    T: Real,
+    P: Dynamics<T>,
+    F: Dynamics<Dual<T>>,
+    G: Dynamics<Dual<Dual<T>>>,
+    D: Dynamics<T::Over<L>, Vector = <P::Vector as Vector>::Over<T::Over<L>>> + 'static,
+    L: Pack,
+    K: InPack<T, P::Vector, L>,
+{
+    type Output = Option<K::Output>;
+    #[inline(always)]
+    fn run<E>(self, first: &E, kept: &mut Kept) -> Self::Output
+    where
+        E: Dynamics<Dual<T::Over<L>>, Vector = <F::Vector as Vector>::Over<Dual<T::Over<L>>>>
+            + 'static,
+    {
+        let ToSecond {
+            ready,
+            plain,
+            kernel,
+        } = self;
+        let kernel = ToAll {
+            ready,
+            plain,
+            first,
+            kernel,
+        };
+        ready.second.0.in_pack::<L, _>(kept, kernel)
+    }
+}
+
+/// A kernel for the observable, when the system over duals of duals is there too.
+struct ToAll<'a, R, D, E, K> {
+    ready: &'a R,
+    plain: &'a D,
+    first: &'a E,
+    kernel: K,
+}
+
+impl<T, P, F, G, D, E, L, K> InPack<Dual<Dual<T>>, G::Vector, L>
+    for ToAll<'_, ReadyObserved<T, P, F, G>, D, E, K>
+where
+    T: Real,
+    P: Dynamics<T>,
+    F: Dynamics<Dual<T>>,
+    G: Dynamics<Dual<Dual<T>>>,
+    D: Dynamics<T::Over<L>, Vector = <P::Vector as Vector>::Over<T::Over<L>>> + 'static,
+    E: Dynamics<Dual<T::Over<L>>, Vector = <F::Vector as Vector>::Over<Dual<T::Over<L>>>> + 'static,
+    L: Pack,
+    K: InPack<T, P::Vector, L>,
+{
+    type Output = K::Output;
+    #[inline(always)]
+    fn run<C>(self, second: &C, kept: &mut Kept) -> K::Output
+    where
+        C: Dynamics<
+                Dual<Dual<T::Over<L>>>,
+                Vector = <G::Vector as Vector>::Over<Dual<Dual<T::Over<L>>>>,
+            > + 'static,
+    {
+        let ReadyObserved {
+            first: (_, first),
+            second: (_, zeros),
+            index,
+            ..
+        } = self.ready;
+        let whole = || ReadyObserved {
+            plain: self.plain.clone(),
+            first: (self.first.clone(), first.zeros_over()),
+            second: (second.clone(), zeros.zeros_over()),
+            index: *index,
+        };
+        with_whole(
+            kept,
+            |whole: &ReadyObserved<_, D, E, C>| whole.index == *index,
+            whole,
+            self.kernel,
+        )
+    }
 }
 
 impl<T, P, F, G> Gather<T> for ReadyObserved<T, P, F, G>
@@ -302,11 +450,6 @@ where
         into_q: &mut P::Vector,
         into_p: &mut P::Vector,
     ) {
-        let (mut by_q, mut by_p) = (q.clone(), p.clone());
-        (self.ready).derivatives(t, q, p, Some(&mut by_q), Some(&mut by_p));
-        for i in 0..q.len() {
-            *into_p.component_mut(i) -= self.c * by_q.component(i);
-            *into_q.component_mut(i) += self.c * by_p.component(i);
-        }
+        self.ready.add_field(self.c, t, q, p, into_q, into_p);
     }
 }

@@ -42,7 +42,7 @@ pub use crate::push::Coupled;
 pub use crate::reach::Reach;
 pub use crate::slabs::rows;
 pub use crate::state::{Gradient, Plain, Point, State};
-pub use crate::system::gather::{Gather, InLanes, Kept, in_lanes};
+pub use crate::system::gather::{Gather, InPack, Kept, in_pack};
 pub use crate::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced,
@@ -343,12 +343,15 @@ macro_rules! __computed_as_chosen {
             self.0.data.0 = _to;
         }
         #[inline(always)]
-        fn in_lanes<__K: $crate::private::InLanes<$scalar, Self::Vector>>(
+        fn in_pack<
+            __P: $crate::private::Pack,
+            __K: $crate::private::InPack<$scalar, Self::Vector, __P>,
+        >(
             &self,
             _kept: &mut $crate::private::Kept,
             _kernel: __K,
         ) -> $crate::private::Option<__K::Output> {
-            $crate::private::in_lanes(self, _kept, _kernel)
+            $crate::private::in_pack(self, _kept, _kernel)
         }
     };
 }

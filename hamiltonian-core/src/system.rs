@@ -13,8 +13,8 @@ pub mod gather;
 use crate::state::{Gradient, Point, State};
 use crate::uneven::same_part;
 use crate::vector::Vector;
-use gather::{InLanes, Kept};
-use hamiltonian_lanes::{Dual, Real};
+use gather::{InPack, Kept};
+use hamiltonian_lanes::{Dual, Pack, Real};
 
 /// One declared coordinate, a number or an array: `q`, `x[N]`, `q[n][3]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -299,6 +299,21 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// J∇H, and the force where there is one, with the coefficient `c` folded into the prepared
     /// constants.
     fn field(&self, c: T) -> Self::Field;
+    /// Adds what the [`field`](Dynamics::field) with the coefficient `c` adds, for a coefficient that changes with
+    /// each evaluation. The provided method makes that field; a system whose field copies more than a few numbers
+    /// overrides it.
+    #[inline(always)]
+    fn add_field(
+        &self,
+        c: T,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        into_q: &mut Self::Vector,
+        into_p: &mut Self::Vector,
+    ) {
+        self.field(c).add(t, q, p, into_q, into_p);
+    }
 
     /// How work on this system is computed; a field of emitted systems. The provided method, for systems
     /// written by hand, returns the default.
@@ -310,14 +325,15 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// system from now on. The provided method does nothing.
     fn set_arithmetic(&mut self, _: Arithmetic) {}
 
-    /// Runs a kernel with this system in all lanes of a pack, on the best level of this CPU. The provided
-    /// method, for systems written by hand, runs nothing and returns `None`: they stay scalar. With [`Gather`] it is
-    /// [`gather::in_lanes`](crate::schemes::author::gather::in_lanes)`(self, kept, kernel)`, which returns
-    /// `None` if there are no lanes for this scalar or this system. `kept` is memory of the caller's.
+    /// Runs a kernel with this system in all lanes of the pack `P`, for
+    /// [`gather::in_lanes`](crate::schemes::author::gather::in_lanes). The provided method, for systems written by
+    /// hand, runs nothing and returns `None`: they stay scalar. With [`Gather`] it is
+    /// [`gather::in_pack`](crate::schemes::author::gather::in_pack)`(self, kept, kernel)`. `kept` is memory of the
+    /// caller's.
     ///
     /// [`Gather`]: crate::schemes::author::Gather
     #[inline(always)]
-    fn in_lanes<K: InLanes<T, Self::Vector>>(
+    fn in_pack<P: Pack, K: InPack<T, Self::Vector, P>>(
         &self,
         _kept: &mut Kept,
         _kernel: K,

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::flow::VectorField;
 use crate::observed::Observed;
 use crate::state::{Pair, State};
-use crate::system::gather::Gather;
+use crate::system::gather::{Gather, InPack, Kept, with_whole};
 use crate::system::{Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced};
 use crate::vector::{Vector, dot};
 use alloc::vec::Vec;
@@ -249,8 +249,7 @@ where
         dp.x.scale(scale);
         // A field subtracts ∂g/∂q.
         dq.x.scale(-scale);
-        let field = self.monitor.field(shell);
-        field.add(t, &q.x, &p.x, &mut dp.x, &mut dq.x);
+        (self.monitor).add_field(shell, t, &q.x, &p.x, &mut dp.x, &mut dq.x);
         dq.x.scale(-T::one());
         dq.y[0] = T::zero();
         dp.y[0] = scale;
@@ -306,6 +305,68 @@ where
             c,
         }
     }
+    #[inline(always)]
+    fn in_pack<L: Pack, K: InPack<T, Self::Vector, L>>(
+        &self,
+        kept: &mut Kept,
+        kernel: K,
+    ) -> Option<K::Output> {
+        let monitor = &self.monitor;
+        self.system
+            .in_pack::<L, _>(kept, ToMonitor { monitor, kernel })?
+    }
+}
+
+/// A kernel on its way to packs: the system is there, the monitor follows.
+struct ToMonitor<'a, G, K> {
+    monitor: &'a G,
+    kernel: K,
+}
+
+impl<T, G, L, K> InPack<T, G::Vector, L> for ToMonitor<'_, G, K>
+where
+    T: Real,
+    G: Dynamics<T>,
+    L: Pack,
+    K: InPack<T, WithTime<G::Vector>, L>,
+{
+    type Output = Option<K::Output>;
+    #[inline(always)]
+    fn run<D>(self, system: &D, kept: &mut Kept) -> Self::Output
+    where
+        D: Dynamics<T::Over<L>, Vector = <G::Vector as Vector>::Over<T::Over<L>>> + 'static,
+    {
+        let kernel = self.kernel;
+        (self.monitor).in_pack::<L, _>(kept, ToBoth { system, kernel })
+    }
+}
+
+/// A kernel for the system in the packs where it is, when the monitor is there too.
+struct ToBoth<'a, D, K> {
+    system: &'a D,
+    kernel: K,
+}
+
+impl<T, V, D, L, K> InPack<T, V, L> for ToBoth<'_, D, K>
+where
+    T: Real,
+    V: Vector<Scalar = T>,
+    D: Dynamics<T::Over<L>, Vector = V::Over<T::Over<L>>> + 'static,
+    L: Pack,
+    K: InPack<T, WithTime<V>, L>,
+{
+    type Output = K::Output;
+    #[inline(always)]
+    fn run<G>(self, monitor: &G, kept: &mut Kept) -> K::Output
+    where
+        G: Dynamics<T::Over<L>, Vector = V::Over<T::Over<L>>> + 'static,
+    {
+        let whole = || InNewTime {
+            system: self.system.clone(),
+            monitor: monitor.clone(),
+        };
+        with_whole(kept, |_| true, whole, self.kernel)
+    }
 }
 
 impl<T, P, G> Gather<T> for InNewTime<P, G>
@@ -358,10 +419,8 @@ where
         let InNewTime { system, monitor } = &self.dynamics;
         let scale = self.c * monitor.energy(t, &q.x, &p.x);
         let shell = self.c * (system.energy(t, &q.x, &p.x) + p.y[0]);
-        let field = system.field(scale);
-        field.add(t, &q.x, &p.x, &mut into_q.x, &mut into_p.x);
-        let field = monitor.field(shell);
-        field.add(t, &q.x, &p.x, &mut into_q.x, &mut into_p.x);
+        system.add_field(scale, t, &q.x, &p.x, &mut into_q.x, &mut into_p.x);
+        monitor.add_field(shell, t, &q.x, &p.x, &mut into_q.x, &mut into_p.x);
         into_q.y[0] += scale;
     }
 }

@@ -25,7 +25,7 @@ pub use crate::map::{Cause, Clock, Map, ScalarOf, Step};
 pub use crate::observed::Observed;
 pub use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Symmetric};
 pub use crate::state::{Carried, Pair, Point};
-pub use crate::system::gather::{self, Gather, InLanes, Kept};
+pub use crate::system::gather::{self, Gather, InLanes, InPack, Kept};
 pub use crate::system::{Arithmetic, Cyclic, Dynamics, Group, Observable, ObservableKind};
 pub use crate::transformed::WithTime;
 

@@ -16,7 +16,7 @@ use crate::flow::Scratch;
 use crate::map::{Cause, Clock, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::gather::{InLanes, Kept};
+use crate::system::gather::{InLanes, Kept, in_lanes};
 use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced};
 use crate::vector::Vector;
 use core::fmt;
@@ -420,7 +420,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
             z,
             sums: &mut work.sums,
         };
-        self.dynamics.in_lanes(&mut work.kept, steps)
+        in_lanes(&self.dynamics, &mut work.kept, steps)
     }
 
     #[inline(always)]
@@ -483,7 +483,7 @@ where
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
     where
         P: Pack,
-        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>>,
+        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>> + 'static,
     {
         let StepsBeside {
             map,

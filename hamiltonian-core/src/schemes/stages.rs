@@ -23,7 +23,7 @@ use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Clock, Map, Step};
 use crate::state::{Pair, Point, State};
 use crate::system::Dynamics;
-use crate::system::gather::Kept;
+use crate::system::gather::{Kept, in_lanes};
 use crate::vector::Vector;
 use core::ops::Range;
 use hamiltonian_lanes::{Mask, Real};
@@ -482,7 +482,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
             n,
             z,
         };
-        self.dynamics.in_lanes(&mut work.kept, steps)
+        in_lanes(&self.dynamics, &mut work.kept, steps)
     }
 
     #[inline(always)]

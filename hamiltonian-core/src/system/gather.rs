@@ -5,8 +5,9 @@
 //! remaining lanes; prepared values are computed once, over the scalar, and copied.
 //!
 //! Two routes lead here. An ensemble gathers the prepared systems of its members ([`Gather`]). A
-//! scheme or a loop of a single run passes an [`InLanes`] kernel to [`Dynamics::in_lanes`], which
-//! gathers one system into all lanes at the level of the CPU.
+//! scheme of a single run passes an [`InLanes`] kernel to [`in_lanes`], which chooses the pack at the
+//! level of the CPU, and [`Dynamics::in_pack`] gathers one system into all lanes of it. A system made
+//! of others, such as one in another time, passes its kernel on to each of them in turn.
 
 use super::Dynamics;
 use crate::vector::Vector;
@@ -27,10 +28,10 @@ pub const MOST: usize = 128;
 /// A prepared system that can be gathered into a pack with others of its definition.
 ///
 /// The macro implements it for every definition. A system written by hand implements it to take part in
-/// ensembles and, with [`Dynamics::in_lanes`], to let implicit schemes use packs in a single run:
+/// ensembles and, with [`Dynamics::in_pack`], to let implicit schemes use packs in a single run:
 ///
 /// ```
-/// use hamiltonian::{Unforced, Vector, schemes::author::{Dynamics, Gather, InLanes, VectorField, gather}};
+/// use hamiltonian::{Unforced, Vector, schemes::author::{Dynamics, Gather, InPack, Kept, VectorField, gather}};
 /// use hamiltonian::lanes::Pack;
 /// use hamiltonian::nalgebra::SVector;
 /// use hamiltonian::prelude::*;
@@ -62,6 +63,9 @@ pub const MOST: usize = 128;
 /// #     fn hessian_vector(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>, _: &mut SVector<T, 1>) {}
 /// #     fn observable(&self, _: usize, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
 /// #     fn field(&self, _: T) -> Self { self.clone() }
+/// #     fn in_pack<P: Pack, K: InPack<T, SVector<T, 1>, P>>(&self, kept: &mut Kept, kernel: K) -> Option<K::Output> {
+/// #         gather::in_pack(self, kept, kernel)
+/// #     }
 /// # }
 /// # impl<T: Real> VectorField<SVector<T, 1>> for Ready<T> {
 /// #     fn add(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>, _: &mut SVector<T, 1>) {}
@@ -105,7 +109,20 @@ pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> Self::Output
     where
         P: Pack,
-        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>>;
+        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static;
+}
+
+/// Work that is done with a system in all lanes of the pack `P`: an [`InLanes`] kernel at its level, or a step
+/// on the way of one through a system that is made of others.
+///
+/// `run` must be `#[inline(always)]`, as for [`Kernel`].
+pub trait InPack<T: Real, V: Vector<Scalar = T>, P: Pack> {
+    /// The computation.
+    type Output;
+    /// Computes the result, with what [`InLanes::run`] has.
+    fn run<D>(self, system: &D, kept: &mut Kept) -> Self::Output
+    where
+        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static;
 }
 
 /// Memory of work in lanes, whose type is the level's: a part of the scratch of a map. Its content never
@@ -145,12 +162,11 @@ impl fmt::Debug for Kept {
     }
 }
 
-/// Runs a kernel on the best level of this CPU with one system in all lanes: the implementation of
-/// [`Dynamics::in_lanes`] for systems with [`Gather`]. Nothing runs if `T` has no form in lanes, if
-/// the system's [arithmetic](Dynamics::arithmetic) does not use them, or if the CPU has none of the
-/// kernel's [levels](InLanes::LEVELS).
+/// Runs a kernel on the best level of this CPU with one system in all lanes. Nothing runs if `T` has no
+/// form in lanes, if the system [has none](Dynamics::in_pack), if its [arithmetic](Dynamics::arithmetic)
+/// does not use them, or if the CPU has none of the kernel's [levels](InLanes::LEVELS).
 #[inline(always)]
-pub fn in_lanes<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>>(
+pub fn in_lanes<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>>(
     system: &D,
     kept: &mut Kept,
     kernel: K,
@@ -175,30 +191,7 @@ struct Entry<'a, T, D, K> {
     scalar: PhantomData<T>,
 }
 
-/// The value that [`in_lanes`] keeps: the gathered system.
-struct Gathered<D, O> {
-    of: D,
-    over: O,
-    kept: Kept,
-}
-
-impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Entry<'_, T, D, K> {
-    #[inline(always)]
-    fn over<P: Pack>(self) -> K::Output {
-        let system = self.system;
-        let Gathered { over, kept, .. } = self.kept.get(
-            |kept: &Gathered<D, D::Over<T::Over<P>>>| kept.of.equals(system),
-            || Gathered {
-                of: system.clone(),
-                over: D::gather::<P>(&[system]),
-                kept: Kept::default(),
-            },
-        );
-        self.kernel.run::<P, _>(over, kept)
-    }
-}
-
-impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, D, K> {
+impl<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, D, K> {
     type Output = Option<K::Output>;
     const BEST: Cpu = K::LEVELS[1];
     #[inline(always)]
@@ -207,12 +200,73 @@ impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, D,
         if const { (L::CPU as u8) < K::LEVELS[0] as u8 } {
             return None;
         }
-        Some(if self.system.arithmetic().fused {
-            self.over::<K::Pack<L>>()
+        let Entry { system, kept, .. } = self;
+        let kernel = AtLevel(self.kernel);
+        if system.arithmetic().fused {
+            system.in_pack::<K::Pack<L>, _>(kept, kernel)
         } else {
-            self.over::<Nf<K::Pack<L>>>()
-        })
+            system.in_pack::<Nf<K::Pack<L>>, _>(kept, kernel)
+        }
     }
+}
+
+/// An [`InLanes`] kernel, whose pack is chosen.
+struct AtLevel<K>(K);
+
+impl<T: Real, V: Vector<Scalar = T>, P: Pack, K: InLanes<T, V>> InPack<T, V, P> for AtLevel<K> {
+    type Output = K::Output;
+    #[inline(always)]
+    fn run<D>(self, system: &D, kept: &mut Kept) -> K::Output
+    where
+        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static,
+    {
+        self.0.run::<P, D>(system, kept)
+    }
+}
+
+/// The value that [`in_pack`] keeps: the gathered system.
+struct Gathered<D, O> {
+    of: D,
+    over: O,
+    kept: Kept,
+}
+
+/// Runs a kernel with one system in all lanes of its pack: the implementation of [`Dynamics::in_pack`] for
+/// systems with [`Gather`].
+#[inline(always)]
+pub fn in_pack<T: Real, D: Gather<T>, P: Pack, K: InPack<T, D::Vector, P>>(
+    system: &D,
+    kept: &mut Kept,
+    kernel: K,
+) -> Option<K::Output> {
+    let Gathered { over, kept, .. } = kept.get(
+        |kept: &Gathered<D, D::Over<T::Over<P>>>| kept.of.equals(system),
+        || Gathered {
+            of: system.clone(),
+            over: D::gather::<P>(&[system]),
+            kept: Kept::default(),
+        },
+    );
+    Some(kernel.run(over, kept))
+}
+
+/// Runs a kernel with a system that is made of others, all of them in the lanes of a pack. `kept` is the memory
+/// of the last of the others, which is new when one of them is; the test concerns what else the system is made of.
+#[inline(always)]
+pub(crate) fn with_whole<T: Real, V, P, D, K>(
+    kept: &mut Kept,
+    is_good: impl FnOnce(&D) -> bool,
+    make: impl FnOnce() -> D,
+    kernel: K,
+) -> K::Output
+where
+    V: Vector<Scalar = T>,
+    P: Pack,
+    D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static,
+    K: InPack<T, V, P>,
+{
+    let (whole, kept) = kept.get(|(whole, _)| is_good(whole), || (make(), Kept::default()));
+    kernel.run(whole, kept)
 }
 
 /// A number of each member, in its lane.

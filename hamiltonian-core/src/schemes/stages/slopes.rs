@@ -176,7 +176,7 @@ where
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
     where
         P: Pack,
-        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>>,
+        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>> + 'static,
     {
         let StepsBeside {
             map,

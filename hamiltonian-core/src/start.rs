@@ -1,8 +1,8 @@
 //! Starts on an energy surface: one momentum from H = E, one coordinate from an event.
 //!
-//! Input: a system, a state as the guess, the unknown. Output: the state with one momentum (and one
-//! coordinate) replaced. Invariant: a root is bracketed before it is refined, so a returned state
-//! lies on the surface to rounding error; its other components are those of the guess.
+//! Each function takes a state as a guess and returns it with one momentum, or one momentum and one coordinate,
+//! replaced. The root is bracketed before it is refined, so the state lies on the surface to rounding error. The other
+//! components are those of the guess.
 //!
 //! ```
 //! use hamiltonian::start::{Branch, momentum_from_energy};

@@ -130,8 +130,25 @@ fn lanes_change_no_bits_in_another_time() {
     let system = TimeTransformed::new(NonSeparable {}, NonSeparable {});
     let start = system.start(&State::new([-1.2], [0.4])).unwrap();
     all_same!(&system, &start, 0.1; Gauss::<4>::default(), Gauss::<8>::default());
-    // A run of dual numbers, and one that is saved.
     let system = TimeTransformed::by(Planet::default(), "radius").unwrap();
+    // Fused runs tell that the stages lie in lanes: without lanes nothing fuses.
+    {
+        let _shown = LEVEL.read().unwrap_or_else(PoisonError::into_inner);
+        let end = |fused, lanes| {
+            let start = system.start(&declared).unwrap();
+            let run = Integrator::new(&system, Gauss::<8>::default(), start, 0.1).unwrap();
+            let mut run = if fused { run.fused() } else { run }.lanes(lanes);
+            run.advance(200).unwrap();
+            run.state().q.x[0]
+        };
+        let plain = end(false, true);
+        let change = (end(true, true) - plain).abs();
+        let has_lanes = matches!(Cpu::best(), Cpu::Avx2 | Cpu::Avx512 | Cpu::Neon);
+        assert_eq!(change > 0.0, has_lanes, "{change:e}");
+        assert!(change < 1e-11, "{change:e}");
+        assert_eq!(end(true, false), plain);
+    }
+    // A run of dual numbers, and one that is saved.
     let end = |lanes| {
         let start = State::over(
             [Dual::variable(0.1), Dual::fixed(0.0)],
@@ -199,6 +216,7 @@ fn tangents_have_the_same_bits() {
 /// Fused products are others, by rounding alone; a saved run remembers the choice.
 #[test]
 fn fused_runs_differ_by_rounding_and_are_saved_as_such() {
+    let _shown = LEVEL.read().unwrap_or_else(PoisonError::into_inner);
     type Fused = Run<NonSeparable, Gauss<8>>;
     let new = || -> Fused {
         let start = State::new([-1.2], [0.4]);
@@ -226,22 +244,30 @@ fn fused_runs_differ_by_rounding_and_are_saved_as_such() {
 
 #[test]
 fn steps_in_lanes_do_not_allocate() {
+    let _shown = LEVEL.read().unwrap_or_else(PoisonError::into_inner);
     let chain = Chain::new(5, vec![1.0; 5]).unwrap();
     let start = State::new(vec![0.3; 5], vec![0.1; 5]);
     let mut first = Integrator::new(&chain, Gauss::<8>::default(), start.clone(), 0.2).unwrap();
     let mut second = Integrator::new(&chain, GaussNystrom::<8>::default(), start, 0.1).unwrap();
+    let planet = TimeTransformed::by(Planet::default(), "radius").unwrap();
+    let start = State::new([0.1, 0.0], [0.0, 19.0_f64.sqrt()]);
+    let start = planet.start(&start).unwrap();
+    let mut third = Integrator::new(&planet, Gauss::<8>::default(), start, 0.1).unwrap();
     let warm = allocations(|| {
         first.advance(1).unwrap();
         second.advance(1).unwrap();
+        third.advance(1).unwrap();
     });
     assert!(warm > 0, "memory for lanes");
     let count = allocations(|| {
         for _ in 0..20 {
             first.advance(1).unwrap();
             second.advance(1).unwrap();
+            third.advance(1).unwrap();
         }
         first.advance(3000).unwrap();
         second.advance(3000).unwrap();
+        third.advance(3000).unwrap();
     });
     assert_eq!(count, 0);
 }

@@ -1,9 +1,11 @@
 //! Loops of a run with and without lanes, and with fused products there.
 
 use crate::arrays::Gravity;
+use crate::common::bits::LEVEL;
 use hamiltonian::prelude::*;
 use hamiltonian::{Scheme, Vector};
 use hamiltonian_lanes::Cpu;
+use std::sync::PoisonError;
 
 hamiltonian! {
     /// Sites with two neighbours, a sum that all sites share, and numbers of sites.
@@ -42,6 +44,7 @@ where
 
 #[test]
 fn lanes_change_no_bit_and_fused_products_do() {
+    let _shown = LEVEL.read().unwrap_or_else(PoisonError::into_inner);
     for n in [1, 31, 32, 33, 40, 101] {
         let sites = Sites::new(n).unwrap();
         let run = |lanes, fused| end(&sites, StormerVerlet::default(), lanes, fused);

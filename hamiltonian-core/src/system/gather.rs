@@ -250,8 +250,8 @@ pub fn in_pack<T: Real, D: Gather<T>, P: Pack, K: InPack<T, D::Vector, P>>(
     Some(kernel.run(over, kept))
 }
 
-/// Runs a kernel with a system that is made of others, all of them in the lanes of a pack. `kept` is the memory
-/// of the last of the others, which is new when one of them is; the test concerns what else the system is made of.
+/// Runs a kernel with a system that is made of others, all of them in the lanes of a pack. `kept` belongs to the
+/// system that was gathered last, so it is empty when one of them has changed; `is_good` compares the rest.
 #[inline(always)]
 pub(crate) fn with_whole<T: Real, V, P, D, K>(
     kept: &mut Kept,

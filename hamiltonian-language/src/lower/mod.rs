@@ -9,7 +9,7 @@
 //!
 //! Check and lower are two passes, because what is not demanded is not evaluated: `[1/0, x][1]` is a
 //! formula. One forward pass would meet `1/0` first. Only after a loop's body is it known whether the
-//! loop is unrolled, and a fault of the number put in is reported at tokens, which shared nodes lack.
+//! loop is unrolled. A fault of the number put in is reported at its tokens; nodes of the arena have none.
 
 mod demand;
 mod domain;

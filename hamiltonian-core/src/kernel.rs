@@ -73,6 +73,29 @@ pub trait Field<K, T: Real>: Dynamics<T> {
     );
 }
 
+impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> Field<Halves, T> for D {
+    type Held = (<D as Shift<Kick, T>>::Held, <D as Shift<Drift, T>>::Held);
+    #[inline(always)]
+    fn fold(&self, c: T) -> Self::Held {
+        (
+            Shift::<Kick, T>::fold(self, c),
+            Shift::<Drift, T>::fold(self, c),
+        )
+    }
+    #[inline(always)]
+    fn add(
+        (kick, drift): &Self::Held,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        into_q: &mut Self::Vector,
+        into_p: &mut Self::Vector,
+    ) {
+        <D as Shift<Kick, T>>::add(kick, t, q, into_p);
+        <D as Shift<Drift, T>>::add(drift, t, p, into_q);
+    }
+}
+
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident;)*) => {
         $($(#[$doc])*
@@ -90,6 +113,8 @@ kinds! {
     Push;
     /// c·(J∇H + f).
     Whole;
+    /// The same of a separable H, as the kick and the drift.
+    Halves;
     /// c·(f − ∂V/∂q).
     Rates;
     /// c·A·p of a force A·p + b.

@@ -27,8 +27,8 @@ use crate::flow::{Flow, Piece, Pieces};
 pub use crate::function::Function;
 pub use crate::held::{Carried, Given, Held, gathered};
 pub use crate::kernel::{
-    Adds, Damped, Drift, Field, FieldOf, Kernel, Kick, Linear, Matrices, Motion, Moves, Numbered,
-    OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
+    Adds, Damped, Drift, Field, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
+    Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
 };
 pub use crate::lattice::{
     Lattice, MatrixOf, check_extents, check_lattice, describe_lattice, fits, lattice,

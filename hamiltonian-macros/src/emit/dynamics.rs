@@ -39,7 +39,9 @@ pub fn implementations(context: Context) -> (String, String) {
     emission.system();
     emission.prepared.declare(&mut emission.out, context);
     emission.dynamics();
-    emission.field(Purpose::VectorField);
+    if !emission.is_in_halves() {
+        emission.field(Purpose::VectorField);
+    }
     emission.kick();
     emission.separable();
     emission.pieces();

@@ -5,6 +5,7 @@
 
 use super::Kick;
 use super::dynamics::Emission;
+use super::halves::are_apart;
 use super::markers;
 use super::pieces::PIECE;
 use hamiltonian_symbolic::program::Purpose;
@@ -44,9 +45,21 @@ impl Emission<'_> {
     pub(super) fn field_type(&self) -> String {
         let prepared = self.prepared.ty(self.context);
         match self.context.program.function(Purpose::VectorField) {
+            Some(_) if self.is_in_halves() => {
+                format!("__h::FieldOf<{prepared}, __h::Halves, T>")
+            }
             Some(_) => format!("__h::FieldOf<{prepared}, __h::Whole, T>"),
             None => format!("__h::OfGradient<{prepared}, T>"),
         }
+    }
+
+    /// Returns true if the kick followed by the drift is the vector field, without shared work.
+    pub(super) fn is_in_halves(&self) -> bool {
+        let structure = &self.context.definition.structure;
+        let halves = [Purpose::Kick, Purpose::Drift];
+        structure.separable.is_ok()
+            && structure.kick == Some(Kick::Plain)
+            && are_apart(self.context.program, Purpose::VectorField, halves)
     }
 
     /// The body of a vector field.

@@ -50,7 +50,8 @@ pub use crate::system::{
 pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
 pub use crate::{
-    __computed_as_chosen as computed_as_chosen, __gathers as gathers, __timeless as timeless,
+    __computed_as_chosen as computed_as_chosen, __gathers as gathers, __halves as halves,
+    __timeless as timeless,
 };
 
 /// A group of coordinates with its rank, part, offset and columns.
@@ -364,6 +365,38 @@ macro_rules! __timeless {
         #[inline(always)]
         fn time_derivative(&self, _: $scalar, _: &Self::Vector, _: &Self::Vector) -> $scalar {
             <$scalar as $crate::private::Real>::constant(0.0, 0.0)
+        }
+    };
+}
+
+/// The structures of a system that its kick and its drift make up.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __halves {
+    ($impl:tt $system:ty: $kick:ty, $drift:ty, $names:tt; $($structure:ident)*) => {
+        $($crate::__halves! { @$structure $impl $system, $kick, $drift, $names })*
+    };
+    (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty, $names:tt) => {
+        $($impl)* $crate::private::Separable<T> for $system {
+            type Kick = $kick;
+            const KICK: $kick = $crate::private::Kernel::PIECE;
+            type Drift = $drift;
+            const DRIFT: $drift = $crate::private::Kernel::PIECE;
+        }
+    };
+    (@Split [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty, $names:tt) => {
+        $($impl)* $crate::private::Split<T> for $system {
+            type Pieces = ($kick, $drift);
+            const PIECES: Self::Pieces = ($crate::private::Kernel::PIECE, $crate::private::Kernel::PIECE);
+            const NAMES: &'static [&'static $crate::private::str] = &$names;
+        }
+    };
+    (@Nystrom [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty, $names:tt) => {
+        $($impl)* $crate::private::Nystrom<T> for $system {
+            type Kick = $kick;
+            const KICK: $kick = $crate::private::Kernel::PIECE;
+            type Quadratic = $drift;
+            const QUADRATIC: $drift = $crate::private::Kernel::PIECE;
         }
     };
 }

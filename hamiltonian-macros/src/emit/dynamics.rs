@@ -43,10 +43,9 @@ pub fn implementations(context: Context) -> (String, String) {
         emission.field(Purpose::VectorField);
     }
     emission.kick();
-    emission.separable();
+    emission.drift();
     emission.pieces();
-    emission.split();
-    emission.nystrom();
+    emission.structures();
     emission.extras();
     (emission.out, emission.bodies.parts)
 }

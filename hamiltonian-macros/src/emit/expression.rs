@@ -39,7 +39,7 @@ pub fn generate(context: Context) -> TokenStream {
     let questions = reach::compiled(context);
     quote! {
         {
-            #[derive(#root::private::core::clone::Clone, #root::private::core::fmt::Debug)]
+            #[derive(#root::private::Clone, #root::private::fmt::Debug)]
             struct #name #parameters { #(#fields: #scalars,)* }
             #[allow(clippy::approx_constant)]
             const _: () = {

@@ -136,7 +136,7 @@ fn declaration(context: Context, item: &Header, name: &Ident) -> TokenStream {
         #attributes
         #docs
         #allow
-        #[derive(#root::private::core::clone::Clone, #root::private::core::fmt::Debug)]
+        #[derive(#root::private::Clone, #root::private::fmt::Debug)]
         #before #name #parameters #fields
         #vectors
     }
@@ -324,13 +324,20 @@ fn inherent(context: Context, item: &Header) -> TokenStream {
     let (constants, system) = generics.over_f64();
     let untold = lex(&format!("impl{constants} {system}"));
     let (latex, equations) = (&text.latex, text.latex_equations.join("\n"));
+    let names = context.definition.structure.split.is_ok().then(|| {
+        quote! {
+            /// The pieces of H with exact flows, the outermost first.
+            #visibility const NAMES: &'static [&'static __h::str] = <Self as __h::Split<__h::f64>>::NAMES;
+        }
+    });
     quote! {
         #new
         #untold {
+            #names
             /// H in LaTeX.
-            #visibility const LATEX: &'static __h::core::primitive::str = #latex;
+            #visibility const LATEX: &'static __h::str = #latex;
             /// Hamilton's equations in LaTeX, one a line.
-            #visibility const LATEX_EQUATIONS: &'static __h::core::primitive::str = #equations;
+            #visibility const LATEX_EQUATIONS: &'static __h::str = #equations;
         }
         #header {
             #getters

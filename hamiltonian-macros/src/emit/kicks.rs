@@ -1,13 +1,11 @@
 //! The vector field, and the pieces V and T, with a force or without.
 //!
-//! Input: a definition. Output: text of the bodies of fields, kicks and drifts, and of `Separable`.
+//! Input: a definition. Output: text of the bodies of fields, kicks and drifts.
 //! Invariant: a kick reads no coordinate it moves and moves momenta alone.
 
 use super::Kick;
 use super::dynamics::Emission;
 use super::halves::are_apart;
-use super::markers;
-use super::pieces::PIECE;
 use hamiltonian_symbolic::program::Purpose;
 use std::fmt::Write;
 
@@ -88,17 +86,12 @@ impl Emission<'_> {
         }
     }
 
-    /// The piece T, and `Separable`.
-    pub(super) fn separable(&mut self) {
+    /// The piece T.
+    pub(super) fn drift(&mut self) {
         let structure = &self.context.definition.structure;
         if structure.separable.is_ok() {
             let drift = kind(Purpose::Drift);
             self.flow(Purpose::Drift, drift, &structure.halves[1], true);
         }
-        let halves = self.halves();
-        let pieces = structure.separable.as_ref().map(|()| (&halves[..], PIECE));
-        let pieces = pieces.map_err(|reason| ("__HIsSeparable", reason));
-        let names = ["Kick", "Drift"];
-        markers::of_pieces(&mut self.out, self.context, "Separable", &names, pieces, "");
     }
 }

@@ -3,13 +3,13 @@
 //! Input: a model with pieces. Output: text of the bodies, one a piece, and of the traits that name the pieces.
 //! Invariant: a flow reads and writes one point; outside of its domain all it moves becomes NaN, by the program.
 
-use super::Nystrom;
 use super::context::Access;
 use super::dynamics::{Emission, declared, with_self};
 use super::holder::Holder;
 use super::layout::Slice;
 use super::markers;
 use super::scan::scan;
+use super::{Nystrom, Reason};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Purpose};
@@ -61,52 +61,76 @@ impl Emission<'_> {
         })
     }
 
-    /// `Split`, into the model's pieces with the kick of a force, or into V and T.
-    pub(super) fn split(&mut self) {
-        let (context, generics) = (self.context, self.context.generics);
+    /// `Separable`, `Split` and `Nystrom`: of V and T, or of the model's pieces, with the kick of a force.
+    pub(super) fn structures(&mut self) {
+        let context = self.context;
         let (structure, own) = (&context.definition.structure, &context.model.pieces);
-        let mut pieces: Vec<String> = (0..own.len()).map(|at| self.numbered(at)).collect();
-        let mut names: Vec<String> = own.iter().map(|piece| piece.name.clone()).collect();
-        let halves = self.halves();
-        if own.is_empty() {
-            pieces = halves.to_vec();
-            names = structure.halves.to_vec();
-        } else if structure.kick.is_some() && structure.separable.is_err() {
-            pieces.push(halves[0].clone());
-            names.push(structure.halves[0].clone());
-        }
-        let values = format!("({})", format!("{PIECE}, ").repeat(pieces.len()));
-        let tuple = [format!("({},)", pieces.join(", "))];
-        let (verdict, names) = match &structure.split {
-            Ok(()) => (Ok((&tuple[..], values.as_str())), names),
-            Err(reason) => (Err(("__HIsSplit", reason)), Vec::new()),
-        };
-        let list = format!("const NAMES: &'static [&'static __h::str] = &{names:?};\n");
-        markers::of_pieces(&mut self.out, context, "Split", &["Pieces"], verdict, &list);
-        // Over one scalar only, so that `Name::NAMES` is decided.
-        if verdict.is_ok() && context.definition.checked.item.is_some() {
-            let (constants, system) = generics.over_f64();
+        let (halves, names) = (self.halves(), &structure.halves);
+        let of_halves = [
+            ("Separable", structure.separable.is_ok()),
+            ("Split", structure.split.is_ok() && own.is_empty()),
+            ("Nystrom", matches!(structure.nystrom, Ok(Nystrom::Halves))),
+        ];
+        let of_halves: Vec<&str> = (of_halves.into_iter())
+            .filter_map(|(name, is_there)| is_there.then_some(name))
+            .collect();
+        if !of_halves.is_empty() {
             line!(
                 self,
-                "impl{constants} {system} {{\n/// The pieces of H with exact flows, the outermost first.\n\
-                 {visibility} const NAMES: &'static [&'static __h::str] = \
-                 <Self as __h::Split<__h::f64>>::NAMES;\n}}",
-                visibility = generics.visibility,
+                "__h::halves!([impl{}] {}: {}, {names:?}; {});",
+                context.generics.declaration_with_scalar(),
+                context.generics.system_type(),
+                halves.join(", "),
+                of_halves.join(" "),
             );
         }
-    }
-
-    /// `Nystrom`, of V and T or of two of the model's pieces.
-    pub(super) fn nystrom(&mut self) {
-        let pieces = self.context.definition.structure.nystrom.as_ref();
-        let pieces = pieces.map(|nystrom| match nystrom {
-            Nystrom::Halves => self.halves(),
-            Nystrom::Pieces(numbers) => numbers.map(|number| self.numbered(number)),
+        let mut own: Vec<String> = (0..own.len()).map(|at| self.numbered(at)).collect();
+        let kicked = structure.nystrom.as_ref().map(|nystrom| match nystrom {
+            Nystrom::Halves => halves.clone(),
+            Nystrom::Pieces(numbers) => numbers.map(|number| own[number].clone()),
         });
-        let pieces = pieces.as_ref().map(|pieces| (&pieces[..], PIECE));
-        let pieces = pieces.map_err(|reason| ("__HIsKickedQuadratic", *reason));
-        let names = ["Kick", "Quadratic"];
-        markers::of_pieces(&mut self.out, self.context, "Nystrom", &names, pieces, "");
+        let mut list = context
+            .model
+            .pieces
+            .iter()
+            .map(|piece| &piece.name)
+            .collect::<Vec<_>>();
+        if structure.kick.is_some() && structure.separable.is_err() {
+            own.push(halves[0].clone());
+            list.push(&names[0]);
+        }
+        let values = format!("({})", format!("{PIECE}, ").repeat(own.len()));
+        let tuple = [format!("({},)", own.join(", "))];
+        let list = format!("const NAMES: &'static [&'static __h::str] = &{list:?};\n");
+        let mut of_pieces = |name, types: &[&str], pieces, bound, more: &str| {
+            if !of_halves.contains(&name) {
+                let pieces: Result<_, &Reason> = pieces;
+                let pieces = pieces.map_err(|reason| (bound, reason));
+                markers::of_pieces(&mut self.out, context, name, types, pieces, more);
+            }
+        };
+        let separable = structure.separable.as_ref().map(|()| (&halves[..], PIECE));
+        of_pieces(
+            "Separable",
+            &["Kick", "Drift"],
+            separable,
+            "__HIsSeparable",
+            "",
+        );
+        let split = structure
+            .split
+            .as_ref()
+            .map(|()| (&tuple[..], values.as_str()));
+        of_pieces("Split", &["Pieces"], split, "__HIsSplit", &list);
+        let kicked = kicked.as_ref().map(|pieces| (&pieces[..], PIECE));
+        let kicked = kicked.map_err(|reason| *reason);
+        of_pieces(
+            "Nystrom",
+            &["Kick", "Quadratic"],
+            kicked,
+            "__HIsKickedQuadratic",
+            "",
+        );
     }
 
     /// The bodies of an exact flow.

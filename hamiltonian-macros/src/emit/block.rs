@@ -318,7 +318,7 @@ impl Writer<'_> {
     /// An element of a column.
     fn place(&self, slice: Slice, group: Option<u16>, row: &Index) -> String {
         match (self.context.layout, group) {
-            (Layout::Scalars, Some(group)) => format!("{}[{group}]", slice.name()),
+            (Layout::Scalars, Some(group)) => slice.scalar(group),
             _ => match self
                 .slices
                 .iter()
@@ -513,7 +513,7 @@ pub fn clear(out: &mut String, context: Context, targets: &[Target]) {
         let slice = Slice::write(context.layout, *target);
         let _ = match target {
             Target::Phase(Column { group, .. }) if context.layout == Layout::Scalars => {
-                writeln!(out, "{}[{group}] = {ZERO};", slice.name())
+                writeln!(out, "{} = {ZERO};", slice.scalar(*group))
             }
             Target::Phase(_) => writeln!(out, "{}.fill({ZERO});", slice.name()),
             // Derivatives with respect to parameters start at 0.

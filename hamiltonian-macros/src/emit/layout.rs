@@ -79,6 +79,12 @@ impl Slice {
         }
     }
 
+    /// The element of a scalar coordinate, or of its momentum, without a slice.
+    pub fn scalar(self, group: u16) -> String {
+        let (vector, _) = self.part().expect("it is a coordinate");
+        format!("{vector}.data.0[0][{group}]")
+    }
+
     /// The vector it is a part of, by its name, and its column; `None` for other arrays.
     pub fn part(self) -> Option<(&'static str, Column)> {
         let ([q, p], at) = match self {

@@ -209,8 +209,11 @@ impl Context<'_> {
         self.generics.vector_type_over(&self.mixed_name(), "T")
     }
 
-    /// The `let`s that bind slices at the top of a body. `slices` is sorted.
+    /// The `let`s that bind slices at the top of a body, but for scalar coordinates. `slices` is sorted.
     pub fn bind(self, out: &mut String, slices: &[Slice]) {
+        if self.layout == Layout::Scalars {
+            return;
+        }
         let part = |slice: &Slice| slice.part().map(|(vector, at)| (vector, at.group));
         for run in slices.chunk_by(|a, b| part(a) == part(b)) {
             let Some((vector, group)) = part(&run[0]) else {
@@ -237,7 +240,7 @@ impl Context<'_> {
             };
             let is_cut = shape.columns() > 1 || self.is_on_heap(&shape.of_parameter());
             let _ = match shape.rows() {
-                Some(rows) if self.layout != Layout::Scalars && is_cut => {
+                Some(rows) if is_cut => {
                     let rows = self.indices.plain(rows);
                     let name = |column| {
                         let is_it = |slice: &&Slice| {

@@ -51,7 +51,7 @@ pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
 pub use crate::{
     __computed_as_chosen as computed_as_chosen, __gathers as gathers, __halves as halves,
-    __timeless as timeless,
+    __known as known, __timeless as timeless,
 };
 
 /// A group of coordinates with its rank, part, offset and columns.
@@ -160,7 +160,9 @@ impl<K, V: Vector, A: IntoVector<K, Vector = V>> ArrayOf<K, V> for A {
 #[doc(hidden)]
 pub trait EveryParameterHasADefault: Sized {
     /// Never called.
-    fn new() -> Self;
+    fn new() -> Self {
+        unreachable!("no system meets the bound")
+    }
 }
 
 /// The bound of [`EveryParameterHasADefault`], which no system meets.
@@ -174,8 +176,6 @@ pub trait EveryParameterHasADefault: Sized {
 )]
 #[rustfmt::skip]
 pub trait ParameterWithoutDefault: Sized { // Without `new`: `Name { parameter: 2.0, ..Default::default() }`
-    /// Never called.
-    fn never() -> Self;
 }
 
 /// The bound of [`EveryParameterHasADefault`] for a system without parameters. The lifetime lets it stand on a type
@@ -187,8 +187,6 @@ pub trait ParameterWithoutDefault: Sized { // Without `new`: `Name { parameter: 
 )]
 #[rustfmt::skip]
 pub trait AnyParameter<'a>: Sized { // Without `new`: `Name {}`
-    /// Never called.
-    fn never() -> Self;
 }
 
 /// The `C` columns, of `rows` elements each, of a column-major array.
@@ -398,5 +396,26 @@ macro_rules! __halves {
             type Quadratic = $drift;
             const QUADRATIC: $drift = $crate::private::Kernel::PIECE;
         }
+    };
+}
+
+/// The formula of H as `Display`, and markers that hold without more to be said.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __known {
+    (@ [$($impl:tt)*] $system:ty: $marker:ident) => {
+        $($impl)* $crate::private::$marker for $system {}
+    };
+    (@ [$($impl:tt)*] $system:ty, $formula:literal) => {
+        #[automatically_derived]
+        $($impl)* $crate::private::fmt::Display for $system {
+            fn fmt(&self, _f: &mut $crate::private::fmt::Formatter<'_>) -> $crate::private::fmt::Result {
+                _f.write_str($formula)
+            }
+        }
+    };
+    ($impl:tt $system:ty: $formula:literal; $($marker:ident)*) => {
+        $crate::__known! { @ $impl $system, $formula }
+        $($crate::__known! { @ $impl $system: $marker })*
     };
 }

@@ -39,20 +39,13 @@ pub fn default(context: Context) -> String {
         generics.declaration_without_bounds(),
         generics.system_type(),
     );
-    let (bound, missing) = match generics.scalars.is_empty() {
-        true => (
-            format!("for<'_a> {named}: __h::AnyParameter<'_a>"),
-            "AnyParameter<'static>",
-        ),
-        false => (
-            format!("{named}: __h::ParameterWithoutDefault"),
-            "ParameterWithoutDefault",
-        ),
+    let bound = match generics.scalars.is_empty() {
+        true => format!("for<'_a> {named}: __h::AnyParameter<'_a>"),
+        false => format!("{named}: __h::ParameterWithoutDefault"),
     };
     let _ = writeln!(
         text,
-        "impl{declaration} __h::EveryParameterHasADefault for {named} where {bound} {{\n\
-         fn new() -> Self {{ <Self as __h::{missing}>::never() }}\n}}"
+        "impl{declaration} __h::EveryParameterHasADefault for {named} where {bound} {{}}"
     );
     if let Some(scalar) = generics.scalars.first() {
         let parameters = definition.checked.parameters.iter().enumerate();

@@ -5,9 +5,7 @@
 //! one expression at its end.
 
 use super::context::Context;
-use super::{
-    declared, dynamics, externals, item, lex, markers, mixed, observables, reach, vectors,
-};
+use super::{declared, dynamics, externals, lex, markers, mixed, observables, reach, vectors};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -32,7 +30,6 @@ pub fn generate(context: Context) -> TokenStream {
     text.push_str(&implementations);
     text.push_str(&functions);
     text.push_str(&markers::implementations(context));
-    text.push_str(&item::display(context));
     let implementations = lex(&text);
     let externals = externals::wrappers(context);
     let inherent = inherent(context);

@@ -1,4 +1,4 @@
-//! Item form: the struct with its docs, `Display` and methods.
+//! Item form: the struct with its docs and methods.
 //!
 //! Input: a definition and its header. Output: its tokens. Invariant: fields are public where they
 //! can be anything; sizes set at run time and the arrays that depend on them are private and of a
@@ -27,7 +27,6 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     let declaration = declaration(context, item, &name);
     let (mut text, functions) = dynamics::implementations(context);
     text.push_str(&markers::implementations(context));
-    text.push_str(&display(context));
     for context in declared::mixed(context) {
         text.push_str(&mixed::implementations(context));
     }
@@ -285,17 +284,6 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
         doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system. A run checks its start.\n`check_shape` checks any state and returns an error.\n");
     }
     quote! { #[doc = #doc] }
-}
-
-/// `Display`: the formula of H.
-pub fn display(context: Context) -> String {
-    format!(
-        "#[automatically_derived]\nimpl{} __h::core::fmt::Display for {} {{\n\
-         fn fmt(&self, _f: &mut __h::core::fmt::Formatter<'_>) -> __h::core::fmt::Result {{ _f.write_str({:?}) }}\n}}\n",
-        context.generics.declaration_without_bounds(),
-        context.generics.system_type(),
-        context.definition.text.hamiltonian,
-    )
 }
 
 /// Constants, the getters of private fields, observables, derivatives by parameters.

@@ -41,10 +41,10 @@ pub fn of_pieces(
     marker(out, context, &name, &declaration, pieces.err(), &items);
 }
 
-/// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact` and `Cyclic`.
+/// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact` and `Cyclic`, and `Display`.
 pub fn implementations(context: Context) -> String {
     let (structure, generics) = (&context.definition.structure, context.generics);
-    let mut out = String::new();
+    let (mut out, mut known) = (String::new(), String::new());
     let declaration = generics.declaration_without_bounds();
     for (name, bound, verdict) in [
         (
@@ -56,14 +56,27 @@ pub fn implementations(context: Context) -> String {
         ("Unforced", "__Forced", &structure.unforced),
         ("Exact", "__NotExact", &structure.exact),
     ] {
-        let missing = verdict.as_ref().err().map(|reason| (bound, reason));
-        marker(&mut out, context, name, &declaration, missing, "");
+        match verdict {
+            Ok(()) => known += &format!(" {name}"),
+            Err(reason) => {
+                let missing = Some((bound, reason));
+                marker(&mut out, context, name, &declaration, missing, "");
+            }
+        }
     }
-    let cyclic = match structure.cyclic.as_slice() {
-        [] => String::new(),
-        names => format!("const CYCLIC: &'static [&'static __h::str] = &{names:?};\n"),
-    };
-    marker(&mut out, context, "Cyclic", &declaration, None, &cyclic);
+    match structure.cyclic.as_slice() {
+        [] => known += " Cyclic",
+        names => {
+            let names = format!("const CYCLIC: &'static [&'static __h::str] = &{names:?};\n");
+            marker(&mut out, context, "Cyclic", &declaration, None, &names);
+        }
+    }
+    let _ = writeln!(
+        out,
+        "__h::known!([impl{declaration}] {}: {:?};{known});",
+        generics.system_type(),
+        context.definition.text.hamiltonian,
+    );
     out
 }
 

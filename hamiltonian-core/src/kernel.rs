@@ -96,6 +96,28 @@ impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> Field<Halves, T> for D {
     }
 }
 
+impl<T: Real, D: Dynamics<T>> Field<OfGradient, T> for D {
+    type Held = (D, T);
+    #[inline(always)]
+    fn fold(&self, c: T) -> Self::Held {
+        (self.clone(), c)
+    }
+    #[inline(always)]
+    fn add(
+        (prepared, c): &Self::Held,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        into_q: &mut Self::Vector,
+        into_p: &mut Self::Vector,
+    ) {
+        let (mut x, mut y) = (into_q.clone(), into_p.clone());
+        let _ = prepared.energy_and_gradient(t, q, p, &mut x, &mut y);
+        into_q.accumulate(*c, &y);
+        into_p.accumulate(-*c, &x);
+    }
+}
+
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident;)*) => {
         $($(#[$doc])*
@@ -115,6 +137,9 @@ kinds! {
     Whole;
     /// The same of a separable H, as the kick and the drift.
     Halves;
+    /// The same of a large system, whose code is not written out a second time: the gradient, then two
+    /// accumulations. The vectors of such systems have no size set at run time, so that nothing allocates.
+    OfGradient;
     /// c·(f − ∂V/∂q).
     Rates;
     /// c·A·p of a force A·p + b.
@@ -307,30 +332,3 @@ piece!(
     SubStep<FieldOf<D, Rates, T>>,
     |prepared, c| SubStep(Kernel::fold(prepared, c))
 );
-
-/// The field of a large system, whose code is not written out a second time: the gradient, then two
-/// accumulations. The vectors of such systems have no size set at run time, so that nothing allocates.
-#[derive(Debug, Clone)]
-pub struct OfGradient<D, T> {
-    prepared: D,
-    c: T,
-}
-
-impl<D: Clone, T> OfGradient<D, T> {
-    /// The field for the coefficient `c`.
-    #[inline(always)]
-    pub fn fold(prepared: &D, c: T) -> Self {
-        let prepared = prepared.clone();
-        OfGradient { prepared, c }
-    }
-}
-
-impl<V: Vector, D: Dynamics<V::Scalar, Vector = V>> VectorField<V> for OfGradient<D, V::Scalar> {
-    #[inline(always)]
-    fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
-        let (mut x, mut y) = (into_q.clone(), into_p.clone());
-        let _ = self.prepared.energy_and_gradient(t, q, p, &mut x, &mut y);
-        into_q.accumulate(self.c, &y);
-        into_p.accumulate(-self.c, &x);
-    }
-}

@@ -324,12 +324,13 @@ macro_rules! __gathers {
     };
 }
 
-/// The methods of a prepared system whose data begins with how it is computed, in lanes where there are some, and
-/// whose field is made of it alone.
+/// The field of a kind, and the methods of a prepared system whose data begins with how it is computed, in lanes where
+/// there are some.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __computed_as_chosen {
-    ($scalar:ident) => {
+    ($scalar:ident, $field:ty) => {
+        type Field = $crate::private::FieldOf<Self, $field, $scalar>;
         #[inline(always)]
         fn field(&self, _c: $scalar) -> Self::Field {
             Self::Field::fold(self, _c)

@@ -22,9 +22,9 @@ use hamiltonian_symbolic::program::{Function, Instruction, Purpose, Step, Value}
 use hamiltonian_symbolic::rational::Rational;
 use std::fmt::Write;
 
-/// Everything a definition implements that is the same in both forms, and the free functions that
-/// long bodies call.
-pub fn implementations(context: Context) -> (String, String) {
+/// Everything a definition implements that is the same in both forms, the free functions that long bodies call, and
+/// the body of the derivatives of H by its parameters.
+pub fn implementations(context: Context) -> [String; 3] {
     let mut emission = Emission {
         context,
         prepared: prepared(context),
@@ -47,7 +47,10 @@ pub fn implementations(context: Context) -> (String, String) {
     emission.pieces();
     emission.structures();
     emission.extras();
-    (emission.out, emission.bodies.parts)
+    let function = context.program.function(Purpose::ParameterGradient);
+    let gradient = function.map(|function| emission.parameter_gradient(function));
+    let gradient = gradient.unwrap_or_default();
+    [emission.out, emission.bodies.parts, gradient]
 }
 
 /// The prepared system: the values preparation computes and the parameter arrays that functions read.
@@ -167,11 +170,10 @@ impl<'a> Emission<'a> {
         line!(
             self,
             "#[automatically_derived]\nimpl{} __h::Dynamics<T> for {} {{\n\
-             type Vector = {};\ntype Field = {};",
+             type Vector = {};",
             generics.holder_declaration(),
             self.prepared.ty(context),
             self.vector,
-            self.field_type(),
         );
         let (q, p) = ("_oq", "_op");
         for (name, purpose, more, returns) in [
@@ -220,7 +222,8 @@ impl<'a> Emission<'a> {
                  _op: &mut Self::Vector) {{\nself.v{at}(_t, _q, _p, _op);\n}}"
             );
         }
-        line!(self, "__h::computed_as_chosen!(T);\n}}");
+        let field = self.field_kind();
+        line!(self, "__h::computed_as_chosen!(T, {field});\n}}");
     }
 
     /// The arguments of an evaluation: t, and vectors that are read or written.
@@ -381,9 +384,12 @@ impl<'a> Emission<'a> {
         )
     }
 
-    /// Inherent methods of prepared systems: observables, and derivatives by parameters.
+    /// Inherent methods of prepared systems: observables, and functions with vector values.
     fn extras(&mut self) {
         let context = self.context;
+        if context.model.observables.is_empty() && context.model.vectors.is_empty() {
+            return;
+        }
         line!(
             self,
             "impl{} {} {{",
@@ -415,18 +421,14 @@ impl<'a> Emission<'a> {
             let name = format!("v{at}");
             self.method(&name, Purpose::Vector(at as u16), outputs, false);
         }
-        if let Some(function) = context.program.function(Purpose::ParameterGradient) {
-            self.parameter_gradient(function);
-        }
         line!(self, "}}");
     }
 
     /// ∂H/∂(parameters), which have one scalar: the result is the user's type over it.
-    fn parameter_gradient(&mut self, function: &Function) {
+    fn parameter_gradient(&mut self, function: &Function) -> String {
         let context = self.context;
         let ty = context.generics.system_type_over("T");
         let mut arguments = self.arguments(&["_q", "_p"]);
-        let list = declared(&arguments);
         arguments.push(("_d", format!("&mut {ty}")));
         let text = self.evaluation("parameters", None, &arguments, function);
         let (mut sizes, mut fields) = (String::new(), String::new());
@@ -447,14 +449,12 @@ impl<'a> Emission<'a> {
             let zero = context.field_of_zeros(&parameter.shape);
             let _ = write!(fields, "{}: {zero}, ", context.generics.field(at as u16));
         }
-        let body = with_self(&format!(
-            "{sizes}let mut _result = {} {{ {fields} }};\nlet _d = &mut _result;\n{text}_result",
+        format!(
+            "let _self = &<Self as __h::System<T>>::prepare(self);\n\
+             let (_t, _q, _p) = (state.t, &state.q, &state.p);\n\
+             {sizes}let mut _result = {} {{ {fields} }};\nlet _d = &mut _result;\n{text}_result",
             context.generics.name,
-        ));
-        line!(
-            self,
-            "#[inline]\nfn parameters(&self, {list}) -> {ty} {{\n{body}\n}}"
-        );
+        )
     }
 }
 

@@ -26,7 +26,7 @@ pub fn generate(context: Context) -> TokenStream {
         text.push_str(&mixed::declaration(context));
         text.push_str(&mixed::implementations(context));
     }
-    let (implementations, functions) = dynamics::implementations(context);
+    let [implementations, functions, _] = dynamics::implementations(context);
     text.push_str(&implementations);
     text.push_str(&functions);
     text.push_str(&markers::implementations(context));

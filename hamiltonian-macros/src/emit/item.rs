@@ -25,7 +25,7 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     let root = context.definition.root;
     let name = context.definition.type_name(item);
     let declaration = declaration(context, item, &name);
-    let (mut text, functions) = dynamics::implementations(context);
+    let [mut text, functions, gradient] = dynamics::implementations(context);
     text.push_str(&markers::implementations(context));
     for context in declared::mixed(context) {
         text.push_str(&mixed::implementations(context));
@@ -34,7 +34,7 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     let implementations = located(lex(&text), name.span(), SIGNATURES);
     let functions = lex(&functions);
     let externals = externals::wrappers(context);
-    let inherent = inherent(context, item);
+    let inherent = inherent(context, item, &gradient);
     let questions = reach::compiled(context);
     quote! {
         #declaration
@@ -287,7 +287,7 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
 }
 
 /// Constants, the getters of private fields, observables, derivatives by parameters.
-fn inherent(context: Context, item: &Header) -> TokenStream {
+fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
     let (text, generics) = (&context.definition.text, context.generics);
     let header = lex(&generics.header());
     let visibility = &item.visibility;
@@ -299,12 +299,12 @@ fn inherent(context: Context, item: &Header) -> TokenStream {
     let derivatives = (!generics.scalars.is_empty()).then(|| {
         let bound = lex(&generics.state_bound());
         let state = lex(&context.vector());
-        let result = lex(&generics.system_type_over("T"));
+        let (result, body) = (lex(&generics.system_type_over("T")), lex(gradient));
         quote! {
             /// ∂H/∂(each parameter) at a state, in the fields of the same type.
             #[must_use]
             #visibility fn parameter_gradient<T: #bound>(&self, state: &__h::State<#state>) -> #result {
-                <Self as __h::System<T>>::prepare(self).parameters(state.t, &state.q, &state.p)
+                #body
             }
         }
     });

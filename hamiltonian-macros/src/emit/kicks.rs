@@ -39,15 +39,12 @@ impl Emission<'_> {
         format!("__h::Kernel<{}, {kind}>", self.prepared.ty(self.context))
     }
 
-    /// The type of the vector field.
-    pub(super) fn field_type(&self) -> String {
-        let prepared = self.prepared.ty(self.context);
+    /// The kind of the vector field.
+    pub(super) fn field_kind(&self) -> &'static str {
         match self.context.program.function(Purpose::VectorField) {
-            Some(_) if self.is_in_halves() => {
-                format!("__h::FieldOf<{prepared}, __h::Halves, T>")
-            }
-            Some(_) => format!("__h::FieldOf<{prepared}, __h::Whole, T>"),
-            None => format!("__h::OfGradient<{prepared}, T>"),
+            Some(_) if self.is_in_halves() => "__h::Halves",
+            Some(_) => kind(Purpose::VectorField),
+            None => "__h::OfGradient",
         }
     }
 

@@ -12,7 +12,7 @@ pub use alloc::sync::Arc;
 pub use core;
 pub use core::primitive::{bool, f64, str, usize};
 pub use core::{
-    clone::Clone, cmp::PartialEq, default::Default, fmt, marker::Copy, option::Option,
+    clone::Clone, cmp::PartialEq, default::Default, fmt, fmt::Write, marker::Copy, option::Option,
     result::Result,
 };
 
@@ -50,8 +50,8 @@ pub use crate::system::{
 pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
 pub use crate::{
-    __computed_as_chosen as computed_as_chosen, __gathers as gathers, __halves as halves,
-    __known as known, __timeless as timeless,
+    __computed_as_chosen as computed_as_chosen, __halves as halves, __known as known,
+    __prepared as prepared, __timeless as timeless,
 };
 
 /// A group of coordinates with its rank, part, offset and columns.
@@ -97,7 +97,7 @@ fn elements<T: Real>(rows: usize, values: &[T]) -> impl Iterator<Item = (usize, 
 /// # Errors
 /// Those of the writer.
 pub fn describe_parameter<T: Real>(
-    out: &mut dyn fmt::Write,
+    out: &mut dyn Write,
     name: &str,
     rank: usize,
     rows: usize,
@@ -265,6 +265,11 @@ impl<X: fmt::Debug> fmt::Debug for SetByNew<X> {
 #[derive(Debug)]
 pub struct Never<X>(PhantomData<fn() -> X>, Infallible);
 
+impl<X> Never<X> {
+    /// Never evaluated.
+    pub const PIECE: Self = panic!("the system does not have this structure");
+}
+
 impl<X> Clone for Never<X> {
     fn clone(&self) -> Self {
         *self
@@ -302,13 +307,16 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
 
 // A constant of the user's may have the name of a variable, which would then be a pattern: variables begin with `_`.
 
-/// Implements `Gather` for a prepared system, a struct around the held values.
+/// Declares a prepared system, a struct around the held values, and implements `Gather` for it.
 #[macro_export]
 #[doc(hidden)]
-macro_rules! __gathers {
-    ([$($impl:tt)*] $prepared:ty as $name:ident over $over:ty) => {
+macro_rules! __prepared {
+    ([$visibility:vis struct $name:ident] [$($generics:tt)*] $held:ty; $prepared:ty, $over:ty) => {
+        #[doc(hidden)]
+        #[derive($crate::private::Clone, $crate::private::fmt::Debug)]
+        $visibility struct $name $($generics)* ($held);
         #[automatically_derived]
-        $($impl)* $crate::private::Gather<T> for $prepared {
+        impl $($generics)* $crate::private::Gather<T> for $prepared {
             type Over<__U: $crate::private::Real> = $over;
             #[inline(always)]
             fn gather<__P: $crate::private::Pack>(_of: &[&Self]) -> Self::Over<T::Over<__P>> {

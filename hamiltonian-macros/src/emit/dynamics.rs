@@ -380,7 +380,7 @@ impl<'a> Emission<'a> {
         }
         let body = with_self(&(lines + "__h::Result::Ok(())"));
         format!(
-            "fn describe_parameters(&self, _out: &mut dyn __h::fmt::Write) -> __h::fmt::Result {{\n{body}\n}}\n"
+            "fn describe_parameters(&self, _out: &mut dyn __h::Write) -> __h::fmt::Result {{\n{body}\n}}\n"
         )
     }
 

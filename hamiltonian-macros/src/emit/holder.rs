@@ -152,11 +152,9 @@ impl Holder {
     pub fn declare(&self, out: &mut String, context: Context) {
         let generics = context.generics;
         let (declaration, name) = (generics.holder_declaration(), &self.name);
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "#[doc(hidden)]\n#[derive(__h::Clone, __h::fmt::Debug)]\n\
-             {} struct {name}{declaration}({});\n\
-             __h::gathers!([impl{declaration}] {} as {name} over {});\n",
+            "__h::prepared!([{} struct {name}] [{declaration}] {}; {}, {});",
             generics.visibility,
             self.held(context),
             self.ty(context),

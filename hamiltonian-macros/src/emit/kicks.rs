@@ -62,10 +62,8 @@ impl Emission<'_> {
         let Some((function, holder)) = self.held_by(purpose, format!("{purpose:?}")) else {
             return;
         };
-        self.open_kernel("Field", kind(purpose), &holder, "");
-        self.fold(function, &holder);
-        let vectors = self.arguments(&["_q", "_p", "_oq", "_op"]);
-        self.evaluated("add", &holder, &vectors, function);
+        self.open_kernel("Field", kind(purpose), function, &holder, "");
+        self.evaluated("add", &holder, &["_q", "_p", "_oq", "_op"], function);
         line!(self, "}}");
     }
 

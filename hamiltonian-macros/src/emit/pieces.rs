@@ -151,43 +151,39 @@ impl Emission<'_> {
         if let (Some(from), None) = (self.one_way(function), rows) {
             let kicks = from == Side::Q;
             let _ = writeln!(constants, "const KICKS: __h::bool = {kicks};");
-            self.open_kernel("Shift", kind, &holder, &constants);
-            self.fold(function, &holder);
+            self.open_kernel("Shift", kind, function, &holder, &constants);
             let vectors = if kicks { ["_q", "_op"] } else { ["_p", "_oq"] };
-            self.evaluated("add", &holder, &self.arguments(&vectors), function);
+            self.evaluated("add", &holder, &vectors, function);
         } else {
-            self.open_kernel("Motion", kind, &holder, &constants);
-            self.fold(function, &holder);
-            let vectors = self.arguments(&["_oq", "_op"]);
+            self.open_kernel("Motion", kind, function, &holder, &constants);
             self.bodies.context.access = Access::InPlace;
-            self.evaluated("apply", &holder, &vectors, function);
+            self.evaluated("apply", &holder, &["_oq", "_op"], function);
             if !merges {
                 self.bodies.context.access = Access::Reversed;
-                self.evaluated("apply_reversed", &holder, &vectors, function);
+                self.evaluated("apply_reversed", &holder, &["_oq", "_op"], function);
             }
             self.bodies.context.access = Access::Apart;
         }
         line!(self, "}}");
     }
 
-    /// The head of the bodies of a kind.
-    pub(super) fn open_kernel(&mut self, name: &str, kind: &str, holder: &Holder, constants: &str) {
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{} __h::{name}<{kind}, T> for {} {{\n\
-             {constants}type Held = {};",
-            self.context.generics.holder_declaration(),
-            self.prepared.ty(self.context),
-            holder.held(self.context),
-        );
-    }
-
-    /// The body from prepared values and the coefficient to what is held.
-    pub(super) fn fold(&mut self, function: &Function, holder: &Holder) {
+    /// The head of the bodies of a kind, and the body from prepared values and the coefficient to what is held.
+    pub(super) fn open_kernel(
+        &mut self,
+        name: &str,
+        kind: &str,
+        function: &Function,
+        holder: &Holder,
+        constants: &str,
+    ) {
         let made = with_self(&self.made(function, holder));
         line!(
             self,
-            "#[inline(always)]\nfn fold(&self, _c: T) -> Self::Held {{\n{made}\n}}"
+            "#[automatically_derived]\nimpl{} __h::{name}<{kind}, T> for {} {{\n\
+             {constants}type Held = {};\n#[inline(always)]\nfn fold(&self, _c: T) -> Self::Held {{\n{made}\n}}",
+            self.context.generics.holder_declaration(),
+            self.prepared.ty(self.context),
+            holder.held(self.context),
         );
     }
 
@@ -196,12 +192,12 @@ impl Emission<'_> {
         &mut self,
         method: &str,
         holder: &Holder,
-        arguments: &[(&'static str, String)],
+        vectors: &[&'static str],
         function: &Function,
     ) {
-        let name = format!("{}_{method}", holder.name);
-        let text = self.evaluation(&name, Some(holder), arguments, function);
-        let list = declared(arguments);
+        let (name, arguments) = (format!("{}_{method}", holder.name), self.arguments(vectors));
+        let text = self.evaluation(&name, Some(holder), &arguments, function);
+        let list = declared(&arguments);
         line!(
             self,
             "#[inline(always)]\nfn {method}(_self: &Self::Held, {list}) {{\n{text}}}"

@@ -132,7 +132,7 @@ fn ensemble() -> String {
         "    Ok(())",
         "    let start = |member: Member| (Pendulum::default(), State::new([member.index as f64], [0.0]));
     let mut many = Ensemble::new(1000, start, StormerVerlet::default(), 1e-3)?;
-    many.advance(1000)?;
+    many.advance(1000);
     println!(\"{:?}\", many.states().next());
     Ok(())",
     )

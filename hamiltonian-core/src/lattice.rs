@@ -8,14 +8,14 @@ mod nested;
 pub use nested::{MatrixOf, lattice};
 
 use crate::error::Error;
+use crate::private::check_parameter;
 use crate::uneven::{Uneven, named, same_part};
 use crate::vector::Vector;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::fmt;
 use core::ops::{Index, IndexMut};
-use hamiltonian_lanes::{Mask, Real};
+use hamiltonian_lanes::Real;
 
 /// An array with `R` axes: the coordinates `u[n][m]` are a `Lattice<f64, 2>`, and the parameter `w[n][m][k]` is a
 /// `Lattice<f64, 3>`.
@@ -210,21 +210,6 @@ pub(crate) fn element(name: &str, extents: &[usize], number: usize) -> String {
     named(name, &extents.iter().map(place).collect::<Vec<_>>())
 }
 
-/// Writes the elements of a parameter with several axes, `w[0][1][2] = 1.5`, each on a line.
-///
-/// # Errors
-/// Those of the writer.
-pub fn describe_lattice<T: Real, const R: usize>(
-    out: &mut dyn fmt::Write,
-    name: &str,
-    array: &Lattice<T, R>,
-) -> fmt::Result {
-    let mut elements = array.elements.iter().enumerate();
-    elements.try_for_each(|(number, value)| {
-        writeln!(out, "{} = {value:?}", element(name, &array.extents, number))
-    })
-}
-
 /// Checks the extents and the numbers of a parameter with several axes.
 ///
 /// # Errors
@@ -240,13 +225,7 @@ pub fn check_lattice<T: Real, const R: usize>(
     };
     let found = (&given.extents[..], given.elements.len());
     same_part(name, given.uneven(0), (&extents, number), found)?;
-    let is_nan = |value: &T| !value.equals(*value).all();
-    match given.elements.iter().position(is_nan) {
-        None => Ok(()),
-        Some(number) => Err(Error::Parameter {
-            name: element(name, &extents, number),
-        }),
-    }
+    check_parameter(name, &extents, &given.elements)
 }
 
 /// Checks the rows and columns of an array of parameters.

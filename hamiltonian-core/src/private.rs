@@ -30,13 +30,11 @@ pub use crate::kernel::{
     Adds, Damped, Drift, Field, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
     Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
 };
-pub use crate::lattice::{
-    Lattice, MatrixOf, check_extents, check_lattice, describe_lattice, fits, lattice,
-};
+use crate::lattice::element;
+pub use crate::lattice::{Lattice, MatrixOf, check_extents, check_lattice, fits, lattice};
 pub use crate::loops::{
     Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, wrapped,
 };
-use crate::output::element;
 pub use crate::pairs::{Row, TILED, Triangle, pairs};
 pub use crate::push::Coupled;
 pub use crate::reach::Reach;
@@ -86,45 +84,30 @@ pub fn window<T, const N: usize>(values: &[T], start: usize) -> &[T; N] {
     }
 }
 
-/// The elements of a parameter, column by column, with the places in it.
-fn elements<T: Real>(rows: usize, values: &[T]) -> impl Iterator<Item = (usize, usize, T)> {
-    let places = values.iter().enumerate();
-    places.map(move |(at, value)| (at % rows, at / rows, *value))
-}
-
-/// Writes the elements of a parameter, `m = 0.5`, `m[2] = 1.5` or `K[0][1] = 1.5`, each on a line.
+/// Writes the elements of a parameter, `m = 0.5`, `m[2] = 1.5` or `K[0][1] = 1.5`, each on a line. The last index of
+/// `values` is the fastest.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn describe_parameter<T: Real>(
     out: &mut dyn Write,
     name: &str,
-    rank: usize,
-    rows: usize,
+    extents: &[usize],
     values: &[T],
 ) -> fmt::Result {
-    let mut all = elements(rows, values);
-    all.try_for_each(|(i, j, value)| match rank {
-        0 => writeln!(out, "{name} = {value:?}"),
-        _ => writeln!(out, "{} = {value:?}", element(name, rank, i, j)),
-    })
+    let mut all = values.iter().enumerate();
+    all.try_for_each(|(at, value)| writeln!(out, "{} = {value:?}", element(name, extents, at)))
 }
 
-/// An error where an element of a parameter is NaN.
+/// An error where an element of a parameter is NaN. The last index of `values` is the fastest.
 ///
 /// # Errors
 /// [`Error::Parameter`] with the name of the first.
-pub fn check_parameter<T: Real>(
-    name: &str,
-    rank: usize,
-    rows: usize,
-    values: &[T],
-) -> Result<(), Error> {
-    let is_nan = |value: T| !value.equals(value).all();
-    match elements(rows, values).find(|(_, _, value)| is_nan(*value)) {
+pub fn check_parameter<T: Real>(name: &str, extents: &[usize], values: &[T]) -> Result<(), Error> {
+    match values.iter().position(|value| !value.equals(*value).all()) {
         None => Ok(()),
-        Some((i, j, _)) => Err(Error::Parameter {
-            name: element(name, rank, i, j),
+        Some(at) => Err(Error::Parameter {
+            name: element(name, extents, at),
         }),
     }
 }

@@ -189,11 +189,12 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             );
             continue;
         }
-        let whole = match shape {
-            Shape::Scalar => as_slice(shape, &format!("[{value}]")),
-            _ => as_slice(shape, &value),
+        let (rows, given) = match shape {
+            Shape::Matrix(..) => (format!("let _b = {value}.transpose();\n"), "_b"),
+            _ => (String::new(), value.as_str()),
         };
-        let _ = writeln!(numbers, "__h::check_parameter(\"{name}\", {whole})?;");
+        let whole = as_slice(shape, given);
+        let _ = writeln!(numbers, "{rows}__h::check_parameter(\"{name}\", {whole})?;");
         if is_dynamic {
             let (rows, columns) = context.extents(shape);
             let _ = writeln!(
@@ -337,11 +338,12 @@ pub fn getters(context: Context, item: &Header) -> TokenStream {
     out
 }
 
-/// The rank of a parameter that is no lattice, its rows and its numbers, of the array `name`.
+/// The extents of a parameter and its numbers, of `name`: a number, an array, or the transpose of a matrix.
 pub fn as_slice(shape: &Shape, name: &str) -> String {
     match shape {
-        Shape::Scalar => format!("0, 1, &{name}"),
-        Shape::Vector(_) | Shape::Lattice(..) => format!("1, {name}.nrows(), {name}.as_slice()"),
-        Shape::Matrix(..) => format!("2, {name}.nrows(), {name}.as_slice()"),
+        Shape::Scalar => format!("&[], &[{name}]"),
+        Shape::Vector(_) => format!("&[{name}.nrows()], {name}.as_slice()"),
+        Shape::Matrix(..) => format!("&[{name}.ncols(), {name}.nrows()], {name}.as_slice()"),
+        Shape::Lattice(..) => format!("&{name}.extents(), {name}.as_slice()"),
     }
 }

@@ -346,26 +346,20 @@ impl<'a> Emission<'a> {
         }
         for (at, parameter) in context.model.parameters.iter().enumerate() {
             let (at, name) = (at as u16, &parameter.name);
-            if parameter.shape == Shape::Scalar {
-                let whole = as_slice(
-                    &Shape::Scalar,
-                    &format!("[{}]", context.generics.lifted(at)),
-                );
-                let _ = writeln!(
-                    lines,
-                    "__h::describe_parameter(_out, \"{name}\", {whole})?;"
-                );
-                continue;
-            }
-            let value = context.lifted(at);
-            let described = match parameter.shape {
-                Shape::Lattice(..) => format!("__h::describe_lattice(_out, \"{name}\", &_b)"),
-                _ => {
-                    let whole = as_slice(&parameter.shape, "_b");
-                    format!("__h::describe_parameter(_out, \"{name}\", {whole})")
-                }
+            let value = match parameter.shape {
+                Shape::Scalar => context.generics.lifted(at),
+                Shape::Matrix(..) => context.generics.lifted_rows(at),
+                _ => context.lifted(at),
             };
-            let _ = writeln!(lines, "let _b = {value};\n{described}?;");
+            let (array, value) = match parameter.shape {
+                Shape::Scalar => (String::new(), value.as_str()),
+                _ => (format!("let _b = {value};\n"), "_b"),
+            };
+            let whole = as_slice(&parameter.shape, value);
+            let _ = writeln!(
+                lines,
+                "{array}__h::describe_parameter(_out, \"{name}\", {whole})?;"
+            );
         }
         for (at, (ty, arity)) in context.generics.functions.iter().enumerate() {
             let name = &context.definition.checked.functions[at].name;

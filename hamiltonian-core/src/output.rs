@@ -11,6 +11,7 @@ use crate::observe::{Observer, View, one_trajectory};
 use crate::state::State;
 use crate::system::{Group, System, clock};
 use crate::table::{Table, wrapped};
+use crate::uneven::named;
 use crate::vector::Vector;
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -311,15 +312,6 @@ impl Name {
     }
 }
 
-/// The name of an element of an array of that rank: `m`, `m[2]`, `K[0][1]`.
-pub(crate) fn element(name: &str, rank: usize, row: usize, column: usize) -> String {
-    match rank {
-        0 => name.to_string(),
-        1 => format!("{name}[{row}]"),
-        _ => format!("{name}[{row}][{column}]"),
-    }
-}
-
 /// The components of all groups in declaration order; `vector` tells run-time sizes.
 pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
     let mut names = Vec::with_capacity(vector.len());
@@ -348,7 +340,7 @@ pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
                 let index = before + group.offset + row + rows * column;
                 names.push(Name {
                     group: *group,
-                    indices: element("", group.rank, row, column),
+                    indices: named("", &[row, column][..group.rank]),
                     index,
                 });
             }

@@ -164,6 +164,48 @@ fn gauss_solves_long_steps_by_newtons_method() {
     assert!(error.contains("was not solved"), "{error}");
 }
 
+/// Steps with few stages are one loop. Made one by one they have the same bits, also if some of them need Newton's
+/// method: at the bottom of the pendulum, but not where it turns.
+#[test]
+fn steps_with_few_stages_have_the_same_bits_together_and_one_by_one() {
+    fn both<M: Scheme<f64, Hand<Pendulum, 1>>>(scheme: M) {
+        const STEPS: u64 = 200;
+        let system = swinging();
+        let new = || {
+            let start = State::new([1.5], [0.0]);
+            Integrator::new(&system, scheme.clone(), start, 1.6).expect("a good start")
+        };
+        let (mut together, mut one_by_one) = (new(), new());
+        together.advance(STEPS).expect("steps that are solved");
+        for _ in 0..STEPS {
+            one_by_one.advance(1).expect("a step that is solved");
+        }
+        assert_eq!(together.state(), one_by_one.state());
+        assert_eq!(together.carried(), one_by_one.carried());
+    }
+    fn swinging() -> Hand<Pendulum, 1> {
+        Hand(Pendulum {
+            m: 1.0,
+            l: 1.0,
+            g: 1.0,
+            from_bottom: true,
+        })
+    }
+    both(Gauss::<1>::default());
+    both(Gauss::<2>::default());
+    both(Gauss::<3>::default());
+    // The fixed point alone solves the first steps, but not all.
+    let start = State::new([1.5], [0.0]);
+    let system = swinging();
+    let mut run =
+        Integrator::new(&system, ImplicitMidpoint::default(), start, 1.6).expect("a good start");
+    let error = run.advance(200).expect_err("no fixed point");
+    assert!(
+        matches!(error, Error::Solve { step, .. } if step > 1),
+        "{error}"
+    );
+}
+
 /// Kepler's problem in the plane.
 #[derive(Debug, Clone)]
 pub struct Kepler;

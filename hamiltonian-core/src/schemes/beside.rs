@@ -31,6 +31,21 @@ pub(super) trait StagedMap<const S: usize>: Map {
     /// Makes one step, stage by stage.
     fn solve(&self, t: ScalarOf<Self>, z: &mut Self::Carried, work: &mut Self::Work) -> Cause;
 
+    /// Makes at least one and up to `n` steps after the first `made`, stage by stage. Returns the number of steps
+    /// made.
+    #[inline(always)]
+    fn steps_apart(
+        &self,
+        clock: Clock<ScalarOf<Self>>,
+        made: u64,
+        _n: u64,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) -> u64 {
+        self.solve(clock.at(made), z, work);
+        1
+    }
+
     /// Makes `n` steps after the first `from`, the stages beside each other where there are lanes for them.
     #[inline(always)]
     fn steps(
@@ -59,8 +74,7 @@ pub(super) trait StagedMap<const S: usize>: Map {
             }
         }
         while made < n {
-            self.solve(clock.at(from + made), z, work);
-            made += 1;
+            made += self.steps_apart(clock, from + made, n - made, z, work);
         }
     }
 }

@@ -11,24 +11,25 @@
 //! slopes of q are the coefficients of the polynomial dq/dt and of the part of Pᵢ that no such
 //! polynomial sees, and dq/dt = ∂H/∂p at the nodes is left to Newton's method.
 
+mod guess;
 mod newton;
 mod slopes;
 
 use super::beside::StagedMap;
-use super::collocation::{Collocation, constant};
 use super::compensated::carry;
 use super::iterate::{Contraction, Outcome, iterate};
-use super::rows::{Abreast, Apart, Width, of_the_guess};
+use super::rows::{Abreast, Apart, LEAST, Width};
 use crate::flow::{Scratch, VectorField};
-use crate::map::{Cause, Clock, Map, Step};
+use crate::map::{Cause, Clock, Map};
 use crate::state::{Pair, Point, State};
 use crate::system::Dynamics;
 use crate::system::gather::{Kept, in_lanes};
 use crate::vector::Vector;
 use core::ops::Range;
+pub(super) use guess::{extrapolation, of_fixed_point};
 use hamiltonian_lanes::{Mask, Real};
 use newton::{Entries, Linear};
-use slopes::{StepsBeside, Tableau, finish, fixed_point};
+use slopes::{Memory, StepsBeside, Tableau, finish, fixed_point, steps};
 
 /// One vector a stage, as one vector.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,58 +57,6 @@ impl<X: Vector, const S: usize> Vector for Stages<X, S> {
     fn take(&mut self) -> Self {
         Stages(core::array::from_fn(|i| self.0[i].take()))
     }
-}
-
-/// The matrix that takes the slopes at the stages of the step before to guesses for this one's: the
-/// slopes' polynomial, without its terms of degree 8 and more, whose extrapolation would be rounding;
-/// their mean where the steps are too different.
-pub(super) fn extrapolation<T: Real, const S: usize>(
-    method: &Collocation<S>,
-    step: Step<T>,
-) -> [[T; S]; S] {
-    const TERMS: usize = 8;
-    const FAR: f64 = 1.5;
-    let number = |x: usize| T::constant(x as f64, 0.0);
-    let ratio = step.h / step.before;
-    let terms = if ratio.magnitude() <= FAR {
-        TERMS.min(S)
-    } else {
-        1
-    };
-    // Legendre's polynomials of x on [−1, 1]: Pₖ and Pₖ₋₁.
-    let next = |k: usize, x: T, (value, before): (T, T)| {
-        let next = (number(2 * k + 1) * x * value - number(k) * before) / number(k + 1);
-        (next, value)
-    };
-    let two = number(2);
-    core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            let there = two * constant(method.nodes[j]) - T::one();
-            // One step on, in units of the step before.
-            let here = T::one() + two * constant(method.nodes[i]) * ratio;
-            let (mut at_j, mut at_i) = ((T::one(), T::zero()), (T::one(), T::zero()));
-            let mut sum = T::zero();
-            for k in 0..terms {
-                sum += constant::<T>(method.norm(k)) * at_j.0 * at_i.0;
-                at_j = next(k, there, at_j);
-                at_i = next(k, here, at_i);
-            }
-            constant::<T>(method.weights[j]) * sum
-        })
-    })
-}
-
-/// α and β of the guess that [`extrapolation`] makes, for the slopes of the step before in place of this one's;
-/// and α and β themselves.
-pub(super) fn of_fixed_point<T: Real, const S: usize>(
-    method: &Collocation<S>,
-    step: Step<T>,
-    weights: &[T; S],
-    matrices: [[[T; S]; S]; 2],
-) -> [[[[T; S]; S]; 2]; 2] {
-    let guess = extrapolation(method, step);
-    let guess = matrices.map(|matrix| of_the_guess(&matrix, weights, &guess));
-    [guess, matrices]
 }
 
 /// The value a step with stages carries: the point; the unknowns of the last step, for
@@ -382,6 +331,15 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         outcome
     }
 
+    fn tableau(&self) -> Tableau<'_, T, T, S> {
+        Tableau {
+            h: self.h,
+            times: &self.times,
+            weights: &self.weights,
+            matrices: &self.matrices,
+        }
+    }
+
     /// The rest of a step: Newton's method in lanes where the fixed point failed, and the new point.
     #[inline(always)]
     fn complete(
@@ -507,15 +465,9 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
         let outcome = if self.modes.is_some() {
             self.solve_between(t, point, None, unknowns, work, |_, _| {})
         } else {
-            let tableau = Tableau {
-                h: self.h,
-                times: &self.times,
-                weights: &self.weights,
-                matrices: &self.matrices,
-            };
             fixed_point::<T, Apart, _, _, _, S>(
                 self.limit,
-                &tableau,
+                &self.tableau(),
                 &self.field,
                 t,
                 point,
@@ -525,6 +477,44 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
             )
         };
         self.complete(t, outcome, z, work)
+    }
+
+    #[inline(always)]
+    fn steps_apart(
+        &self,
+        clock: Clock<T>,
+        made: u64,
+        n: u64,
+        z: &mut Carries<P::Vector, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+    ) -> u64 {
+        if S >= LEAST || self.modes.is_some() {
+            self.solve(clock.at(made), z, work);
+            return 1;
+        }
+        // Few stages may stay in registers, if they are variables of this loop alone.
+        let mut memory = Memory {
+            slopes: z.y.x.take(),
+            points: work.next.take(),
+            next: work.stage.take(),
+        };
+        let (mut point, mut low) = (z.x.take(), z.y.y.take());
+        let (solved, outcome) = steps::<T, Apart, _, _, _, S>(
+            self.limit,
+            &self.tableau(),
+            &self.field,
+            (clock, made, n),
+            &mut memory,
+            (&mut point, &mut low),
+        );
+        (z.x, z.y.y) = (point, low);
+        z.y.x = memory.slopes;
+        (work.next, work.stage) = (memory.points, memory.next);
+        if solved < n {
+            self.complete(clock.at(made + solved), outcome, z, work);
+            return solved + 1;
+        }
+        n
     }
 }
 

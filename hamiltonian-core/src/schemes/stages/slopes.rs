@@ -12,7 +12,7 @@ use crate::schemes::rows::{
     Abreast, Beside, Equations, LEVELS, Layout, Width, in_rows, load, matrix_in_rows, product,
     rows, solve, spread, store, sum,
 };
-use crate::state::{Pair, Point};
+use crate::state::Point;
 use crate::system::Dynamics;
 use crate::system::gather::{InLanes, Kept};
 use crate::vector::Vector;
@@ -52,7 +52,8 @@ where
     type Unknowns = Point<X>;
     #[inline(always)]
     fn points(&self, is_first: bool, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
-        let matrices = &self.tableau.matrices[usize::from(!is_first)];
+        // One unknown is its own guess: the same factors in every iteration.
+        let matrices = &self.tableau.matrices[usize::from(S == 1 || !is_first)];
         for k in 0..Point::<X>::PARTS {
             let matrix = &matrices[usize::from(k >= X::PARTS)];
             for i in 0..self.point.part(k).len() {
@@ -142,6 +143,55 @@ pub(super) fn finish<T, L, V, X, const S: usize>(
     carry(point, low);
 }
 
+/// The memory of steps: slopes, points, a slope.
+pub(super) struct Memory<X: Vector, const S: usize> {
+    pub(super) slopes: Stages<Point<X>, S>,
+    pub(super) points: Stages<Point<X>, S>,
+    pub(super) next: Point<X>,
+}
+
+/// Makes up to `n` steps after the first `made`, until one is not solved. Returns the number of steps made and
+/// the outcome of the last.
+///
+/// The memory, the point and its low words should be variables of the caller alone, so that they may stay in
+/// registers.
+#[inline(always)]
+pub(super) fn steps<T, L, F, V, X, const S: usize>(
+    limit: u32,
+    tableau: &Tableau<'_, T, L::Row, S>,
+    field: &F,
+    (clock, made, n): (Clock<T>, u64, u64),
+    memory: &mut Memory<X, S>,
+    (point, low): (&mut Point<V>, &mut Point<V>),
+) -> (u64, Outcome<T>)
+where
+    T: Real,
+    L: Layout<T>,
+    F: VectorField<X>,
+    V: Vector<Scalar = T>,
+    X: Vector<Scalar = L::Row>,
+{
+    let (mut left, mut outcome) = (n, Outcome::unsolved());
+    while left > 0 {
+        outcome = fixed_point::<T, L, _, _, _, S>(
+            limit,
+            tableau,
+            field,
+            clock.at(made + (n - left)),
+            point,
+            &mut memory.slopes.0,
+            &mut memory.points.0,
+            &mut memory.next,
+        );
+        if !outcome.solved.all() {
+            break;
+        }
+        finish::<T, L, _, _, S>(tableau.weights, &memory.slopes.0, point, low);
+        left -= 1;
+    }
+    (n - left, outcome)
+}
+
 /// Steps whose stages lie beside each other, until one is not solved.
 pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
     pub(super) map: &'a Collocated<T, P, S>,
@@ -150,13 +200,6 @@ pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const
     pub(super) made: u64,
     pub(super) n: u64,
     pub(super) z: &'a mut Carries<P::Vector, S>,
-}
-
-/// The memory of [`StepsBeside`]: slopes, points, a slope.
-struct Memory<X: Vector, const S: usize> {
-    slopes: Stages<Point<X>, S>,
-    points: Stages<Point<X>, S>,
-    next: Point<X>,
 }
 
 impl<T, Q, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
@@ -215,38 +258,24 @@ where
             },
         );
         // Moved out, they are variables of this loop alone and may stay in registers.
-        let mut slopes = memory.slopes.take();
-        let mut points = memory.points.take();
-        let mut next = memory.next.take();
-        let (mut point, mut low) = (z.x.take(), z.y.y.take());
-        load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut slopes.0);
-        let mut left = n;
-        while left > 0 {
-            let outcome = fixed_point::<T, Beside<P, WIDTH>, _, _, _, S>(
-                map.limit,
-                &tableau,
-                &field,
-                clock.at(made + (n - left)),
-                &point,
-                &mut slopes.0,
-                &mut points.0,
-                &mut next,
-            );
-            if !outcome.solved.all() {
-                break;
-            }
-            finish::<T, Beside<P, WIDTH>, _, _, S>(&weights, &slopes.0, &mut point, &mut low);
-            left -= 1;
-        }
-        store::<T, Beside<P, WIDTH>, _, _, S>(&slopes.0, &mut z.y.x.0);
-        let Pair { x, y } = z;
-        *x = point;
-        y.y = low;
-        *memory = Memory {
-            slopes,
-            points,
-            next,
+        let mut here = Memory {
+            slopes: memory.slopes.take(),
+            points: memory.points.take(),
+            next: memory.next.take(),
         };
-        n - left
+        let (mut point, mut low) = (z.x.take(), z.y.y.take());
+        load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut here.slopes.0);
+        let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, S>(
+            map.limit,
+            &tableau,
+            &field,
+            (clock, made, n),
+            &mut here,
+            (&mut point, &mut low),
+        );
+        store::<T, Beside<P, WIDTH>, _, _, S>(&here.slopes.0, &mut z.y.x.0);
+        (z.x, z.y.y) = (point, low);
+        *memory = here;
+        steps
     }
 }

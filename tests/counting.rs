@@ -107,7 +107,10 @@ fn one_exponential_for_each_bond() {
     lattice::<1>();
     lattice::<8>();
     lattice::<200>();
-    lattice::<10_000>();
+    // Arrays of this size stand on the stack.
+    let large = std::thread::Builder::new().stack_size(16 << 20);
+    let large = large.spawn(lattice::<10_000>).expect("a thread");
+    large.join().expect("a lattice of 10 000 sites");
 }
 
 /// Each pair of bodies is visited once, with one square root and one division; the division by each

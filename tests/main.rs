@@ -37,7 +37,6 @@ pub mod numbers;
 mod nystrom;
 pub mod order;
 mod pages;
-mod pairs;
 pub mod paper;
 mod periodic;
 pub mod planets;
@@ -54,7 +53,6 @@ mod switched;
 #[path = "../hamiltonian-symbolic/tests/common/mod.rs"]
 mod symbolic;
 pub mod systems;
-mod threads;
 #[allow(dead_code, unused_imports)]
 #[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]
 mod tree;

@@ -354,7 +354,10 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 ControlFlow::Continue(())
             },
         };
-        self.scheme.drive(&mut host, self.fuses);
+        let (scheme, fuses) = (&*self.scheme, self.fuses);
+        threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
+            scheme.drive(host, fuses);
+        });
         let member = |key: usize, error: Error| Error::Member {
             index: chunk.first + key,
             error: Box::new(error),
@@ -371,7 +374,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     /// Restores the data of observers. A member fails if another observer saved its data.
     fn restore(&mut self, memory: &mut Memory)
     where
-        O: Observer<f64, S>,
+        O: Observer<f64, S> + Send,
     {
         for chunk in &mut self.chunks {
             // Members that have ended are loaded too, since their observers have saved data. Restoring takes a view,
@@ -395,7 +398,10 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                     Err(error) => ControlFlow::Break(Err(error)),
                 },
             };
-            self.scheme.drive(&mut host, self.fuses);
+            let (scheme, fuses) = (&*self.scheme, self.fuses);
+            threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
+                scheme.drive(host, fuses);
+            });
             chunk.finished.extend(finished);
         }
     }

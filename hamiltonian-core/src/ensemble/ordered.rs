@@ -3,23 +3,31 @@
 //! Input: numbered jobs. Output: their results, one by one in the order of the numbers. Invariant: at most twice as
 //! many jobs as threads are begun and not yet taken, so that memory is bounded.
 
+use super::threads;
 use core::ops::ControlFlow;
 
-/// Does `count` jobs and passes their results to `take` in order, until `take` breaks.
+/// Does `count` jobs on a number of threads and passes their results to `take` in order, until `take` breaks.
 pub(crate) fn in_order<B: Send>(
     count: usize,
-    threads: usize,
+    number: usize,
     work: impl Fn(usize) -> B + Sync,
     mut take: impl FnMut(usize, B) -> ControlFlow<()>,
 ) {
-    if threads.min(count) <= 1 {
-        let _ = (0..count).try_for_each(|job| take(job, work(job)));
+    let each = |job| {
+        let mut result = None;
+        threads::for_each(core::slice::from_mut(&mut result), 1, |result| {
+            *result = Some(work(job));
+        });
+        result.map_or(ControlFlow::Break(()), |result| take(job, result))
+    };
+    if number.min(count) <= 1 {
+        let _ = (0..count).try_for_each(each);
         return;
     }
     #[cfg(feature = "std")]
-    parallel::in_order(count, threads.min(count), work, take);
+    parallel::in_order(count, number.min(count), work, take);
     #[cfg(not(feature = "std"))]
-    let _ = (0..count).try_for_each(|job| take(job, work(job)));
+    let _ = (0..count).try_for_each(each);
 }
 
 #[cfg(feature = "std")]

@@ -15,8 +15,12 @@ pub(crate) fn available() -> usize {
     }
 }
 
-/// Starts a thread for members. In unoptimised code the frames of inlined arithmetic in packs exceed the
-/// default stack of 2 MB. Stack pages that are never touched take no memory.
+/// True if members advance on the thread of the caller as well. In unoptimised code they do not: a frame of
+/// arithmetic inlined into a level takes some megabytes there, and a caller may have 1 MB (the main thread on Windows)
+/// or 2 MB (a test).
+const ON_CALLER: bool = cfg!(any(not(debug_assertions), not(feature = "std")));
+
+/// Starts a thread for members, with a stack for unoptimised code. Stack pages that are never touched take no memory.
 #[cfg(feature = "std")]
 pub(crate) fn spawn<'scope>(
     scope: &'scope std::thread::Scope<'scope, '_>,
@@ -33,7 +37,7 @@ pub(crate) fn spawn<'scope>(
 /// Does the work on every item. A thread that has finished an item takes the next one.
 pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&mut A) + Sync) {
     let threads = threads.clamp(1, items.len().max(1));
-    if threads == 1 {
+    if threads == 1 && ON_CALLER {
         items.iter_mut().for_each(work);
         return;
     }
@@ -53,10 +57,12 @@ pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&
             }
         };
         std::thread::scope(|scope| {
-            for _ in 1..threads {
+            for _ in usize::from(ON_CALLER)..threads {
                 spawn(scope, worker);
             }
-            worker();
+            if ON_CALLER {
+                worker();
+            }
         });
     }
     #[cfg(not(feature = "std"))]

@@ -1,23 +1,21 @@
-//! What ensembles and sweeps hold in memory, counted.
+//! What ensembles and sweeps hold in memory, counted over all threads of a process.
 
 use super::*;
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
-use std::cell::Cell;
+use std::env;
+use std::process::Command;
+use std::sync::atomic::{AtomicIsize, Ordering::SeqCst};
 
-/// The allocator of this process, which counts for each thread the bytes that it holds.
+/// The allocator of this process, which counts the bytes that it holds.
 struct Counting;
 
-thread_local! {
-    /// The bytes that this thread has allocated and not freed, and the most there have been.
-    static HELD: Cell<[isize; 2]> = const { Cell::new([0; 2]) };
-}
+/// The bytes that are allocated and not freed, and the most there have been.
+static NOW: AtomicIsize = AtomicIsize::new(0);
+static MOST: AtomicIsize = AtomicIsize::new(0);
 
 fn count(bytes: isize) {
-    // A thread that ends frees what it holds after its variables are gone.
-    let _ = HELD.try_with(|held| {
-        let [now, most] = held.get();
-        held.set([now + bytes, most.max(now + bytes)]);
-    });
+    let now = NOW.fetch_add(bytes, SeqCst) + bytes;
+    MOST.fetch_max(now, SeqCst);
 }
 
 // SAFETY: all is passed on to the allocator of the system.
@@ -35,12 +33,27 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// The bytes that are still held after some work of this thread, and the most that it held on the way.
+/// The bytes that are still held after some work, and the most that were held on the way.
 fn bytes<A>(work: impl FnOnce() -> A) -> (A, [isize; 2]) {
-    let [before, _] = HELD.get();
-    HELD.set([before; 2]);
+    let before = NOW.load(SeqCst);
+    MOST.store(before, SeqCst);
     let made = work();
-    (made, HELD.get().map(|bytes| bytes - before))
+    (made, [&NOW, &MOST].map(|bytes| bytes.load(SeqCst) - before))
+}
+
+/// Returns true in a process that makes this test alone. In others it starts such a process: other tests allocate, too.
+fn alone(name: &str) -> bool {
+    const ALONE: &str = "HAMILTONIAN_TEST_ALONE";
+    if env::var_os(ALONE).is_some() {
+        return true;
+    }
+    let mut process = Command::new(env::current_exe().expect("this program"));
+    let process = process.args(["--exact", name, "--test-threads=1"]);
+    let output = process.env(ALONE, "1").output().expect("a process");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("1 passed"), "{said}");
+    false
 }
 
 /// Members enough for several chunks.
@@ -63,7 +76,9 @@ fn many(each: bool) -> impl Fn(Member) -> (Pendulum, StateOf<Pendulum>) {
 
 #[test]
 fn an_ensemble_holds_what_members_carry() {
-    let _level = one_level();
+    if !alone("allocations::an_ensemble_holds_what_members_carry") {
+        return;
+    }
     let swarm = |count, each| {
         Ensemble::new(count, many(each), StormerVerlet::default(), 0.01)
             .expect("there are members")
@@ -113,7 +128,9 @@ fn an_ensemble_holds_what_members_carry() {
 
 #[test]
 fn a_sweep_holds_its_chunks_in_work() {
-    let _level = one_level();
+    if !alone("allocations::a_sweep_holds_its_chunks_in_work") {
+        return;
+    }
     let most = |count| {
         let sweep = Sweep::new(count, many(true), StormerVerlet::default(), 0.01)
             .steps(5)

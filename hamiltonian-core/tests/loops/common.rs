@@ -1,0 +1,6 @@
+//! What the tests of the facade share.
+
+#[path = "../../../tests/common/bits.rs"]
+pub mod bits;
+#[path = "../../../tests/common/derivatives.rs"]
+pub mod derivatives;

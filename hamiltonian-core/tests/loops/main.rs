@@ -1,0 +1,17 @@
+//! Loops over pairs and loops on threads, of systems that the macro makes: what takes many steps. The tests of the
+//! facade, whose code is not optimised, have the shapes of loops.
+
+#[path = "../common/allocator.rs"]
+mod allocator;
+#[allow(dead_code)]
+mod common;
+#[allow(dead_code)]
+mod counting;
+mod pairs;
+#[allow(dead_code)]
+#[path = "../../../hamiltonian-symbolic/tests/common/mod.rs"]
+mod symbolic;
+mod threads;
+#[allow(dead_code, unused_imports)]
+#[path = "../../../hamiltonian-symbolic/tests/tree/mod.rs"]
+mod tree;

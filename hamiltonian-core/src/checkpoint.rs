@@ -60,8 +60,8 @@ pub struct Checkpoint {
 
 const MAGIC: &[u8; 8] = b"HAMILTON";
 /// Version 2: implicit schemes add their stages in another order, sums of 32 terms or more are
-/// trees, sums over the pairs of 4096 points or more are computed in tiles, and a run has flags for its
-/// arithmetic.
+/// trees, sums over the pairs of 4096 points or more are computed in tiles, a run has flags for its
+/// arithmetic, and matrices among the parameters are written row after row.
 const VERSION: u64 = 2;
 
 impl Checkpoint {

@@ -8,14 +8,13 @@ mod nested;
 pub use nested::{MatrixOf, lattice};
 
 use crate::error::Error;
-use crate::private::check_parameter;
 use crate::uneven::{Uneven, named, same_part};
 use crate::vector::Vector;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::{Index, IndexMut};
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Mask, Real};
 
 /// An array with `R` axes: the coordinates `u[n][m]` are a `Lattice<f64, 2>`, and the parameter `w[n][m][k]` is a
 /// `Lattice<f64, 3>`.
@@ -208,6 +207,19 @@ pub(crate) fn element(name: &str, extents: &[usize], number: usize) -> String {
         number / rest % extent
     };
     named(name, &extents.iter().map(place).collect::<Vec<_>>())
+}
+
+/// An error where an element of a parameter is NaN. The last index of `values` is the fastest.
+///
+/// # Errors
+/// [`Error::Parameter`] with the name of the first.
+pub fn check_parameter<T: Real>(name: &str, extents: &[usize], values: &[T]) -> Result<(), Error> {
+    match values.iter().position(|value| !value.equals(*value).all()) {
+        None => Ok(()),
+        Some(at) => Err(Error::Parameter {
+            name: element(name, extents, at),
+        }),
+    }
 }
 
 /// Checks the extents and the numbers of a parameter with several axes.

@@ -31,7 +31,9 @@ pub use crate::kernel::{
     Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
 };
 use crate::lattice::element;
-pub use crate::lattice::{Lattice, MatrixOf, check_extents, check_lattice, fits, lattice};
+pub use crate::lattice::{
+    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
+};
 pub use crate::loops::{
     Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, wrapped,
 };
@@ -97,19 +99,6 @@ pub fn describe_parameter<T: Real>(
 ) -> fmt::Result {
     let mut all = values.iter().enumerate();
     all.try_for_each(|(at, value)| writeln!(out, "{} = {value:?}", element(name, extents, at)))
-}
-
-/// An error where an element of a parameter is NaN. The last index of `values` is the fastest.
-///
-/// # Errors
-/// [`Error::Parameter`] with the name of the first.
-pub fn check_parameter<T: Real>(name: &str, extents: &[usize], values: &[T]) -> Result<(), Error> {
-    match values.iter().position(|value| !value.equals(*value).all()) {
-        None => Ok(()),
-        Some(at) => Err(Error::Parameter {
-            name: element(name, extents, at),
-        }),
-    }
 }
 
 /// An array that `new` takes in the storage `V` of its parameter, in any form of [`IntoVector`].

@@ -358,10 +358,10 @@ pub fn dispatch_at_most<K: Kernel>(limit: Cpu, kernel: K) -> K::Output {
     }
 }
 
-/// One level: its type, its registers, how many of them are wide, are several, and hold eight numbers, its features.
+/// One level: its type, the module of its entries, its registers, how many of them are wide, are several, and hold eight numbers, its features.
 macro_rules! level {
     (
-        $(#[$where:meta])* $level:ident, $scalar:ty, $register:ty, $wide:literal, $several:literal, $eight:literal,
+        $(#[$where:meta])* $level:ident in $module:ident, $scalar:ty, $register:ty, $wide:literal, $several:literal, $eight:literal,
         $four:ty
         $(, $features:literal)?
     ) => {
@@ -385,48 +385,55 @@ macro_rules! level {
 
             #[inline(always)]
             fn enter<K: Kernel>(kernel: K) -> K::Output {
-                // rustc ignores `inline(never)` on a function with features. This function has
-                // none, so a function with features cannot be inlined into it.
-                #[inline(never)]
-                fn entry<K: Kernel>(kernel: K) -> K::Output {
-                    $(#[target_feature(enable = $features)])?
-                    fn inside<K: Kernel>(kernel: K) -> K::Output {
-                        kernel.run::<$level>()
-                    }
-                    // SAFETY: `inside` asks for the features of the level alone. The level is
-                    // private, so this is called by `dispatch_at_most`, which has queried the CPU,
-                    // or by a kernel that already runs on this level.
-                    #[allow(unused_unsafe)]
-                    unsafe {
-                        inside(kernel)
-                    }
-                }
-                entry(kernel)
+                $module::enter(kernel)
             }
 
             #[inline(always)]
             fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output {
-                #[inline(never)]
-                fn entry<K: KernelAt<$level>>(kernel: K) -> K::Output {
-                    $(#[target_feature(enable = $features)])?
-                    fn inside<K: KernelAt<$level>>(kernel: K) -> K::Output {
-                        kernel.run()
-                    }
-                    // SAFETY: as in `enter`: the caller has queried the CPU, or already runs on
-                    // this level.
-                    #[allow(unused_unsafe)]
-                    unsafe {
-                        inside(kernel)
-                    }
+                $module::enter_at(kernel)
+            }
+        }
+
+        /// The entries stand in a module for each level, so that rustc compiles the levels at the same time: it
+        /// divides generic code by modules.
+        $(#[$where])*
+        mod $module {
+            use super::{Kernel, KernelAt, $level};
+
+            // rustc ignores `inline(never)` on a function with features. This function has none, so a function with
+            // features cannot be inlined into it.
+            #[inline(never)]
+            pub(super) fn enter<K: Kernel>(kernel: K) -> K::Output {
+                $(#[target_feature(enable = $features)])?
+                fn inside<K: Kernel>(kernel: K) -> K::Output {
+                    kernel.run::<$level>()
                 }
-                entry(kernel)
+                // SAFETY: `inside` asks for the features of the level alone. The level is private, so this is called by
+                // `dispatch_at_most`, which has queried the CPU, or by a kernel that already runs on this level.
+                #[allow(unused_unsafe)]
+                unsafe {
+                    inside(kernel)
+                }
+            }
+
+            #[inline(never)]
+            pub(super) fn enter_at<K: KernelAt<$level>>(kernel: K) -> K::Output {
+                $(#[target_feature(enable = $features)])?
+                fn inside<K: KernelAt<$level>>(kernel: K) -> K::Output {
+                    kernel.run()
+                }
+                // SAFETY: as in `enter`: the caller has queried the CPU, or already runs on this level.
+                #[allow(unused_unsafe)]
+                unsafe {
+                    inside(kernel)
+                }
             }
         }
     };
 }
 
 level!(
-    Portable,
+    Portable in portable,
     f64,
     super::portable::Two,
     4,
@@ -436,7 +443,7 @@ level!(
 );
 level!(
     #[cfg(target_arch = "x86_64")]
-    Sse2,
+    Sse2 in sse2,
     f64,
     core::arch::x86_64::__m128d,
     4,
@@ -446,7 +453,7 @@ level!(
 );
 level!(
     #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-    Neon,
+    Neon in neon,
     V<super::neon::One>,
     core::arch::aarch64::float64x2_t,
     8,
@@ -456,7 +463,7 @@ level!(
 );
 level!(
     #[cfg(target_arch = "x86_64")]
-    Avx2,
+    Avx2 in avx2,
     V<super::avx2::One>,
     core::arch::x86_64::__m256d,
     6,
@@ -467,7 +474,7 @@ level!(
 );
 level!(
     #[cfg(target_arch = "x86_64")]
-    Avx512,
+    Avx512 in avx512,
     V<super::avx2::One>,
     core::arch::x86_64::__m512d,
     8,

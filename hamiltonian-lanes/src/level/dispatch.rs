@@ -358,11 +358,12 @@ pub fn dispatch_at_most<K: Kernel>(limit: Cpu, kernel: K) -> K::Output {
     }
 }
 
-/// One level: its type, the module of its entries, its registers, how many of them are wide, are several, and hold eight numbers, its features.
+/// One level: its type, the module of its entries, its registers, how many of them are wide, are several, and hold
+/// eight numbers, its features.
 macro_rules! level {
     (
-        $(#[$where:meta])* $level:ident in $module:ident, $scalar:ty, $register:ty, $wide:literal, $several:literal, $eight:literal,
-        $four:ty
+        $(#[$where:meta])* $level:ident in $module:ident, $scalar:ty, $register:ty,
+        $wide:literal, $several:literal, $eight:literal, $four:ty
         $(, $features:literal)?
     ) => {
         $(#[$where])*

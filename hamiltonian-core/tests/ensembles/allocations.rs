@@ -1,4 +1,4 @@
-//! What ensembles and sweeps hold in memory, counted over all threads of a process.
+//! Ensembles and sweeps hold little memory: bytes are counted over all threads of a process.
 
 use super::*;
 use std::alloc::{GlobalAlloc, Layout, System as Heap};

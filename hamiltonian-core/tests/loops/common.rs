@@ -1,4 +1,4 @@
-//! What the tests of the facade share.
+//! Two modules that the tests of the facade share.
 
 #[path = "../../../tests/common/bits.rs"]
 pub mod bits;

@@ -32,6 +32,7 @@ pub(crate) fn in_order<B: Send>(
 
 #[cfg(feature = "std")]
 mod parallel {
+    use super::super::threads::spawn;
     use alloc::collections::BTreeMap;
     use core::ops::ControlFlow;
     use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -107,8 +108,10 @@ mod parallel {
             }
         };
         std::thread::scope(|scope| {
-            for _ in 0..threads {
-                crate::ensemble::threads::spawn(scope, worker);
+            let started = (0..threads).filter(|_| spawn(scope, worker)).count();
+            if started == 0 {
+                let _ = (0..count).try_for_each(|job| take(job, work(job)));
+                return;
             }
             let _stop = Stop(&shared);
             for job in 0..count {

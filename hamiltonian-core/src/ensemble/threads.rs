@@ -21,17 +21,15 @@ pub(crate) fn available() -> usize {
 const ON_CALLER: bool = cfg!(any(not(debug_assertions), not(feature = "std")));
 
 /// Starts a thread for members, with a stack for unoptimised code. Stack pages that are never touched take no memory.
+/// Returns false if the system starts no further thread: then the others do its work.
 #[cfg(feature = "std")]
 pub(crate) fn spawn<'scope>(
     scope: &'scope std::thread::Scope<'scope, '_>,
     worker: impl FnOnce() + Send + 'scope,
-) {
+) -> bool {
     const STACK: usize = 64 << 20;
     let builder = std::thread::Builder::new().stack_size(STACK);
-    if let Err(error) = builder.spawn_scoped(scope, worker) {
-        // `Scope::spawn` panics as well.
-        panic!("the system starts no further thread: {error}");
-    }
+    builder.spawn_scoped(scope, worker).is_ok()
 }
 
 /// Does the work on every item. A thread that has finished an item takes the next one.
@@ -57,10 +55,9 @@ pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&
             }
         };
         std::thread::scope(|scope| {
-            for _ in usize::from(ON_CALLER)..threads {
-                spawn(scope, worker);
-            }
-            if ON_CALLER {
+            let others = usize::from(ON_CALLER)..threads;
+            let started = others.filter(|_| spawn(scope, worker)).count();
+            if ON_CALLER || started == 0 {
                 worker();
             }
         });

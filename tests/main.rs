@@ -47,6 +47,7 @@ pub mod readme;
 mod reindexed;
 pub mod sizes;
 pub mod splits;
+mod stack;
 mod stages;
 mod switched;
 #[allow(dead_code)]

@@ -32,7 +32,7 @@ pub(crate) fn in_order<B: Send>(
 
 #[cfg(feature = "std")]
 mod parallel {
-    use super::super::threads::spawn;
+    use super::super::threads::beside;
     use alloc::collections::BTreeMap;
     use core::ops::ControlFlow;
     use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -107,8 +107,7 @@ mod parallel {
                 shared.changed.notify_all();
             }
         };
-        std::thread::scope(|scope| {
-            let started = (0..threads).filter(|_| spawn(scope, worker)).count();
+        beside(threads, worker, |started| {
             if started == 0 {
                 let _ = (0..count).try_for_each(|job| take(job, work(job)));
                 return;

@@ -20,16 +20,34 @@ pub(crate) fn available() -> usize {
 /// or 2 MB (a test).
 const ON_CALLER: bool = cfg!(any(not(debug_assertions), not(feature = "std")));
 
-/// Starts a thread for members, with a stack for unoptimised code. Stack pages that are never touched take no memory.
-/// Returns false if the system starts no further thread: then the others do its work.
+/// Runs the worker on some threads with stacks for unoptimised code, the caller's part beside them, and joins them.
+/// Stack pages that are never touched take no memory. The caller's part is told how many threads the system has
+/// started: it may start fewer, or none. Threads are joined, so that all their memory is free again on return.
+///
+/// # Panics
+///
+/// With the panic of a worker or of the caller's part.
 #[cfg(feature = "std")]
-pub(crate) fn spawn<'scope>(
-    scope: &'scope std::thread::Scope<'scope, '_>,
-    worker: impl FnOnce() + Send + 'scope,
-) -> bool {
+pub(crate) fn beside<A>(
+    threads: usize,
+    worker: impl Fn() + Sync,
+    caller: impl FnOnce(usize) -> A,
+) -> A {
     const STACK: usize = 64 << 20;
-    let builder = std::thread::Builder::new().stack_size(STACK);
-    builder.spawn_scoped(scope, worker).is_ok()
+    std::thread::scope(|scope| {
+        let spawn = |_| {
+            let builder = std::thread::Builder::new().stack_size(STACK);
+            builder.spawn_scoped(scope, &worker).ok()
+        };
+        let started: Vec<_> = (0..threads).map_while(spawn).collect();
+        let made = caller(started.len());
+        for thread in started {
+            if let Err(panic) = thread.join() {
+                std::panic::resume_unwind(panic);
+            }
+        }
+        made
+    })
 }
 
 /// Does the work on every item. A thread that has finished an item takes the next one.
@@ -54,9 +72,7 @@ pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&
                 work(item);
             }
         };
-        std::thread::scope(|scope| {
-            let others = usize::from(ON_CALLER)..threads;
-            let started = others.filter(|_| spawn(scope, worker)).count();
+        beside(threads - usize::from(ON_CALLER), worker, |started| {
             if ON_CALLER || started == 0 {
                 worker();
             }

@@ -398,7 +398,7 @@ impl Writer<'_> {
                 self.slices.push((*slice, index.clone(), text));
             }
             if let Some(stretch) = &stretch {
-                self.call(stretch, inner, "0usize");
+                self.call(stretch, inner, "0usize", false);
                 line!(self, "}} else {{");
             }
             line!(self, "for _i{d} in 0.._l{d} {{");
@@ -423,7 +423,7 @@ impl Writer<'_> {
         self.wrap(inner.domain, &found.wrapped);
         self.cut(inner.domain, &found.cuts);
         if let Some(stretch) = &stretch {
-            self.call(stretch, inner, &format!("_i{d}"));
+            self.call(stretch, inner, &format!("_i{d}"), is_wrapped && !is_tile);
         }
         // In a tile all iterations are core's.
         if !(is_tile && stretch.is_some()) {

@@ -310,10 +310,14 @@ impl Writer<'_> {
         line!(self, "[{}]\n}}\n}}", results.join(", "));
     }
 
-    /// Writes the call of core for a segment that begins at `start`, of a long loop.
-    pub(super) fn call(&mut self, stretch: &Stretch, inner: &Loop, start: &str) {
+    /// Writes the call of core for a segment that begins at `start`, of a long loop. Segments that fill no pack
+    /// are left to the loop's own iterations where these are written and have no sums, which are core's.
+    pub(super) fn call(&mut self, stretch: &Stretch, inner: &Loop, start: &str, has_own: bool) {
         let d = inner.domain.0;
-        line!(self, "if _long{d} {{");
+        match has_own && stretch.sums.is_empty() {
+            true => line!(self, "if _long{d} && _l{d} >= __h::STRIDE {{"),
+            false => line!(self, "if _long{d} {{"),
+        }
         if start != format!("_i{d}") {
             line!(self, "let _i{d} = {start};");
         }

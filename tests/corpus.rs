@@ -66,7 +66,11 @@ impl Plain for Shape {
 /// The sizes of each number of axes: all tails, and blocks with and without a rest.
 fn sizes(axes: usize) -> Vec<[usize; 3]> {
     match axes {
-        1 => (1..=40).chain([136, 257]).map(|k| [1, 1, k]).collect(),
+        1 => (1..=40)
+            .chain(95..=104)
+            .chain([136, 257])
+            .map(|k| [1, 1, k])
+            .collect(),
         2 => vec![[1, 1, 1], [1, 6, 33], [1, 3, 40], [1, 37, 45], [1, 40, 2]],
         _ => vec![[1, 1, 1], [2, 6, 38], [7, 3, 34], [6, 5, 2]],
     }

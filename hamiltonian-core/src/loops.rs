@@ -20,6 +20,10 @@ use packs::packs;
 /// The least extent of a loop whose sums are partial sums, and whose iterations may go through lanes.
 pub const LONG: usize = 32;
 
+/// The least extent from which a loop without sums whose iterations are a few additions and multiplications goes
+/// through lanes: the way into a level takes as long as some fifty of them.
+pub const MANY: usize = 96;
+
 /// The number of partial sums: iteration k of a loop adds to sum k mod 8.
 pub const STRIDE: usize = 8;
 

@@ -94,7 +94,7 @@ pub fn ends(step: f64) -> Vec<(&'static str, u64)> {
         runs(&mut of_kind);
         ends.push((name, of_kind.number));
     };
-    let sizes = || 1..=40;
+    let sizes = || (1..=40).chain(95..=104);
     of("neighbours", &|ends| {
         for n in sizes() {
             ends.add(Ring::new(n).expect("a size"), StormerVerlet::default());

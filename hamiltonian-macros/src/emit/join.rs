@@ -168,9 +168,10 @@ impl Writer<'_> {
             of_all(loops, 's', "max"),
             of_all(loops, 'e', "min")
         );
+        let least = self.least(&joint);
         line!(
             self,
-            "let _long{d} = <T as __h::Real>::WIDENS && _hi{d}.saturating_sub(_lo{d}) >= __h::LONG;"
+            "let _long{d} = <T as __h::Real>::WIDENS && _hi{d}.saturating_sub(_lo{d}) >= __h::{least};"
         );
         let known = self.slices.len();
         line!(self, "if _long{d} {{");

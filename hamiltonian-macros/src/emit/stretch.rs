@@ -210,7 +210,10 @@ impl Writer<'_> {
         };
         let is_long = match (self.tile == Some(inner.domain), sums.is_empty()) {
             (true, _) => "true".to_owned(),
-            (false, true) => format!("<T as __h::Real>::WIDENS && {length} >= __h::LONG"),
+            (false, true) => {
+                let least = stretch.map_or("LONG", |stretch| self.least(stretch));
+                format!("<T as __h::Real>::WIDENS && {length} >= __h::{least}")
+            }
             (false, false) => format!("{length} >= __h::LONG"),
         };
         if sums.is_empty() {
@@ -231,6 +234,32 @@ impl Writer<'_> {
                 let place = format!("_sums{d}[{at}][(_i{d} - _from{d}) % __h::STRIDE]");
                 self.trees.push((sum, format!("_long{d}"), place));
             }
+        }
+    }
+
+    /// The least extent from which a loop without sums goes through lanes. A nest enters a level once for all rows.
+    pub(super) fn least(&self, stretch: &Stretch) -> &'static str {
+        use Instruction::{Add, Constant, Mul, MulAdd, MulSub, Neg, NegMulAdd, Sub};
+        const FEW: usize = 8;
+        let program = self.context.program;
+        let is_fast = |step: &Step| match step {
+            Step::Let(value) => matches!(
+                program.instruction(*value),
+                Constant(..)
+                    | Neg(..)
+                    | Add(..)
+                    | Sub(..)
+                    | Mul(..)
+                    | MulAdd(..)
+                    | MulSub(..)
+                    | NegMulAdd(..)
+            ),
+            _ => false,
+        };
+        match !self.is_nest && stretch.computed.len() <= FEW && stretch.computed.iter().all(is_fast)
+        {
+            true => "MANY",
+            false => "LONG",
         }
     }
 

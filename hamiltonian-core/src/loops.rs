@@ -20,9 +20,17 @@ use packs::packs;
 /// The least extent of a loop whose sums are partial sums, and whose iterations may go through lanes.
 pub const LONG: usize = 32;
 
-/// The least extent from which a loop without sums whose iterations are a few additions and multiplications goes
-/// through lanes: the way into a level takes as long as some fifty of them.
-pub const MANY: usize = 96;
+/// The least number of iterations of a loop without sums that are faster in lanes than one after the other, from the
+/// number of sums and products in one and that of other operations: the way into a level takes as long as some fifty
+/// additions. (At 64 sites a step of the FPUT chain took 57 ns without lanes and 91 with them; at 128 sites it is the
+/// other way round. Zen 4.)
+#[must_use]
+pub const fn worth(sums_and_products: usize, others: usize) -> usize {
+    match (sums_and_products, others) {
+        (0..=8, 0) => 3 * LONG,
+        _ => LONG,
+    }
+}
 
 /// The number of partial sums: iteration k of a loop adds to sum k mod 8.
 pub const STRIDE: usize = 8;

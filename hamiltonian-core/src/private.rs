@@ -35,7 +35,7 @@ pub use crate::lattice::{
     Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
 };
 pub use crate::loops::{
-    Body, Change, LONG, MANY, Mode, Nest, STRIDE, Store, Stretch, nest, total, wrapped,
+    Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, worth, wrapped,
 };
 pub use crate::pairs::{Row, TILED, Triangle, pairs};
 pub use crate::push::Coupled;

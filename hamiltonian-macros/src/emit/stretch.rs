@@ -211,7 +211,8 @@ impl Writer<'_> {
         let is_long = match (self.tile == Some(inner.domain), sums.is_empty()) {
             (true, _) => "true".to_owned(),
             (false, true) => {
-                let least = stretch.map_or("LONG", |stretch| self.least(stretch));
+                let least =
+                    stretch.map_or_else(|| "LONG".to_owned(), |stretch| self.least(stretch));
                 format!("<T as __h::Real>::WIDENS && {length} >= __h::{least}")
             }
             (false, false) => format!("{length} >= __h::LONG"),
@@ -237,14 +238,16 @@ impl Writer<'_> {
         }
     }
 
-    /// The least extent from which a loop without sums goes through lanes. A nest enters a level once for all rows.
-    pub(super) fn least(&self, stretch: &Stretch) -> &'static str {
+    /// The least extent from which a loop without sums goes through lanes: core's, from what an iteration computes. A
+    /// nest enters a level once for all rows.
+    pub(super) fn least(&self, stretch: &Stretch) -> String {
         use Instruction::{Add, Constant, Mul, MulAdd, MulSub, Neg, NegMulAdd, Sub};
-        const FEW: usize = 8;
-        let program = self.context.program;
-        let is_fast = |step: &Step| match step {
+        if self.is_nest {
+            return "LONG".to_owned();
+        }
+        let is_sum_or_product = |step: &&Step| match step {
             Step::Let(value) => matches!(
-                program.instruction(*value),
+                self.context.program.instruction(*value),
                 Constant(..)
                     | Neg(..)
                     | Add(..)
@@ -256,11 +259,8 @@ impl Writer<'_> {
             ),
             _ => false,
         };
-        match !self.is_nest && stretch.computed.len() <= FEW && stretch.computed.iter().all(is_fast)
-        {
-            true => "MANY",
-            false => "LONG",
-        }
+        let cheap = stretch.computed.iter().filter(is_sum_or_product).count();
+        format!("worth({cheap}, {})", stretch.computed.len() - cheap)
     }
 
     /// Writes what stands after a loop: long sums are put together.

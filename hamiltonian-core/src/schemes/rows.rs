@@ -328,11 +328,11 @@ where
 pub(super) trait Equations<T: Real, L: Layout<T>, const S: usize> {
     /// The unknowns of a row, and the point at which they are evaluated.
     type Unknowns: Vector<Scalar = L::Row>;
-    /// The points of all rows. The first time, the unknowns are those of the step before, and the points
-    /// those of the guess that is made of them.
+    /// The points of all rows, by the matrices of this number: 0 the first time, when the unknowns are those of the
+    /// step before and the points those of the guess that is made of them; 1 later.
     fn points(
         &self,
-        is_first: bool,
+        matrices: usize,
         unknowns: &[Self::Unknowns; S],
         points: &mut [Self::Unknowns; S],
     );
@@ -373,8 +373,10 @@ pub(super) fn solve<T: Real, L: Layout<T>, E: Equations<T, L, S>, const S: usize
     let mut solved = T::Mask::splat(false);
     let mut lost = T::Mask::splat(false);
     let mut iterations = 0;
+    // Of numbers that the compiler knows it makes a choice between the entries of two matrices, one by one.
+    let matrices = core::hint::black_box([0, 1]);
     while iterations < limit {
-        equations.points(iterations == 0, unknowns, points);
+        equations.points(matrices[usize::from(iterations > 0)], unknowns, points);
         let mut changes = [<L::Row as Real>::Size::zero(); S];
         for row in 0..rows::<T, L, S>() {
             equations.evaluate(row, &mut points[row], next);

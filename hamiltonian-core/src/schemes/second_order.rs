@@ -262,8 +262,8 @@ where
 {
     type Unknowns = X;
     #[inline(always)]
-    fn points(&self, is_first: bool, gradients: &[X; S], points: &mut [X; S]) {
-        let matrix = &self.tableau.double[usize::from(!is_first)];
+    fn points(&self, matrix: usize, gradients: &[X; S], points: &mut [X; S]) {
+        let matrix = &self.tableau.double[matrix];
         for k in 0..X::PARTS {
             for i in 0..points[0].part(k).len() {
                 let few = spread::<T, L, _, 1, S>([self.tableau.weights], gradients, k, i);

@@ -51,9 +51,9 @@ where
 {
     type Unknowns = Point<X>;
     #[inline(always)]
-    fn points(&self, is_first: bool, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
+    fn points(&self, matrices: usize, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
         // One unknown is its own guess: the same factors in every iteration.
-        let matrices = &self.tableau.matrices[usize::from(S == 1 || !is_first)];
+        let matrices = &self.tableau.matrices[if S == 1 { 1 } else { matrices }];
         for k in 0..Point::<X>::PARTS {
             let matrix = &matrices[usize::from(k >= X::PARTS)];
             for i in 0..self.point.part(k).len() {

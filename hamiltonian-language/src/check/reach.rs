@@ -12,6 +12,7 @@ use super::expr::Frame;
 use crate::ast::ExprId;
 use crate::checked::{Extent, Kind, Loop, NodeId, Reach, Variable};
 use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
+use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Ident;
 
 impl Checker<'_> {
@@ -43,8 +44,12 @@ impl Checker<'_> {
                 );
                 return None;
             }
-            let proven = room.is_never_negative() && self.runs_over(&affine, modulo);
-            let modulo = Some(modulo.affine());
+            let modulo = modulo.affine();
+            // Some loop of the index has no iteration where the modulus is 0.
+            let runs = |id: &Domain| self.is_within(&Affine::variable(*id), &modulo);
+            let is_positive = modulo.constant > 0 || self.own_loops(&affine).iter().any(runs);
+            let proven = room.is_never_negative() && is_positive;
+            let modulo = Some(modulo);
             let index = Index {
                 affine,
                 modulo,
@@ -56,9 +61,7 @@ impl Checker<'_> {
             }
             return Some(index);
         }
-        let room = size.checked_plus(-1, &Affine::constant(1));
-        let room = room.and_then(|last| last.checked_plus(-1, &greatest));
-        let room = self.fitting(raw.0, room)?;
+        let room = self.fitting(raw.0, greatest.room_below(&size))?;
         let last = match extent {
             Extent::Literal(value) => (value - 1).to_string(),
             Extent::Size(_) => format!("{shown} - 1"),
@@ -248,38 +251,6 @@ impl Checker<'_> {
         });
     }
 
-    /// Returns true if some loop of the index has no iteration where the modulus is 0.
-    fn runs_over(&self, index: &Affine, modulus: Extent) -> bool {
-        if let Extent::Literal(_) = modulus {
-            return true;
-        }
-        self.own_loops(index).iter().any(|id| {
-            let [lower, upper] = self.bounds(*id);
-            let beyond = upper.checked_plus(-1, &modulus.affine());
-            let least = self.follow(lower, End::Least);
-            beyond.and_then(|b| b.as_constant()).is_some_and(|b| b <= 0)
-                && least.is_some_and(|least| least.is_never_negative())
-        })
-    }
-
-    /// The loops whose variables an affine form contains, with those that their ranges contain,
-    /// outermost first.
-    fn own_loops(&self, form: &Affine) -> Vec<Domain> {
-        let mut own: Vec<Domain> = Vec::new();
-        let mut forms = vec![form];
-        while let Some(form) = forms.pop() {
-            for (id, _) in &form.loops {
-                if !own.contains(id) {
-                    own.push(*id);
-                    forms.extend(self.bounds(*id));
-                }
-            }
-        }
-        // A loop's range mentions only loops with smaller ids.
-        own.sort_unstable();
-        own
-    }
-
     /// The size to the right of `%`.
     fn modulus(&mut self, raw: ExprId, frame: &Frame) -> Option<Extent> {
         let form = self.affines[frame.value(raw)?.0 as usize].as_ref();
@@ -303,7 +274,7 @@ impl Checker<'_> {
 
     /// The least and the greatest value of a form over the loops around it, in terms of sizes.
     fn ends(&mut self, raw: ExprId, form: &Affine) -> Option<[Affine; 2]> {
-        let [least, greatest] = [End::Least, End::Greatest].map(|end| self.follow(form, end));
+        let [least, greatest] = [End::Least, End::Greatest].map(|end| self.extreme(form, end));
         Some([self.fitting(raw, least)?, self.fitting(raw, greatest)?])
     }
 
@@ -315,39 +286,11 @@ impl Checker<'_> {
         }
         form
     }
+}
 
-    fn follow(&self, form: &Affine, end: End) -> Option<Affine> {
-        form.extreme(end, |id| self.bounds(id))
-    }
-
-    /// The range of a loop, `[lower, upper]`.
+impl Ranges for Checker<'_> {
     fn bounds(&self, id: Domain) -> [&Affine; 2] {
         let Loop { lower, upper, .. } = &self.out.loops[id.0 as usize];
         [lower, upper]
-    }
-
-    /// Returns true if `loops` run where the index has its extreme value. An inner loop may be
-    /// empty there, for example `i in 0..n, j in i + 1..n` at `i = n - 1`.
-    fn takes_place(&self, form: &Affine, end: End, loops: &[Domain]) -> bool {
-        let mut chosen: Vec<(Domain, Affine)> = Vec::new();
-        let followed = form.eliminate(|id, factor| {
-            let value = end.of(self.bounds(id), factor)?;
-            chosen.push((id, value.clone()));
-            Some(value)
-        });
-        let value = |id: Domain| match chosen.iter().find(|(other, _)| *other == id) {
-            Some((_, value)) => value.clone(),
-            None => self.bounds(id)[0].clone(),
-        };
-        let runs = |id: &Domain| {
-            let [lower, upper] = self.bounds(*id);
-            // Empty for all sizes: upper − lower − 1 < 0.
-            let last = upper
-                .checked_plus(-1, lower)
-                .and_then(|width| width.checked_plus(-1, &Affine::constant(1)));
-            last.and_then(|last| last.eliminate(|id, _| Some(value(id))))
-                .is_some_and(|last| !last.is_always_negative())
-        };
-        followed.is_some() && loops.iter().all(runs)
     }
 }

@@ -6,7 +6,6 @@
 //! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
 
 mod array;
-pub(crate) mod bounds;
 pub mod op;
 mod sign;
 mod table;

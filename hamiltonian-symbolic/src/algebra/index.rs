@@ -179,6 +179,40 @@ impl Affine {
     pub fn factor_of_size(&self, size: Size) -> i64 {
         factor(&self.sizes, size)
     }
+    /// `factor·self`; `None` where a coefficient overflows.
+    #[must_use]
+    pub fn times(&self, factor: i64) -> Option<Affine> {
+        Affine::default().checked_plus(factor, self)
+    }
+    /// `end − 1 − self`, which is negative where the form is not below the end of a range; `None` where a
+    /// coefficient overflows.
+    #[must_use]
+    pub fn room_below(&self, end: &Affine) -> Option<Affine> {
+        end.checked_plus(-1, self)?
+            .checked_plus(-1, &Affine::constant(1))
+    }
+    /// The factor of a loop variable, and the form without it.
+    #[must_use]
+    pub fn isolated(&self, domain: Domain) -> (i64, Affine) {
+        let factor = self.factor(domain);
+        (factor, self.plus(-factor, &Affine::variable(domain)))
+    }
+    /// The shift c of `domain + c`, over sizes.
+    #[must_use]
+    pub fn shift(&self, domain: Domain) -> Option<Affine> {
+        let (factor, rest) = self.isolated(domain);
+        (factor == 1 && rest.loops.is_empty()).then_some(rest)
+    }
+    /// The number that is left when multiples of a form over sizes are taken out, if a number is left.
+    #[must_use]
+    pub fn remainder(&self, of: &Affine) -> Option<i64> {
+        let Some(&(size, k)) = of.sizes.first() else {
+            return self.as_constant();
+        };
+        let own = self.factor_of_size(size);
+        let rest = self.checked_plus(-(own / k), of)?;
+        rest.as_constant()
+    }
     /// The form with each loop variable replaced.
     #[must_use]
     pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Affine {
@@ -204,19 +238,18 @@ impl Affine {
         }
         Some(form)
     }
-    /// The least or greatest value over all iterations of its loops, given the range
-    /// `lower..upper` of each, as a form over sizes.
-    pub fn extreme<'a>(
-        &self,
-        end: End,
-        mut range: impl FnMut(Domain) -> [&'a Affine; 2],
-    ) -> Option<Affine> {
-        self.eliminate(|domain, factor| end.of(range(domain), factor))
+    /// A number that a form over sizes is never below, where some sizes are known to be positive.
+    pub fn least(&self, is_positive: impl Fn(Size) -> bool) -> Option<i64> {
+        let positive = self.sizes.iter().filter(|(size, _)| is_positive(*size));
+        let least = self.constant + positive.map(|(_, factor)| factor).sum::<i64>();
+        self.factors_of_sizes()
+            .all(|factor| factor >= 0)
+            .then_some(least)
     }
     /// Returns true if a form over sizes is at least 0 whatever the sizes are.
     #[must_use]
     pub fn is_never_negative(&self) -> bool {
-        self.constant >= 0 && self.factors_of_sizes().all(|factor| factor >= 0)
+        self.least(|_| false).is_some_and(|least| least >= 0)
     }
     /// Returns true if a form over sizes is below 0 whatever the sizes are.
     #[must_use]

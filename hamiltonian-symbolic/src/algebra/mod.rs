@@ -14,6 +14,7 @@ pub mod loops;
 pub mod model;
 pub mod normal_form;
 pub mod print;
+pub mod ranges;
 pub mod rational;
 mod reindex;
 mod rewrite;

@@ -6,6 +6,7 @@
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index, Loops};
+use crate::ranges::Ranges;
 
 /// The images of loops that have moved.
 type LoopImages = Map<Domain, Domain>;
@@ -140,12 +141,11 @@ impl Dag {
         let [(variable, 1)] = index.affine.loops.as_slice() else {
             return None;
         };
+        let by = index.affine.shift(*variable)?.as_constant()?;
         let variable = Affine::variable(*variable);
-        let slack = modulo.plus(-1, &variable).plus(-1, &Affine::constant(1));
-        if !(self.is_never_negative(&variable) && self.is_never_negative(&slack)) {
+        if !self.is_within(&variable, modulo) {
             return None;
         }
-        let by = index.affine.plus(-1, &variable).as_constant()?;
         let by = match modulo.as_constant() {
             Some(modulo) if modulo > 0 => by.rem_euclid(modulo),
             Some(_) => return None,
@@ -157,29 +157,11 @@ impl Dag {
         let (bound, outside) = if by < 0 {
             (inside.clone(), inside.plus(1, modulo))
         } else {
-            let slack = modulo.plus(-1, &inside).plus(-1, &Affine::constant(1));
-            (slack, inside.plus(-1, modulo))
+            (inside.room_below(modulo)?, inside.plus(-1, modulo))
         };
         let holds = self.at_least_zero(&bound);
         let (inside, outside) = (self.affine(&inside), self.affine(&outside));
         Some(self.select(holds, inside, outside))
-    }
-
-    /// `i % N` for i in 0..N is `i`.
-    pub(crate) fn unwrapped(&self, index: Index) -> Index {
-        let plain = index.try_map(&mut |axis| Some(self.axis_unwrapped(axis.clone())));
-        plain.unwrap_or(index)
-    }
-
-    fn axis_unwrapped(&self, index: Index) -> Index {
-        match (index.affine.loops.as_slice(), &index.modulo) {
-            ([(domain, 1)], Some(modulo))
-                if index.affine == Affine::variable(*domain) && self.runs_over(*domain, modulo) =>
-            {
-                Index::plain(index.affine)
-            }
-            _ => index,
-        }
     }
 
     /// A loop and all loops inside it.

@@ -11,6 +11,7 @@ use crate::dag::work;
 use crate::dag::{Array, Dag, Kind, Node};
 use crate::index::{Affine, Index, Loops};
 use crate::program::Target;
+use crate::ranges::Ranges;
 use crate::schedule::Store;
 
 /// The most operations of a term that is computed twice: fewer than a function takes.
@@ -52,7 +53,7 @@ fn at_site(dag: &mut Dag, store: &Store) -> Option<Store> {
         }
         known |= Loops::of(domain);
         let own = Affine::variable(domain);
-        let shift = axis.affine.plus(-1, &own);
+        let shift = axis.affine.shift(domain)?;
         let back = own.plus(-1, &shift);
         match &axis.modulo {
             None if shift == Affine::default() => {}

@@ -8,6 +8,7 @@
 
 use crate::dag::{Array, Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index, Loops};
+use crate::ranges::Ranges;
 
 /// The loop over the elements of an array with this many rows.
 pub fn elements(dag: &mut Dag, rows: &Affine) -> Domain {
@@ -81,8 +82,7 @@ fn gather(
     let inner = chain[chain.len() - 1];
     let mut around = chain[..chain.len() - 1].to_vec();
     let range = dag.range(inner).clone();
-    let factor = row.affine.factor(inner);
-    let rest = row.affine.plus(-factor, &Affine::variable(inner));
+    let (factor, rest) = row.affine.isolated(inner);
     let solved = match &row.modulo {
         // inner = ±(k − rest)
         None if factor.abs() == 1 && rest.loops.is_empty() => Some(Index::plain(
@@ -91,17 +91,8 @@ fn gather(
                 .plus(-factor, &rest),
         )),
         // A shift of all elements onto themselves.
-        Some(modulo)
-            if factor == 1
-                && rest.loops.is_empty()
-                && modulo == rows
-                && dag.runs_over(inner, rows) =>
-        {
-            Some(Index::wrapped(
-                Affine::variable(k).plus(-1, &rest),
-                modulo.clone(),
-            ))
-        }
+        Some(modulo) if modulo == rows => (dag.rotation(&row, inner))
+            .map(|shift| Index::wrapped(Affine::variable(k).plus(-1, &shift), modulo.clone())),
         _ => None,
     };
     let mut value = match solved {
@@ -109,10 +100,7 @@ fn gather(
             let at = index.affine;
             let mut value = dag.replace(adjoint, inner, &at);
             // start ≤ at < end
-            let bounds = [
-                at.plus(-1, &range.start),
-                range.end.plus(-1, &at).plus(-1, &Affine::constant(1)),
-            ];
+            let bounds = [at.plus(-1, &range.start), at.room_below(&range.end)?];
             for bound in bounds {
                 if dag.is_never_negative(&bound) {
                     continue;
@@ -189,21 +177,9 @@ fn tighten(dag: &mut Dag, bound: &Affine, around: &mut [Domain], value: Node) ->
         return None;
     }
     let domain = around[*at];
-    let range = dag.range(domain).clone();
-    let factor = bound.factor(domain);
-    let rest = bound.plus(-factor, &Affine::variable(domain));
-    let (start, end) = match factor {
-        // domain ≥ −rest
-        1 => (Affine::default().plus(-1, &rest), range.end.clone()),
-        // domain ≤ rest
-        -1 => (range.start.clone(), rest.plus(1, &Affine::constant(1))),
-        _ => return None,
-    };
-    let narrower = [start.plus(-1, &range.start), range.end.plus(-1, &end)];
-    if !narrower.iter().all(|slack| dag.is_never_negative(slack)) {
-        return None;
-    }
-    let fresh = dag.domain(range.parent, start, end);
+    let parent = dag.range(domain).parent;
+    let [start, end] = dag.narrowed(domain, bound)?;
+    let fresh = dag.domain(parent, start, end);
     around[*at] = fresh;
     Some(dag.replace(value, domain, &Affine::variable(fresh)))
 }

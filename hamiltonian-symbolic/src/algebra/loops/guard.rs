@@ -8,6 +8,7 @@
 use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
+use crate::ranges::Ranges;
 
 /// The expression with safe indices; `None` where a loop under a condition may start below 0, or
 /// an element has several axes, for which there is no such remedy. Safe indices are left as they are: indices that an author wrote
@@ -78,11 +79,7 @@ fn safe(dag: &Dag, index: Index, extent: Option<Affine>) -> Index {
     let Some(extent) = extent else {
         return index;
     };
-    let one = Affine::constant(1);
-    let is_inside = index.modulo.is_some()
-        || dag.is_never_negative(&index.affine)
-            && dag.is_never_negative(&extent.plus(-1, &one).plus(-1, &index.affine));
-    if is_inside {
+    if index.modulo.is_some() || dag.is_within(&index.affine, &extent) {
         index
     } else {
         Index::wrapped(index.affine, extent)

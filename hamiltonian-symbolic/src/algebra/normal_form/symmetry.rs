@@ -9,6 +9,7 @@ use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Undecided};
 use crate::dag::{Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
+use crate::ranges::Ranges;
 use crate::rational::Rational;
 
 /// The most re-indexings of one sum that are looked at.
@@ -262,12 +263,8 @@ fn shifts(dag: &mut Dag, nest: &LoopSum) -> Vec<LoopSum> {
             };
             let all = std::iter::once(row).chain(column.as_deref());
             for index in all.flat_map(Index::axes) {
-                if index.affine.factor(domain) == 1 && index.modulo.as_ref() == Some(&range.end) {
-                    let offset = index.affine.plus(-1, &Affine::variable(domain));
-                    if offset.loops.is_empty() && !offsets.contains(&offset) {
-                        offsets.push(offset);
-                    }
-                }
+                let offset = dag.rotation(&index, domain);
+                offsets.extend(offset.filter(|offset| !offsets.contains(offset)));
             }
         }
         for offset in offsets {

@@ -11,10 +11,11 @@ use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Sid
 use crate::flows::limits::{Limit, ROWS};
 use crate::flows::solve::units::{LoopedTerm, terms};
 use crate::flows::space::Space;
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Domain, Index};
 use crate::model::Flow;
 use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
+use crate::ranges::Ranges;
 use crate::rational::Rational;
 
 /// The terms over one chain of loops that name the same elements.
@@ -219,7 +220,15 @@ fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Result<Vec<Node>, Option<Limit
     let mut conditions = Vec::new();
     for (at, a) in rows.iter().enumerate() {
         for b in &rows[..at] {
-            for condition in are_apart(dag, a, b).ok_or(None)? {
+            for [one, other] in dag.differ(a, b).ok_or(None)? {
+                let is_one = other.as_constant() == Some(1);
+                let [one, other] = [one, other].map(|form| dag.affine(&form));
+                let mut condition = dag.less(other, one);
+                // A ring that has an iteration has a site.
+                if !is_one {
+                    let below = dag.less(one, other);
+                    condition = dag.or(below, condition);
+                }
                 if !conditions.contains(&condition) {
                     conditions.push(condition);
                 }
@@ -227,73 +236,6 @@ fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Result<Vec<Node>, Option<Limit
         }
     }
     Ok(conditions)
-}
-
-/// Conditions under which two rows differ in every iteration.
-fn are_apart(dag: &mut Dag, a: &Index, b: &Index) -> Option<Vec<Node>> {
-    if a.outer.is_some() || b.outer.is_some() {
-        return None;
-    }
-    let difference = a.affine.checked_plus(-1, &b.affine)?;
-    let count = match (&a.modulo, &b.modulo) {
-        (Some(a), Some(b)) if a != b => return None,
-        // A row that is not taken modulo n is below n or differs from all that are.
-        (Some(n), _) | (None, Some(n)) => Some(n.clone()),
-        (None, None) => None,
-    };
-    let Some(count) = count else {
-        let is_positive = |dag: &Dag, form: &Affine| {
-            let less = form.checked_plus(-1, &Affine::constant(1));
-            less.is_some_and(|less| dag.is_never_negative(&less))
-        };
-        let minus = Affine::constant(0).checked_plus(-1, &difference)?;
-        if is_positive(dag, &difference) || is_positive(dag, &minus) {
-            return Some(Vec::new());
-        }
-        if !difference.loops.is_empty() || difference.as_constant().is_some() {
-            return None;
-        }
-        let (apart, zero) = (dag.affine(&difference), dag.integer(0));
-        let (below, above) = (dag.less(apart, zero), dag.less(zero, apart));
-        return Some(vec![dag.or(below, above)]);
-    };
-    let distance = modulo(difference, &count)?.unsigned_abs();
-    if let Some(count) = count.as_constant() {
-        let count = u64::try_from(count).ok().filter(|count| *count > 0)?;
-        return (!distance.is_multiple_of(count)).then(Vec::new);
-    }
-    // On a ring of as many sites as a divisor of the distance the two are one.
-    if !(1..=64).contains(&distance) {
-        return None;
-    }
-    let sites = dag.affine(&count);
-    let divisors = (1..=distance).filter(|k| distance.is_multiple_of(*k));
-    let mut conditions = Vec::new();
-    for divisor in divisors {
-        let divisor_node = dag.integer(divisor as i64);
-        let more = dag.less(divisor_node, sites);
-        conditions.push(match divisor {
-            1 => more,
-            _ => {
-                let fewer = dag.less(sites, divisor_node);
-                dag.or(fewer, more)
-            }
-        });
-    }
-    Some(conditions)
-}
-
-/// A difference of indices up to multiples of a size; `None` where it varies.
-fn modulo(difference: Affine, count: &Affine) -> Option<i64> {
-    let mut rest = difference;
-    if let Some(&(size, k)) = count.sizes.first() {
-        let own = rest.factor_of_size(size);
-        if own % k != 0 {
-            return None;
-        }
-        rest = rest.checked_plus(-(own / k), count)?;
-    }
-    rest.as_constant()
 }
 
 /// The loops of flows that a body is; one, unless it `may_part`.

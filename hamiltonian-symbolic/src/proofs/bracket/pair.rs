@@ -10,6 +10,7 @@ use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::{field, unrolled};
 use crate::model::{Model, VectorEntry};
+use crate::ranges::Ranges;
 use crate::rational::Rational;
 
 /// {a, b}; `None` where an array's derivatives cannot be brought together, as their indices
@@ -116,10 +117,8 @@ fn is_plain(dag: &Dag, scatter: &Scatter, rows: &Affine) -> bool {
     let [domain] = scatter.chain.as_slice() else {
         return false;
     };
-    let rest = scatter.row.affine.plus(-1, &Affine::variable(*domain));
     dag.runs_over(*domain, rows)
-        && rest.loops.is_empty()
-        && (scatter.row.modulo.as_ref() == Some(rows) || scatter.row == Index::of_loop(*domain))
+        && (scatter.row == Index::of_loop(*domain) || dag.rotation(&scatter.row, *domain).is_some())
 }
 
 fn gathered(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Option<Vec<Node>> {

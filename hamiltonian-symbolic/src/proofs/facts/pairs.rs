@@ -1,8 +1,8 @@
 //! Differences of two leaves, at whose one meeting place a summand is infinite.
 
 use crate::dag::{Array, Dag, Kind, Node};
-use crate::index::{Affine, Domain};
 use crate::op::Op;
+use crate::ranges::Ranges;
 
 /// The leaves of which a node is the difference, up to a number, an absolute value and a root.
 pub fn difference(dag: &Dag, mut node: Node) -> Option<(Node, Node)> {
@@ -24,13 +24,12 @@ pub fn difference(dag: &Dag, mut node: Node) -> Option<(Node, Node)> {
 /// Returns true if two leaves are elements of one array at the variables of two loops, one of which stays
 /// below the other: no two iterations have the same pair.
 pub fn is_pair(dag: &Dag, (a, b): (Node, Node)) -> bool {
-    let variable = |leaf: Node| match dag.kind(leaf) {
-        Kind::Element(array, row, None) => Some((*array, row.as_loop()?)),
+    let row = |leaf: Node| match dag.kind(leaf) {
+        Kind::Element(array, row, None) if row.as_loop().is_some() => Some((*array, row)),
         _ => None,
     };
-    let (Some((one, i)), Some((other, j))) = (variable(a), variable(b)) else {
+    let (Some((one, i)), Some((other, j))) = (row(a), row(b)) else {
         return false;
     };
-    let is_below = |inner: Domain, outer: Domain| dag.range(inner).end == Affine::variable(outer);
-    one == other && (is_below(i, j) || is_below(j, i))
+    one == other && dag.differ(i, j).is_some_and(|forms| forms.is_empty())
 }

@@ -5,8 +5,9 @@
 //! loop.
 
 use crate::dag::{Column, Dag, Node, Side};
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Affine, Domain, End, Index};
 use crate::model::{Model, VectorEntry};
+use crate::ranges::Ranges;
 
 /// A group of bodies whose number is a size.
 #[derive(Clone, Debug)]
@@ -143,7 +144,7 @@ impl Bodies {
     pub(super) fn image(
         &self,
         dag: &mut Dag,
-        below: &Below,
+        all: &[Bodies],
         (side, column): (Side, u16),
         row: &Index,
     ) -> Option<Node> {
@@ -154,7 +155,7 @@ impl Bodies {
         if affine.as_constant() == Some(0) {
             return Some(self.first(dag, side, column));
         }
-        if below.of(dag, affine).is_some_and(|least| least > 0) {
+        if least(dag, affine, all).is_some_and(|least| least > 0) {
             return Some(self.other(dag, side, column, affine.clone()));
         }
         // Row 0 or another: decided where it runs.
@@ -221,42 +222,8 @@ impl Bodies {
     }
 }
 
-/// Least values of indices.
-#[derive(Debug, Default)]
-pub(super) struct Below {
-    /// Sizes that are ≥ 1, by number.
-    positive: Vec<u16>,
-}
-
-impl Below {
-    /// The sizes that count bodies are positive.
-    pub(super) fn new(model: &Model, bodies: &[Bodies]) -> Below {
-        let rows = bodies.iter().filter_map(|b| {
-            let rows = model.groups[usize::from(b.old)].shape.rows()?;
-            match rows.sizes.as_slice() {
-                [(size, 1)] if *rows == Affine::size(*size) => Some(size.0),
-                _ => None,
-            }
-        });
-        Below {
-            positive: rows.collect(),
-        }
-    }
-
-    /// A number that the index is never below; `None` if it is not known.
-    pub(super) fn of(&self, dag: &Dag, affine: &Affine) -> Option<i64> {
-        let mut least = affine.constant;
-        for &(size, factor) in &affine.sizes {
-            let own = i64::from(self.positive.contains(&size.0));
-            least += (factor > 0).then_some(factor * own)?;
-        }
-        if !affine.products.is_empty() {
-            return None;
-        }
-        for &(domain, factor) in &affine.loops {
-            let own = self.of(dag, &dag.range(domain).start)?;
-            least += (factor > 0).then_some(factor * own)?;
-        }
-        Some(least)
-    }
+/// A number that an index is never below, as there are bodies; `None` if it is not known.
+pub(super) fn least(dag: &Dag, index: &Affine, bodies: &[Bodies]) -> Option<i64> {
+    let counts_bodies = |size| bodies.iter().any(|of| of.rows == Affine::size(size));
+    dag.extreme(index, End::Least)?.least(counts_bodies)
 }

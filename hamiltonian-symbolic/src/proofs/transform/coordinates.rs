@@ -5,7 +5,7 @@
 //! the new groups of a chart stand where its first old group stood.
 
 use super::NoTransform;
-use super::bodies::{Below, Bodies};
+use super::bodies::Bodies;
 use super::charts::{self, Chart, Masses, PhaseNodes, Replaced};
 use super::layout::{Layout, Placement, Slot, coordinate, placements};
 use super::peel::peel;
@@ -51,7 +51,6 @@ impl Transformed {
             source.force = parts.collect();
         }
         let model = &source.clone();
-        let below = Below::new(model, &bodies);
         let (mut new, roots) = written_out(model, &layout, &bodies)?;
         new.groups = layout.groups.clone();
 
@@ -79,12 +78,11 @@ impl Transformed {
                 kept.push((REPLACING + bodies.group, place.first));
             }
         }
-        let images =
-            images(&mut new.dag, &roots, &inverse, &kept, &bodies, &below).map_err(|old| {
-                NoTransform::Wrapped {
-                    coordinate: coordinate(model, old),
-                }
-            })?;
+        let images = images(&mut new.dag, &roots, &inverse, &kept, &bodies).map_err(|old| {
+            NoTransform::Wrapped {
+                coordinate: coordinate(model, old),
+            }
+        })?;
         for of in &bodies {
             forward.extend(of.forward(&mut source.dag));
             inverse.extend(of.inverse(&mut new.dag));
@@ -331,7 +329,6 @@ fn images(
     inverse: &[VectorEntry],
     kept: &[(u16, u16)],
     bodies: &[Bodies],
-    below: &Below,
 ) -> Result<Map<Node, Node>, u16> {
     let mut images: Map<Node, Node> = Map::default();
     for entry in inverse {
@@ -347,7 +344,7 @@ fn images(
         let to = kept.iter().find(|(old, _)| *old == column.group);
         let image = match (of, to) {
             (Some(of), _) => {
-                let image = of.image(dag, below, (column.side, column.column), &row);
+                let image = of.image(dag, bodies, (column.side, column.column), &row);
                 image.ok_or(of.old)?
             }
             (None, Some(&(_, group))) => dag.phase(Column { group, ..column }, row),

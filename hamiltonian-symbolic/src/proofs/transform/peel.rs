@@ -6,7 +6,7 @@
 //! leaves a group of bodies at least one row; other sizes may be 0.
 
 use super::NoTransform;
-use super::bodies::{Below, Bodies};
+use super::bodies::{Bodies, least};
 use super::layout::coordinate;
 use crate::dag::{Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
@@ -33,9 +33,8 @@ pub(super) fn peel(
     written: &[u16],
     bodies: &[Bodies],
 ) -> Result<Vec<Node>, NoTransform> {
-    let below = Below::new(model, bodies);
     let mut roots = roots.to_vec();
-    while let Some((node, step)) = candidate(&model.dag, &roots, written, bodies, &below) {
+    while let Some((node, step)) = candidate(&model.dag, &roots, written, bodies) {
         let dag = &mut model.dag;
         let Kind::Reduce(domain, body) = *dag.kind(node) else {
             break;
@@ -98,7 +97,6 @@ fn candidate(
     roots: &[Node],
     written: &[u16],
     bodies: &[Bodies],
-    below: &Below,
 ) -> Option<(Node, Change)> {
     let mut found: Option<(usize, Node, Change)> = None;
     for node in dag.reachable(roots) {
@@ -109,7 +107,7 @@ fn candidate(
         if found.as_ref().is_some_and(|(known, ..)| *known <= depth) {
             continue;
         }
-        if let Some(step) = step(dag, domain, body, written, bodies, below) {
+        if let Some(step) = step(dag, domain, body, written, bodies) {
             found = Some((depth, node, step));
         }
     }
@@ -122,14 +120,13 @@ fn step(
     body: Node,
     written: &[u16],
     bodies: &[Bodies],
-    below: &Below,
 ) -> Option<Change> {
     let range = dag.range(domain);
     let literal = range.start.as_constant().zip(range.end.as_constant());
     let start = range.start.as_constant();
     // True if there is a first iteration.
     let runs = start
-        .zip(below.of(dag, &range.end))
+        .zip(least(dag, &range.end, bodies))
         .is_some_and(|(start, end)| start < end);
     for node in dag.reachable(&[body]) {
         let Some((group, row)) = read(dag, node) else {
@@ -149,7 +146,7 @@ fn step(
             && row.modulo.is_none()
             && row.outer.is_none()
             && row.affine.factor(domain) > 0
-            && below.of(dag, &row.affine) == Some(0)
+            && least(dag, &row.affine, bodies) == Some(0)
         {
             return Some(Change::Peel);
         }

@@ -3,7 +3,7 @@
 //! Input: nodes, and replacements for some of them. Output: nodes through the constructors
 //! of `simplify`, so in canonical form. Invariant: an expression that does not change keeps its node.
 
-use crate::dag::{Dag, Kind, Map, Node, Numbers};
+use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain};
 
 impl Dag {
@@ -64,17 +64,10 @@ impl Dag {
         mut leaf: impl FnMut(&mut Dag, Node) -> Option<Node>,
     ) -> Node {
         let nodes = self.reachable(&[root]);
-        let mut new = Numbers::new(self);
-        // Children come before their parents.
-        let of = |new: &Numbers, node: Node| new.get(node).map_or(node, Node);
-        for node in nodes {
-            let image = match leaf(self, node) {
-                Some(image) => image,
-                None => self.rebuild(node, &|child| of(&new, child)),
-            };
-            new.set(node, image.0);
-        }
-        of(&new, root)
+        self.map(nodes, |dag, node, new| match leaf(dag, node) {
+            Some(image) => image,
+            None => dag.rebuild(node, &|child| new[&child]),
+        })[&root]
     }
 
     /// The image of each node. Children come before their parents, so that `image` finds theirs.

@@ -36,33 +36,28 @@ pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) ->
     if is_under.is_empty() {
         return Some(root);
     }
-    let mut new: Map<Node, Node> = Map::default();
-    for node in nodes {
-        let kind = model.dag.kind(node).clone();
-        let image = match kind {
-            Kind::Element(_, row, _)
-                if is_under.contains_key(&node) && !is_safe(node) && row.outer.is_some() =>
-            {
-                return None;
-            }
-            Kind::Element(array, row, column) if is_under.contains_key(&node) && !is_safe(node) => {
+    // The model still has the shapes.
+    let mut dag = std::mem::take(&mut model.dag);
+    let new = dag.try_map(nodes, |dag, node, new| {
+        let is_read = is_under.contains_key(&node) && !is_safe(node);
+        match dag.kind(node).clone() {
+            Kind::Element(_, row, _) if is_read && row.outer.is_some() => None,
+            Kind::Element(array, row, column) if is_read => {
                 let (rows, columns) = extents(model, array);
-                let row = safe(&model.dag, row, rows);
-                let column = column.map(|column| safe(&model.dag, *column, columns));
-                model.dag.element(array, row, column)
+                let row = safe(dag, row, rows);
+                let column = column.map(|column| safe(dag, *column, columns));
+                Some(dag.element(array, row, column))
             }
             Kind::Reduce(domain, _)
-                if is_under.contains_key(&node)
-                    && !is_safe(node)
-                    && !model.dag.is_never_negative(&model.dag.range(domain).start) =>
+                if is_read && !dag.is_never_negative(&dag.range(domain).start) =>
             {
-                return None;
+                None
             }
-            _ => model.dag.rebuild(node, &|child| new[&child]),
-        };
-        new.insert(node, image);
-    }
-    Some(new[&root])
+            _ => Some(dag.rebuild(node, &|child| new[&child])),
+        }
+    });
+    model.dag = dag;
+    new.map(|new| new[&root])
 }
 
 /// The rows and columns of an array; `None` for an index that it does not have.

@@ -5,7 +5,7 @@
 //! more than [`LARGEST`] nodes are made.
 
 use super::walk::{Environment, Meaning, walk};
-use crate::dag::{Array, Dag, Kind, Map, Node};
+use crate::dag::{Array, Dag, Kind, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
 
@@ -68,11 +68,10 @@ pub fn unroll_nodes(
 /// As [`unroll`].
 pub fn unrolled(model: &mut Model, root: Node) -> Result<Node, String> {
     let (unrolled, images) = unroll_nodes(model, &[], &[root])?;
-    let mut new: Map<Node, Node> = Map::default();
-    for node in unrolled.dag.reachable(&images) {
-        let kind = unrolled.dag.kind(node).clone();
-        new.insert(node, model.dag.construct(kind, &|child| new[&child]));
-    }
+    let nodes = unrolled.dag.reachable(&images);
+    let new = model.dag.map(nodes, |dag, node, new| {
+        dag.construct(unrolled.dag.kind(node).clone(), &|child| new[&child])
+    });
     Ok(new[&images[0]])
 }
 

@@ -36,6 +36,7 @@ pub fn share(dag: &mut Dag, roots: &mut [Node], now: Stage) {
         made: vec![None; pool.made.len()],
         terms: vec![None; pairs.len()],
     };
+    // `Dag::map` would keep the images from the functions of `Build`, which need them too.
     for &node in &order {
         let image = build.image(dag, node);
         build.new.insert(node, image);

@@ -12,7 +12,7 @@ use crate::system::{Dynamics, System};
 use core::fmt;
 use hamiltonian_lanes::Real;
 
-/// Gauss collocation with `S` stages: order 2S, symplectic for every H, time-reversible. The number
+/// Gauss collocation with S = `STAGES` stages: order 2S, symplectic for every H, time-reversible. The number
 /// of stages is always explicit, `Gauss::<2>::default()`.
 ///
 /// ```text
@@ -48,8 +48,8 @@ use hamiltonian_lanes::Real;
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq)]
-pub struct Gauss<const S: usize> {
-    coefficients: Collocation<S>,
+pub struct Gauss<const STAGES: usize> {
+    coefficients: Collocation<STAGES>,
     max_iterations: u32,
 }
 
@@ -60,7 +60,7 @@ impl<const S: usize> Default for Gauss<S> {
     }
 }
 
-impl<const S: usize> Gauss<S> {
+impl<const STAGES: usize> Gauss<STAGES> {
     /// Returns the scheme with at most 100 iterations of each method.
     ///
     /// ```

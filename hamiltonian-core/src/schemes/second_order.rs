@@ -22,7 +22,7 @@ use crate::vector::Vector;
 use core::fmt;
 use hamiltonian_lanes::{Cpu, DoubleDouble, Level, Mask, Pack, Real};
 
-/// Gauss collocation with `S` stages where T is quadratic, in its second-order form: order 2S,
+/// Gauss collocation with S = `STAGES` stages for a quadratic T, in its second-order form: order 2S,
 /// symplectic, time-reversible.
 ///
 /// ```text
@@ -50,8 +50,8 @@ use hamiltonian_lanes::{Cpu, DoubleDouble, Level, Mask, Pack, Real};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq)]
-pub struct GaussNystrom<const S: usize> {
-    coefficients: Collocation<S>,
+pub struct GaussNystrom<const STAGES: usize> {
+    coefficients: Collocation<STAGES>,
     max_iterations: u32,
 }
 
@@ -62,7 +62,7 @@ impl<const S: usize> Default for GaussNystrom<S> {
     }
 }
 
-impl<const S: usize> GaussNystrom<S> {
+impl<const STAGES: usize> GaussNystrom<STAGES> {
     /// Returns the scheme with at most 100 iterations.
     ///
     /// ```

@@ -63,7 +63,7 @@ pub trait Mask:
     message = "`{P}` is not a number from which a scalar `{Self}` is made",
     label = "a parameter or a captured value is `{P}`",
     note = "parameters and captured values are `f64`, `f32`, integers or of the state's own scalar",
-    note = "in code that is generic over the scalar `P` of the parameters, write `P: Real` and make states over `P`, or write `where f64: Lift<P>` and make them over `f64`"
+    note = "in code that is generic over the scalar `P` of the parameters, write `P: Real` and make states over `P` (`StateOf<Name<P>, P>`), or write `where f64: Lift<P>` and make them over `f64`"
 )]
 pub trait Lift<P> {
     /// The value as this scalar.

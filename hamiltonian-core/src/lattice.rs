@@ -8,11 +8,12 @@ mod nested;
 pub use nested::{MatrixOf, lattice};
 
 use crate::error::Error;
-use crate::uneven::{Uneven, named, same_part};
+use crate::uneven::{Uneven, same_part};
 use crate::vector::Vector;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt::{self, Write};
 use core::ops::{Index, IndexMut};
 use hamiltonian_lanes::{Mask, Real};
 
@@ -201,12 +202,19 @@ pub fn fits(name: &'static str, extents: &[usize]) -> Result<(), Error> {
 
 /// The name of an element, given its number in the order of the declaration: `u[1][2]`.
 pub(crate) fn element(name: &str, extents: &[usize], number: usize) -> String {
+    let mut text = String::from(name);
+    // Writing to a string does not fail.
+    let _ = write_indices(&mut text, extents, number);
+    text
+}
+
+/// Writes the indices of an element, given its number in the order of the declaration: `[1][2]`.
+pub(crate) fn write_indices(out: &mut dyn Write, extents: &[usize], number: usize) -> fmt::Result {
     let mut rest: usize = extents.iter().product();
-    let place = |extent: &usize| {
+    extents.iter().try_for_each(|extent| {
         rest /= extent;
-        number / rest % extent
-    };
-    named(name, &extents.iter().map(place).collect::<Vec<_>>())
+        write!(out, "[{}]", number / rest % extent)
+    })
 }
 
 /// An error where an element of a parameter is NaN. The last index of `values` is the fastest.

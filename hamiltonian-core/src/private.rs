@@ -30,7 +30,7 @@ pub use crate::kernel::{
     Adds, Damped, Drift, Field, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
     Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
 };
-use crate::lattice::element;
+use crate::lattice::write_indices;
 pub use crate::lattice::{
     Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
 };
@@ -98,7 +98,14 @@ pub fn describe_parameter<T: Real>(
     values: &[T],
 ) -> fmt::Result {
     let mut all = values.iter().enumerate();
-    all.try_for_each(|(at, value)| writeln!(out, "{} = {value:?}", element(name, extents, at)))
+    // Every run writes its parameters: no text is made in between.
+    all.try_for_each(|(at, value)| {
+        out.write_str(name)?;
+        write_indices(out, extents, at)?;
+        out.write_str(" = ")?;
+        write!(out, "{value:?}")?;
+        out.write_str("\n")
+    })
 }
 
 /// An array that `new` takes in the storage `V` of its parameter, in any form of [`IntoVector`].

@@ -12,6 +12,14 @@ hamiltonian! {
 }
 
 #[test]
+fn pages_of_the_root_are_short() {
+    for (name, most) in [("README.md", 150), ("ARCHITECTURE.md", 220)] {
+        let lines = read(&root().join(name)).lines().count();
+        assert!(lines <= most, "{name} has {lines} lines, more than {most}");
+    }
+}
+
+#[test]
 fn its_first_program_prints_what_it_says() -> Result<(), Error> {
     let pendulum = Pendulum {
         l: 2.0,

@@ -194,7 +194,20 @@ fn monitor_functions_are_of_coordinates_and_momenta_alone() {
     assert_eq!(timed, Error::Timed { name, system });
     let unknown = TimeTransformed::by(Lit {}, "plaice").expect_err("there is none");
     let name = "plaice".to_owned();
-    assert_eq!(unknown, Error::Unknown { name, system });
+    let known = vec!["place", "light"];
+    assert_eq!(
+        unknown,
+        Error::Unknown {
+            name,
+            system,
+            known
+        }
+    );
+    assert!(
+        unknown
+            .to_string()
+            .ends_with("help: it declares `place`, `light`")
+    );
 }
 
 /// The place on the ellipse of eccentricity .9 at a time, from the farthest point.

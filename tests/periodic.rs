@@ -114,7 +114,15 @@ fn an_unknown_section_is_an_error_and_rest_is_an_orbit() {
         )
     };
     let error = find("levle", 6.3).unwrap_err().to_string();
-    assert_eq!(error, "the system declares no observable `levle`");
+    let expected =
+        "`HenonHeiles` declares no monitor, invariant or event `levle`\nhelp: it declares `level`";
+    assert_eq!(error, expected);
+    // With a period of 0 every start would be an orbit.
+    let error = find("level", 1.0).unwrap_err();
+    let Error::NoPeriodicOrbit { gap, period } = error else {
+        panic!("{error}");
+    };
+    assert!(gap > 1e-3 && period >= 0.5, "{gap}, {period}");
     let closing = Closing::Driven { period: 1.0 };
     let orbit = PeriodicOrbit::find(
         &system,

@@ -20,7 +20,7 @@ pub use table::TableError;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
-use words::{Lane, Number, Numbers, Part, Remedy, Within};
+use words::{Known, Lane, Number, Numbers, Part, Remedy, Within};
 
 /// An error of a run. Memory is allocated only when one happened.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -179,12 +179,14 @@ pub enum Error {
         system: &'static str,
     },
     /// A name that the system declares no monitor, invariant or event by.
-    #[error("`{system}` declares no monitor, invariant or event `{name}`")]
+    #[error("`{system}` declares no monitor, invariant or event `{name}`{}", Known(.known))]
     Unknown {
         /// The name asked for.
         name: String,
         /// The system.
         system: &'static str,
+        /// What it declares.
+        known: Vec<&'static str>,
     },
     /// A step led to a NaN or an infinity: a number grew beyond all bounds, or the exact flow of a
     /// piece left its domain. The run stays at the state before that step.
@@ -411,20 +413,16 @@ pub enum Error {
         /// Their number.
         count: usize,
     },
-    /// An observable that the system does not declare.
-    #[error("the system declares no observable `{name}`")]
-    NoObservable {
-        /// The name given.
-        name: String,
-    },
     /// No periodic orbit was found near a guess.
     #[error(
-        "no periodic orbit was found: the best start misses its conditions by {gap:e}\nhelp: give a nearer \
-         guess, or more steps"
+        "no periodic orbit was found: the best start, with the period {period}, misses its conditions by \
+         {gap:e}\nhelp: give a nearer guess, or more steps"
     )]
     NoPeriodicOrbit {
         /// The largest difference after a period, or distance from the section or the energy.
         gap: f64,
+        /// The period of the best start.
+        period: f64,
     },
     /// No value of a momentum gives the energy asked for (on the branch asked for).
     #[error(

@@ -53,6 +53,7 @@ impl<S: System<f64>> Observed<S> {
             None => Err(Error::Unknown {
                 name: name.to_string(),
                 system: S::NAME,
+                known: S::OBSERVABLES.iter().map(|known| known.name).collect(),
             }),
         }
     }

@@ -78,6 +78,9 @@ pub struct PeriodicOrbit<V: Vector<Scalar = f64>> {
 /// The largest number of corrections.
 const MOST: u32 = 40;
 
+/// The least period, in units of the guess: with a period of 0 every start meets the conditions.
+const SHORTEST: f64 = 0.5;
+
 /// The largest number of halvings of a correction.
 const HALVINGS: u32 = 12;
 
@@ -87,8 +90,8 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
     ///
     /// # Errors
     /// [`Error::NoPeriodicOrbit`] if the method does not converge, for example because the guess is far, or because
-    /// the condition does not single out an orbit; [`Error::NoObservable`] for a section that the system does
-    /// not declare; those of [`Tangent::new`] and [`Tangent::advance`] at the guess.
+    /// the condition does not single out an orbit, or because the period falls below half the guess;
+    /// [`Error::Unknown`] for a section that the system does not declare; those of [`Tangent::new`] and [`Tangent::advance`] at the guess.
     pub fn find<S, M>(
         system: &S,
         scheme: M,
@@ -108,8 +111,11 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
         if let Some(name) = section
             && <S as System<f64>>::observable_index(name).is_none()
         {
-            return Err(Error::NoObservable {
+            let known = <S as System<f64>>::OBSERVABLES.iter();
+            return Err(Error::Unknown {
                 name: name.to_owned(),
+                system: <S as System<f64>>::NAME,
+                known: known.map(|known| known.name).collect(),
             });
         }
         let search = Search {
@@ -122,7 +128,7 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
             },
             steps,
         };
-        let mut start = guess;
+        let (mut start, guessed) = (guess, period);
         let mut at = search.at(&start, period)?;
         for _ in 0..MOST {
             let correction = solve(&at.slopes, &at.off);
@@ -131,7 +137,8 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
             for _ in 0..HALVINGS {
                 let (moved, longer) = search.moved(&start, period, &correction, scale);
                 // A start at which H has no value is too far away.
-                if let Ok(there) = search.at(&moved, longer)
+                if longer / guessed >= SHORTEST
+                    && let Ok(there) = search.at(&moved, longer)
                     && largest(&there.off) < largest(&at.off)
                 {
                     better = Some((moved, longer, there));
@@ -153,7 +160,7 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
         // random numbers.
         let rounding = 64.0 * f64::EPSILON * growth * Real::sqrt(steps as f64);
         if off.is_nan() || off > rounding.max(1e-12) * size {
-            return Err(Error::NoPeriodicOrbit { gap: off });
+            return Err(Error::NoPeriodicOrbit { gap: off, period });
         }
         Ok(PeriodicOrbit {
             gap: largest(&at.off[..2 * start.q.len()]),

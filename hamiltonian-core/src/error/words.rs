@@ -93,3 +93,17 @@ impl Display for Lane {
         }
     }
 }
+
+/// The names that a system declares, where one was asked for that it does not.
+pub(super) struct Known<'a>(pub(super) &'a [&'static str]);
+
+impl Display for Known<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let mut lead = "\nhelp: it declares";
+        for name in self.0 {
+            write!(f, "{lead} `{name}`")?;
+            lead = ",";
+        }
+        Ok(())
+    }
+}

@@ -185,7 +185,7 @@ pub enum Error {
         name: String,
         /// The system.
         system: &'static str,
-        /// What it declares.
+        /// The names that the system declares.
         known: Vec<&'static str>,
     },
     /// A step led to a NaN or an infinity: a number grew beyond all bounds, or the exact flow of a

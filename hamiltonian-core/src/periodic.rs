@@ -91,7 +91,8 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
     /// # Errors
     /// [`Error::NoPeriodicOrbit`] if the method does not converge, for example because the guess is far, or because
     /// the condition does not single out an orbit, or because the period falls below half the guess;
-    /// [`Error::Unknown`] for a section that the system does not declare; those of [`Tangent::new`] and [`Tangent::advance`] at the guess.
+    /// [`Error::Unknown`] for a section that the system does not declare; those of [`Tangent::new`] and
+    /// [`Tangent::advance`] at the guess.
     pub fn find<S, M>(
         system: &S,
         scheme: M,

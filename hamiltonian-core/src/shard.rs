@@ -46,10 +46,12 @@ impl Shard {
     ///
     /// # Errors
     /// [`ShardError::Range`] unless `index < count`.
+    #[inline]
     pub fn new(index: u64, count: u64) -> Result<Self, Error> {
         Ok(Self::of(index, count, None)?)
     }
 
+    #[inline]
     fn of(index: u64, count: u64, variable: Option<&'static str>) -> Result<Self, ShardError> {
         match NonZeroU64::new(count) {
             Some(count) if index < count.get() => Ok(Shard { index, count }),
@@ -82,6 +84,7 @@ impl Shard {
     /// [`ShardError`] if a variable of the source is missing or has another form, if its numbers
     /// contradict each other, or if the part does not exist.
     #[cfg(feature = "std")]
+    #[inline]
     pub fn from_env() -> Result<Self, Error> {
         // A value that is not Unicode has none of the forms, and must not count as unset.
         Self::from_lookup(|name| {
@@ -107,22 +110,26 @@ impl Shard {
     }
 
     /// The number of the part, counted from 0.
+    #[inline]
     pub fn index(&self) -> u64 {
         self.index
     }
 
     /// The number of parts.
+    #[inline]
     pub fn count(&self) -> u64 {
         self.count.get()
     }
 
     /// Returns true if a chunk belongs to this part.
+    #[inline]
     pub fn has(&self, chunk: u64) -> bool {
         chunk % self.count == self.index
     }
 }
 
 impl Default for Shard {
+    #[inline]
     fn default() -> Self {
         Shard::WHOLE
     }
@@ -130,6 +137,7 @@ impl Default for Shard {
 
 /// `k/n`.
 impl fmt::Display for Shard {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.index, self.count)
     }
@@ -139,12 +147,14 @@ impl fmt::Display for Shard {
 impl FromStr for Shard {
     type Err = Error;
 
+    #[inline]
     fn from_str(text: &str) -> Result<Self, Error> {
         Ok(parsed(text, None)?)
     }
 }
 
 /// The part `k/n`.
+#[inline]
 fn parsed(text: &str, variable: Option<&'static str>) -> Result<Shard, ShardError> {
     let (index, count) = (text.split_once('/'))
         .and_then(|(index, count)| Some((whole(index)?, whole(count)?)))
@@ -157,6 +167,7 @@ fn parsed(text: &str, variable: Option<&'static str>) -> Result<Shard, ShardErro
 }
 
 /// Reads a number of decimal digits: `u64::from_str` would accept a sign.
+#[inline]
 fn whole(text: &str) -> Option<u64> {
     let digits = text.bytes().all(|byte| byte.is_ascii_digit());
     digits.then(|| text.parse().ok()).flatten()
@@ -166,11 +177,13 @@ fn whole(text: &str) -> Option<u64> {
 struct Variables<'a>(&'a dyn Fn(&str) -> Option<String>);
 
 impl Variables<'_> {
+    #[inline]
     fn text(&self, name: &str) -> Option<String> {
         (self.0)(name)
     }
 
     /// A number; `None` if it is not set.
+    #[inline]
     fn number(&self, name: &'static str) -> Result<Option<u64>, ShardError> {
         let Some(text) = self.text(name) else {
             return Ok(None);
@@ -186,6 +199,7 @@ impl Variables<'_> {
     }
 
     /// The number that a variable must have because another one is set.
+    #[inline]
     fn besides(&self, name: &'static str, variable: &'static str) -> Result<u64, ShardError> {
         self.number(name)?.ok_or(ShardError::Missing {
             variable,
@@ -195,6 +209,7 @@ impl Variables<'_> {
     }
 
     /// Both numbers of a source; `None` if neither is set.
+    #[inline]
     fn pair(&self, rank: &'static str, size: &'static str) -> Result<Option<Shard>, ShardError> {
         match (self.text(rank), self.text(size)) {
             (None, None) => Ok(None),
@@ -208,6 +223,7 @@ impl Variables<'_> {
     }
 }
 
+#[inline]
 fn first_source(env: &Variables<'_>) -> Result<Shard, ShardError> {
     const GIVEN: &str = "HAMILTONIAN_SHARD";
     if let Some(text) = env.text(GIVEN) {
@@ -231,6 +247,7 @@ fn first_source(env: &Variables<'_>) -> Result<Shard, ShardError> {
 }
 
 /// The task of a job array of Slurm: (ID − MIN)/STEP of COUNT.
+#[inline]
 fn slurm_array(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     const ID: &str = "SLURM_ARRAY_TASK_ID";
     const MIN: &str = "SLURM_ARRAY_TASK_MIN";
@@ -272,6 +289,7 @@ fn slurm_array(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
 }
 
 /// A task of `srun`; only these have a step.
+#[inline]
 fn slurm_step(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     /// Steps from here on are those of batch scripts and shells, in which one process runs
     /// (`SLURM_INTERACTIVE_STEP` and above in slurm.h).
@@ -304,6 +322,7 @@ fn slurm_step(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
 }
 
 /// A task of HyperQueue; the user sets the number of tasks.
+#[inline]
 fn hyperqueue(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     const ID: &str = "HQ_TASK_ID";
     const SHARDS: &str = "HAMILTONIAN_SHARDS";

@@ -522,6 +522,7 @@ pub fn symplectic_defect<T: Real>(matrix: &DMatrix<T>) -> f64 {
 /// let turn = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]);
 /// assert!(multipliers(&turn).iter().all(|mu| mu.re == 0.0 && mu.im.abs() == 1.0));
 /// ```
+#[inline]
 pub fn multipliers(matrix: &DMatrix<f64>) -> Vec<nalgebra::Complex<f64>> {
     eigenvalues::eigenvalues(matrix)
 }

@@ -45,6 +45,7 @@ pub enum TableError {
 
 impl TableError {
     /// The error for a name that is not among `known`.
+    #[inline]
     pub(crate) fn unknown(name: &str, known: &[String]) -> Self {
         TableError::Unknown {
             name: name.to_owned(),
@@ -58,6 +59,7 @@ impl TableError {
 struct Known<'a>(&'a Option<String>, &'a [String]);
 
 impl core::fmt::Display for Known<'_> {
+    #[inline]
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         /// More names than this are not listed.
         const MOST: usize = 24;

@@ -142,6 +142,7 @@ impl Grid {
 
 /// The factors of the B-splines that pass through values: (cᵢ₋₁ + 4cᵢ + cᵢ₊₁)/6 = vᵢ. The first belongs to
 /// the point before the grid.
+#[inline]
 fn factors(count: usize, values: &[f64], is_periodic: bool) -> Vec<f64> {
     let inner = |right: f64| Row {
         lower: 1.0,
@@ -176,6 +177,7 @@ fn factors(count: usize, values: &[f64], is_periodic: bool) -> Vec<f64> {
 
 impl Data {
     /// The cell of a point and its corner, in the direction `k`.
+    #[inline]
     fn cell(&self, k: usize, x: f64) -> Option<(usize, f64)> {
         let place = (x - self.origin[k]) / self.spacing[k];
         let count = self.cells[k];
@@ -198,6 +200,7 @@ impl Data {
     }
 
     /// The corner of the cell around a point, and the factors of the 16 products there; NaN outside.
+    #[inline]
     fn around(&self, [x, y]: [f64; 2]) -> [f64; 18] {
         let (Some((i, left)), Some((j, low))) = (self.cell(0, x), self.cell(1, y)) else {
             return [f64::NAN; 18];
@@ -245,6 +248,7 @@ impl Function<2> for Grid {
         }
         sum * T::constant(1.0 / 36.0, 0.0)
     }
+    #[inline]
     fn fingerprint(&self) -> u64 {
         self.0.fingerprint
     }

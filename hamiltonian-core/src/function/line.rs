@@ -17,6 +17,7 @@ pub(super) struct Row {
 }
 
 /// The solution (L. H. Thomas's elimination).
+#[inline]
 pub(super) fn solve(rows: &[Row]) -> Vec<f64> {
     let mut x = vec![0.0; rows.len()];
     let mut above = vec![0.0; rows.len()];
@@ -36,6 +37,7 @@ pub(super) fn solve(rows: &[Row]) -> Vec<f64> {
 
 /// The solution of at least three rows if the first and the last unknown are neighbours (J. Sherman
 /// and W. J. Morrison, *Ann. Math. Stat.* 21, 124, 1950, doi:10.1214/aoms/1177729893).
+#[inline]
 pub(super) fn solve_around(rows: &[Row]) -> Vec<f64> {
     let last = rows.len() - 1;
     let (corner, other) = (rows[0].lower, rows[last].upper);

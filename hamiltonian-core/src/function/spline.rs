@@ -55,6 +55,7 @@ impl Spline {
     /// # Errors
     /// [`KnotError`] if the numbers of knots and values differ, if there are too few, if a number is not
     /// finite, or if the knots do not increase.
+    #[inline]
     pub fn natural(knots: &[f64], values: &[f64]) -> Result<Spline, KnotError> {
         Spline::through(knots, values, Ends::Natural)
     }
@@ -63,6 +64,7 @@ impl Spline {
     ///
     /// # Errors
     /// Those of [`natural`](Spline::natural).
+    #[inline]
     pub fn clamped(knots: &[f64], values: &[f64], slopes: [f64; 2]) -> Result<Spline, KnotError> {
         KnotError::check_finite("slope", &slopes)?;
         Spline::through(knots, values, Ends::Clamped(slopes))
@@ -87,10 +89,12 @@ impl Spline {
     /// # Errors
     /// Those of [`natural`](Spline::natural), and [`KnotError::NotPeriodic`] if the first and the last value
     /// differ.
+    #[inline]
     pub fn periodic(knots: &[f64], values: &[f64]) -> Result<Spline, KnotError> {
         Spline::through(knots, values, Ends::Periodic)
     }
 
+    #[inline]
     fn through(knots: &[f64], values: &[f64], ends: Ends) -> Result<Spline, KnotError> {
         if knots.len() != values.len() {
             return Err(KnotError::Lengths {
@@ -142,6 +146,7 @@ impl Spline {
 }
 
 /// The second derivatives at the knots.
+#[inline]
 fn curvatures(knots: &[f64], values: &[f64], ends: Ends) -> Vec<f64> {
     let last = knots.len() - 1;
     let width = |i: usize| knots[i + 1] - knots[i];
@@ -188,6 +193,7 @@ fn curvatures(knots: &[f64], values: &[f64], ends: Ends) -> Vec<f64> {
 
 impl Pieces {
     /// The left knot of the interval around x and the polynomial there; NaN outside the knots.
+    #[inline]
     fn around(&self, x: f64) -> [f64; 5] {
         let (first, last) = (self.knots[0], self.knots[self.knots.len() - 1]);
         let shift = match self.period {
@@ -216,6 +222,7 @@ impl Function<1> for Spline {
         let x = x - left;
         d.fma(x, c).fma(x, b).fma(x, a)
     }
+    #[inline]
     fn fingerprint(&self) -> u64 {
         self.0.fingerprint
     }

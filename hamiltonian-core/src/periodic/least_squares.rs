@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 
 /// The x for which |matrix·x − right| is least; not finite where columns depend on each other. The matrix has no
 /// fewer rows than columns.
+#[inline]
 pub(super) fn solve(matrix: &DMatrix<f64>, right: &[f64]) -> Vec<f64> {
     let (rows, columns) = matrix.shape();
     let (mut a, mut b) = (matrix.clone(), right.to_vec());

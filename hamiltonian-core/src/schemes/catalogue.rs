@@ -58,6 +58,7 @@ macro_rules! catalogue {
         ///     println!("{entry}, {}: order {}", entry.equations, entry.order);
         /// }
         /// ```
+        #[inline]
         pub fn catalogue() -> impl Iterator<Item = Entry> {
             [$($unforced.entry(),)+ $($any.entry(),)+ $($split.entry(),)+ $($exact.entry(),)+ $($separable.entry(),)+
                 $($nystrom.entry(),)+ $($quadratic.entry(),)+ $($implicit.entry(),)+ $($energy.entry(),)+ $($doubled.entry(),)+

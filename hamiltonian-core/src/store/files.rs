@@ -22,6 +22,7 @@ pub(super) struct TemporaryFiles {
 }
 
 impl TemporaryFiles {
+    #[inline]
     pub(super) fn of(root: &Path) -> Self {
         TemporaryFiles {
             directory: root.join(super::layout::STATUS).join("parts"),
@@ -31,6 +32,7 @@ impl TemporaryFiles {
     }
 
     /// Returns a path that no other process uses.
+    #[inline]
     pub(super) fn new_path(&self) -> io::Result<PathBuf> {
         fs::create_dir_all(&self.directory)?;
         let number = self.next.fetch_add(1, Ordering::Relaxed);
@@ -39,12 +41,14 @@ impl TemporaryFiles {
     }
 
     /// Removes the files that killed processes left.
+    #[inline]
     pub(super) fn remove(&self) {
         // The directory may not exist, or another process may be removing it.
         let _ = fs::remove_dir_all(&self.directory);
     }
 
     /// Writes a file. Afterwards, `path` has all bytes or is unchanged.
+    #[inline]
     pub(super) fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         let temporary = self.new_path()?;
         let written = write_new(&temporary, bytes).and_then(|()| {
@@ -62,6 +66,7 @@ impl TemporaryFiles {
 }
 
 /// Writes a file and waits until it is on the disk.
+#[inline]
 pub(super) fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
@@ -69,6 +74,7 @@ pub(super) fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
 }
 
 /// Returns the error for a file of the store `root`.
+#[inline]
 pub(super) fn failed(root: &Path, path: &Path, error: &io::Error) -> Error {
     let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
     match full.contains(&error.kind()) {
@@ -84,6 +90,7 @@ pub(super) fn failed(root: &Path, path: &Path, error: &io::Error) -> Error {
 }
 
 /// Reads a file; `None` if it does not exist.
+#[inline]
 pub(super) fn read(root: &Path, path: &Path) -> Result<Option<Vec<u8>>, Error> {
     match fs::read(path) {
         Ok(bytes) => Ok(Some(bytes)),

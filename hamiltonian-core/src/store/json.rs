@@ -26,6 +26,7 @@ impl Json {
     }
 
     /// Writes the text, indented by `indent` levels.
+    #[inline]
     fn write(&self, f: &mut fmt::Formatter<'_>, indent: usize) -> fmt::Result {
         match self {
             Json::Flag(flag) => write!(f, "{flag}"),
@@ -62,12 +63,14 @@ impl Json {
 }
 
 impl fmt::Display for Json {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.write(f, 0)
     }
 }
 
 /// Writes a text between quotes (RFC 8259, section 7).
+#[inline]
 fn quoted(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     write!(f, "\"")?;
     for letter in text.chars() {

@@ -59,6 +59,7 @@ pub enum Attribute {
 macro_rules! attribute {
     ($($from:ty => $variant:ident),*) => {$(
         impl From<$from> for Attribute {
+            #[inline]
             fn from(value: $from) -> Self {
                 Attribute::$variant(value.into())
             }
@@ -68,6 +69,7 @@ macro_rules! attribute {
 attribute!(&str => Text, String => Text, u32 => Whole, u64 => Whole, f64 => Number, bool => Flag);
 
 impl Attribute {
+    #[inline]
     fn json(&self) -> Json {
         match self {
             Attribute::Text(text) => Json::text(text.as_str()),
@@ -102,17 +104,20 @@ impl Layout {
     }
 
     /// The number of chunks.
+    #[inline]
     pub fn chunks(&self) -> u64 {
         self.members.div_ceil(self.chunk.max(1))
     }
 
     /// The members of a chunk.
+    #[inline]
     pub fn members_of(&self, chunk: u64) -> core::ops::Range<u64> {
         let first = chunk.saturating_mul(self.chunk).min(self.members);
         first..first.saturating_add(self.chunk).min(self.members)
     }
 
     /// Checks the sizes and the names.
+    #[inline]
     pub(super) fn check(&self) -> Result<(), StoreError> {
         let layout = |fact: String, remedy| Err(StoreError::Layout { fact, remedy });
         if self.members == 0 || self.chunk == 0 {
@@ -165,6 +170,7 @@ impl Layout {
     ///
     /// If members have any number of rows, the metadata of arrays are omitted: each chunk adds a group, which readers
     /// of consolidated metadata would ignore.
+    #[inline]
     pub(super) fn group(&self) -> Json {
         let own = [
             ("members".to_owned(), Json::Whole(self.members)),
@@ -180,6 +186,7 @@ impl Layout {
     }
 
     /// Returns the arrays of the root group.
+    #[inline]
     pub(super) fn arrays(&self) -> Vec<Array> {
         let per_member = |name: &str, kind| Array {
             name: name.to_owned(),
@@ -231,6 +238,7 @@ impl Layout {
     }
 
     /// Returns the arrays of a chunk with `rows` rows, for members with any number of rows.
+    #[inline]
     pub(super) fn rows_arrays(&self, rows: u64) -> Vec<Array> {
         let line = |name: &str, kind| Array::line(name, kind, rows, "row");
         let columns = self.columns.iter().map(|name| line(name, Kind::F64));
@@ -250,6 +258,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// Returns the number of bytes of an element.
+    #[inline]
     pub(super) fn size(self) -> usize {
         match self {
             Kind::U8 => 1,
@@ -258,6 +267,7 @@ impl Kind {
     }
 
     /// Returns the bytes of a missing element.
+    #[inline]
     pub(super) fn fill(self) -> &'static [u8] {
         match self {
             Kind::U8 => &[0],
@@ -280,6 +290,7 @@ pub(super) struct Array {
 
 impl Array {
     /// Creates an array with one dimension in one chunk.
+    #[inline]
     fn line(name: &str, kind: Kind, length: u64, dimension: &str) -> Self {
         Array {
             name: name.to_owned(),
@@ -292,6 +303,7 @@ impl Array {
     }
 
     /// Returns the contents of its `zarr.json`.
+    #[inline]
     pub(super) fn metadata(&self) -> Json {
         let named = |name: &str, configuration| {
             Json::object([("name", Json::text(name)), ("configuration", configuration)])
@@ -324,16 +336,19 @@ impl Array {
     }
 
     /// Returns the number of elements of a chunk, including those beyond the end of the array.
+    #[inline]
     pub(super) fn elements(&self) -> usize {
         self.chunk.iter().product::<u64>() as usize
     }
 }
 
 /// Returns the metadata of a group.
+#[inline]
 pub(super) fn group(attributes: Json) -> Json {
     Json::object(group_members(attributes))
 }
 
+#[inline]
 fn group_members(attributes: Json) -> [(&'static str, Json); 3] {
     [
         ("zarr_format", Json::Whole(3)),
@@ -344,6 +359,7 @@ fn group_members(attributes: Json) -> [(&'static str, Json); 3] {
 
 /// Returns the metadata of a group with those of all of its arrays, in the form of zarr-python. The specification does
 /// not yet contain this form, and readers may ignore it.
+#[inline]
 pub(super) fn consolidated(attributes: Json, arrays: &[Array]) -> Json {
     let metadata = arrays
         .iter()

@@ -123,6 +123,7 @@ impl Store {
     }
 
     /// Returns the store of a layout at a path, at which it may not exist yet.
+    #[inline]
     fn at(root: &Path, layout: &Layout) -> Result<Self, Error> {
         layout.check()?;
         Ok(Store {
@@ -134,11 +135,13 @@ impl Store {
     }
 
     /// Returns the path of the metadata of the group.
+    #[inline]
     fn top(&self) -> PathBuf {
         self.root.join("zarr.json")
     }
 
     /// Returns true if the store exists. A store with another layout and a directory that is not a store are errors.
+    #[inline]
     fn exists(&self) -> Result<bool, Error> {
         let top = self.top();
         let Some(saved) = files::read(&self.root, &top)? else {
@@ -154,6 +157,7 @@ impl Store {
     }
 
     /// The layout.
+    #[inline]
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
@@ -162,6 +166,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError::File`].
+    #[inline]
     pub fn present(&self, chunk: u64) -> Result<bool, Error> {
         let marker = self.chunk_path(STATUS, chunk);
         (marker.try_exists()).map_err(|error| failed(&self.root, &marker, &error))
@@ -172,6 +177,7 @@ impl Store {
     /// # Errors
     /// [`StoreError::Shape`] for data that does not fit the layout, [`StoreError::Full`],
     /// [`StoreError::File`].
+    #[inline]
     pub fn write(&self, chunk: u64, data: &ChunkData) -> Result<(), Error> {
         self.check_shape(chunk, data)?;
         if self.present(chunk)? {
@@ -185,6 +191,7 @@ impl Store {
         }
     }
 
+    #[inline]
     fn write_files(&self, chunk: u64, data: &ChunkData) -> Result<(), Error> {
         if self.layout.rows == Rows::Any {
             self.write_rows(chunk, data)?;
@@ -211,6 +218,7 @@ impl Store {
     }
 
     /// Returns the number of rows of each member.
+    #[inline]
     fn counts(&self, chunk: u64, data: &ChunkData) -> Vec<u64> {
         let members = self.layout.members_of(chunk);
         let mut counts = vec![0; data.status.len()];
@@ -221,6 +229,7 @@ impl Store {
     }
 
     /// Writes the group of a chunk's rows, a directory that appears by one rename.
+    #[inline]
     fn write_rows(&self, chunk: u64, data: &ChunkData) -> Result<(), Error> {
         let path = self.root.join(ROWS).join(chunk.to_string());
         let write = || -> io::Result<()> {
@@ -253,6 +262,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError::Damaged`] for a file of the wrong length, [`StoreError::File`].
+    #[inline]
     pub fn read(&self, chunk: u64) -> Result<Option<ChunkData>, Error> {
         if chunk >= self.layout.chunks() || !self.present(chunk)? {
             return Ok(None);
@@ -303,6 +313,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError::Members`] if the hashes differ, and those of [`Store::read`].
+    #[inline]
     pub fn check_first(&self, chunk: u64, hash: u64) -> Result<(), Error> {
         let saved = self.file(&self.chunk_path(HASHES, chunk), 16)?;
         match integers(&saved).first() {
@@ -319,6 +330,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError::File`].
+    #[inline]
     pub fn complete(&self) -> Result<Completeness, Error> {
         let mut missing: Vec<Range<u64>> = Vec::new();
         for chunk in 0..self.layout.chunks() {
@@ -340,6 +352,7 @@ impl Store {
     }
 
     /// Returns the path of a chunk's file. Only the first dimension of an array is divided into chunks.
+    #[inline]
     fn chunk_path(&self, array: &str, chunk: u64) -> PathBuf {
         let is_flat = |array: &&Array| array.shape.len() == 1;
         let flat = (self.arrays.iter()).any(|known| known.name == array && is_flat(&known));
@@ -351,6 +364,7 @@ impl Store {
     }
 
     /// Returns the paths and contents of the metadata below the group.
+    #[inline]
     fn metadata(&self) -> Vec<(PathBuf, String)> {
         let file = |array: &Array| {
             let path = self.root.join(&array.name).join("zarr.json");
@@ -365,6 +379,7 @@ impl Store {
     }
 
     /// Refuses a directory without group metadata that has other entries than a store that is being created.
+    #[inline]
     fn refuse_foreign(&self) -> Result<(), Error> {
         let error = |error: io::Error| failed(&self.root, &self.root, &error);
         let entries = match fs::read_dir(&self.root) {
@@ -387,6 +402,7 @@ impl Store {
         Ok(())
     }
 
+    #[inline]
     fn check_same(&self, path: &Path, saved: &[u8], given: &str) -> Result<(), Error> {
         let saved = String::from_utf8_lossy(saved);
         let Some((saved, given)) = differing(&saved, given) else {
@@ -401,11 +417,13 @@ impl Store {
         .into())
     }
 
+    #[inline]
     fn write_file(&self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
         (self.temporary.write(path, bytes)).map_err(|error| failed(&self.root, path, &error))
     }
 
     /// Reads a file of a known length.
+    #[inline]
     fn file(&self, path: &Path, expected: usize) -> Result<Vec<u8>, Error> {
         let bytes = files::read(&self.root, path)?.unwrap_or_default();
         match bytes.len() == expected {
@@ -419,6 +437,7 @@ impl Store {
         }
     }
 
+    #[inline]
     fn check_shape(&self, chunk: u64, data: &ChunkData) -> Result<(), Error> {
         let check = |array: &str, found: usize, expected: usize| match found == expected {
             true => Ok(()),
@@ -471,6 +490,7 @@ impl Store {
 
 impl Rows {
     /// Returns the number of rows of a member, if it is the same for all members.
+    #[inline]
     fn per_member(&self) -> usize {
         match self {
             Rows::At { values, .. } => values.len(),
@@ -490,6 +510,7 @@ pub struct Completeness {
 
 impl Completeness {
     /// Returns true if no chunk is missing.
+    #[inline]
     pub fn is_complete(&self) -> bool {
         self.missing.is_empty()
     }
@@ -497,6 +518,7 @@ impl Completeness {
 
 /// `complete (7 chunks)`, or `3 of 7 chunks are missing: 1, 5 to 6`.
 impl fmt::Display for Completeness {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         /// The largest number of ranges that are listed.
         const MOST: usize = 8;
@@ -524,6 +546,7 @@ impl fmt::Display for Completeness {
 }
 
 /// Extends the bytes of an array's chunk by fill values beyond the last member.
+#[inline]
 fn padded(mut bytes: Vec<u8>, array: &Array) -> Vec<u8> {
     let length = array.elements() * array.kind.size();
     while bytes.len() < length {
@@ -536,11 +559,13 @@ fn bytes_of<T: Copy, const N: usize>(values: &[T], bytes: impl Fn(T) -> [u8; N])
     values.iter().flat_map(|value| bytes(*value)).collect()
 }
 
+#[inline]
 fn integers(bytes: &[u8]) -> Vec<u64> {
     let words = bytes.as_chunks::<8>().0;
     words.iter().map(|word| u64::from_le_bytes(*word)).collect()
 }
 
+#[inline]
 fn floats(bytes: &[u8]) -> Vec<f64> {
     let words = bytes.as_chunks::<8>().0;
     words.iter().map(|word| f64::from_le_bytes(*word)).collect()

@@ -66,6 +66,7 @@ impl Table {
         )
     }
 
+    #[inline]
     fn over(columns: Vec<String>, indexed: bool) -> Result<Self, Error> {
         let mut sorted: Vec<&String> = columns.iter().collect();
         sorted.sort_unstable();
@@ -81,6 +82,7 @@ impl Table {
     }
 
     /// Reserves memory for `rows` more rows.
+    #[inline]
     pub fn reserve(&mut self, rows: usize) {
         self.values.reserve(rows.saturating_mul(self.columns.len()));
     }
@@ -90,6 +92,7 @@ impl Table {
     /// # Errors
     /// [`TableError::Width`] for another number of values, [`TableError::Index`] for an index that is
     /// not a whole number of at most 2⁵³.
+    #[inline]
     pub fn push(&mut self, row: &[f64]) -> Result<(), Error> {
         if row.len() != self.columns.len() {
             let (columns, found) = (self.columns.len(), row.len());
@@ -109,31 +112,37 @@ impl Table {
     }
 
     /// Adds one value; the caller adds one for each column.
+    #[inline]
     pub(crate) fn push_value(&mut self, value: f64) {
         self.values.push(value);
     }
 
     /// All values, row after row.
+    #[inline]
     pub(crate) fn values(&self) -> &[f64] {
         &self.values
     }
 
     /// Replaces the values of the table.
+    #[inline]
     pub(crate) fn set_values(&mut self, values: Vec<f64>) {
         self.values = values;
     }
 
     /// The names of the columns.
+    #[inline]
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
     /// Returns true if the first column is an index, with whole numbers.
+    #[inline]
     pub fn has_index(&self) -> bool {
         self.indexed
     }
 
     /// The number of rows.
+    #[inline]
     pub fn rows(&self) -> usize {
         (self.values.len())
             .checked_div(self.columns.len())
@@ -141,6 +150,7 @@ impl Table {
     }
 
     /// Row `index`, in the order of [`Table::columns`].
+    #[inline]
     pub fn row(&self, index: usize) -> Option<&[f64]> {
         self.iter().nth(index)
     }
@@ -157,6 +167,7 @@ impl Table {
     }
 
     /// The position of a column.
+    #[inline]
     pub(crate) fn position(&self, name: &str) -> Result<usize, Error> {
         (self.columns.iter().position(|column| column == name))
             .ok_or_else(|| TableError::unknown(name, &self.columns).into())
@@ -166,6 +177,7 @@ impl Table {
     ///
     /// # Errors
     /// [`TableError::Unknown`] if there is no such column.
+    #[inline]
     pub fn wrap(&mut self, name: &str) -> Result<(), Error> {
         let at = self.position(name)?;
         let width = self.columns.len();
@@ -177,6 +189,7 @@ impl Table {
 }
 
 /// The angle in (−π, π] that differs by a multiple of 2π; an angle in that interval keeps its bits.
+#[inline]
 pub(crate) fn wrapped(angle: f64) -> f64 {
     use core::f64::consts::PI;
     match -PI < angle && angle <= PI {

@@ -45,6 +45,7 @@ impl Table {
     }
 
     /// Magic bytes, version, length and a Python literal that ends at a multiple of 64 bytes.
+    #[inline]
     fn npy_header(&self) -> Vec<u8> {
         let fields: String = (self.columns.iter().enumerate())
             .map(|(index, name)| {
@@ -80,6 +81,7 @@ impl Table {
 }
 
 /// A text between single quotes of Python.
+#[inline]
 fn python_text(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -21,6 +21,7 @@ use nalgebra::{Complex, DMatrix};
 const STEPS: usize = 60;
 
 /// The eigenvalues of a square matrix.
+#[inline]
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
     let n = matrix.nrows();
     let mut h = matrix.clone();
@@ -47,6 +48,7 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
 }
 
 /// Makes every entry below the first subdiagonal 0 by similarities.
+#[inline]
 fn reduce_to_hessenberg(h: &mut DMatrix<f64>) {
     let n = h.nrows();
     for k in 0..n.saturating_sub(2) {
@@ -63,6 +65,7 @@ fn reduce_to_hessenberg(h: &mut DMatrix<f64>) {
 
 /// The first row of the block that ends in row `high`: above it the subdiagonal is 0, or set to 0
 /// if it is a rounding error relative to the diagonal.
+#[inline]
 fn block(h: &mut DMatrix<f64>, high: usize) -> usize {
     let size = h.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     let mut low = high;
@@ -79,6 +82,7 @@ fn block(h: &mut DMatrix<f64>, high: usize) -> usize {
 }
 
 /// The eigenvalues of rows and columns `k` and `k + 1`.
+#[inline]
 fn pair(h: &DMatrix<f64>, k: usize) -> (Complex<f64>, Complex<f64>) {
     let (a, d) = (h[(k, k)], h[(k + 1, k + 1)]);
     let product = h[(k, k + 1)] * h[(k + 1, k)];
@@ -97,6 +101,7 @@ fn pair(h: &DMatrix<f64>, k: usize) -> (Complex<f64>, Complex<f64>) {
 
 /// Sum and product of the eigenvalues of the last two rows, towards which a step converges; numbers
 /// off them where an iteration goes round in a circle.
+#[inline]
 fn shifts(h: &DMatrix<f64>, high: usize, is_other: bool) -> (f64, f64) {
     let (a, d) = (h[(high - 1, high - 1)], h[(high, high)]);
     if is_other {
@@ -108,6 +113,7 @@ fn shifts(h: &DMatrix<f64>, high: usize, is_other: bool) -> (f64, f64) {
 }
 
 /// One step on rows and columns `low` to `high`, three of them or more.
+#[inline]
 fn step(h: &mut DMatrix<f64>, low: usize, high: usize, sum: f64, product: f64) {
     let (a, b, c) = (h[(low, low)], h[(low, low + 1)], h[(low + 1, low)]);
     let d = h[(low + 1, low + 1)];
@@ -141,6 +147,7 @@ fn step(h: &mut DMatrix<f64>, low: usize, high: usize, sum: f64, product: f64) {
 
 /// The vector `v`, scaled so that `1 − v·vᵀ` takes `column` to a multiple of the first axis; `None`
 /// if the column is 0.
+#[inline]
 fn normal(column: &[f64]) -> Option<Vec<f64>> {
     let size = column.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     if size == 0.0 {
@@ -157,6 +164,7 @@ fn normal(column: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// Multiplies rows from `first` on by `1 − v·vᵀ`, in these columns.
+#[inline]
 fn reflect_rows(h: &mut DMatrix<f64>, first: usize, v: &[f64], columns: RangeInclusive<usize>) {
     for j in columns {
         let along: f64 = (first..).zip(v).map(|(i, v)| v * h[(i, j)]).sum();
@@ -167,6 +175,7 @@ fn reflect_rows(h: &mut DMatrix<f64>, first: usize, v: &[f64], columns: RangeInc
 }
 
 /// Multiplies columns from `first` on by `1 − v·vᵀ`, in these rows.
+#[inline]
 fn reflect_columns(h: &mut DMatrix<f64>, first: usize, v: &[f64], rows: RangeInclusive<usize>) {
     for i in rows {
         let along: f64 = (first..).zip(v).map(|(j, v)| v * h[(i, j)]).sum();

@@ -87,6 +87,7 @@ macro_rules! all {
         ///     println!("{}: order {}, {} stages", table.name, table.order, table.stages.len());
         /// }
         /// ```
+        #[inline]
         pub fn all() -> impl Iterator<Item = Listing> {
             [$($(Listing {
                 name: $module::$table.name,
@@ -138,6 +139,7 @@ macro_rules! all_processed {
         ///     println!("{}: {} stages a step", table.name, table.kernel.len());
         /// }
         /// ```
+        #[inline]
         pub fn all_processed() -> impl Iterator<Item = ProcessedListing> {
             [$(ProcessedListing {
                 name: processed::$table.name,

@@ -45,7 +45,9 @@ mod proofs;
 
 pub use algebra::ball::Ball;
 pub use algebra::dag::op;
-pub use algebra::{dag, diff, index, loops, model, normal_form, print, ranges, rational, set};
+pub use algebra::{
+    dag, diff, index, loops, model, normal_form, print, ranges, rational, set, sort,
+};
 pub use flows::split;
 pub use programs::{count, forces, hold, interpret, pairs, pipeline, program, schedule};
 pub use proofs::{bracket, facts, legendre, structure, transform};

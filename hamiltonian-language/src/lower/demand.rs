@@ -12,6 +12,7 @@ use crate::names::Builtin;
 use hamiltonian_symbolic::dag::Dag;
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::set::Set;
+use hamiltonian_symbolic::sort::Arrange;
 use std::iter;
 
 /// The length of the longest vector whose sums over components are unrolled.
@@ -359,7 +360,7 @@ impl<'a> Demands<'a> {
         for (child, demand) in &mut wanted {
             let numbers = self.loops.numbers(*child);
             demand.values.retain(|(id, _)| numbers.has(*id));
-            demand.values.sort_unstable();
+            demand.values.arrange();
         }
         Ok(wanted)
     }

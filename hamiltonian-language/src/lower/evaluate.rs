@@ -21,6 +21,7 @@ use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::rational::Rational;
+use hamiltonian_symbolic::sort::Arrange;
 
 /// Message and remedy for a bracket with indices that cannot be solved.
 const UNSOLVED: (&str, &str) = (
@@ -130,7 +131,7 @@ impl<'a> Evaluator<'a> {
         for at in (0..count).rev() {
             let node = NodeId(at as u32);
             let mut own = core::mem::take(&mut demands[at]);
-            own.sort_unstable();
+            own.arrange();
             own.dedup();
             own.retain(|demand| self.answer(node, demand).is_none());
             total += own.len();

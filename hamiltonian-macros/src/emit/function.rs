@@ -11,6 +11,7 @@ use super::layout::Slice;
 use hamiltonian_symbolic::dag::{Array, Parameter};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Step, Target, Value};
+use hamiltonian_symbolic::sort::Arrange;
 use std::fmt::Write;
 
 /// A function to be written.
@@ -45,7 +46,7 @@ impl Bodies<'_> {
     /// Binds sizes and slices.
     pub(super) fn bind(&self, out: &mut String, receiver: Receiver, mut slices: Vec<Slice>) {
         let context = self.context;
-        slices.sort_unstable();
+        slices.arrange();
         slices.dedup();
         receiver.bind_sizes(out, context);
         receiver.bind_functions(out, context);

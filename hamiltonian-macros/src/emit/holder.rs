@@ -11,6 +11,7 @@ use super::values::{Values, Wanted};
 use hamiltonian_symbolic::dag::{Array, Parameter};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
+use hamiltonian_symbolic::sort::Arrange;
 use std::fmt::Write;
 
 /// The values computed before an evaluation, and the data read with them: core's `Held`.
@@ -49,7 +50,7 @@ impl Holder {
     /// A holder of these values, and of the arrays among these slices.
     pub fn new(context: Context, name: String, values: &[Value], mut slices: Vec<Slice>) -> Holder {
         slices.retain(|slice| matches!(slice, Slice::Read(Array::Parameter(_) | Array::Held(_))));
-        slices.sort_unstable();
+        slices.arrange();
         slices.dedup();
         Holder {
             name,

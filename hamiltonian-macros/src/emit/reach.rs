@@ -7,6 +7,7 @@ use super::context::Context;
 use super::{lex, located};
 use hamiltonian_language::checked::{Extent, Reach};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
+use hamiltonian_symbolic::sort::Arrange;
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::fmt::Write;
@@ -17,7 +18,7 @@ fn sizes(reach: &Reach) -> Vec<Size> {
     let ranges = reach.loops.iter().flat_map(|(_, range)| range);
     let forms = ranges.chain([&reach.form]);
     let mut sizes: Vec<Size> = forms.flat_map(Affine::all_sizes).collect();
-    sizes.sort_unstable();
+    sizes.arrange();
     sizes.dedup();
     sizes
 }

@@ -6,6 +6,7 @@
 use super::context::Context;
 use super::layout::Slice;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
+use hamiltonian_symbolic::sort::Arrange;
 
 /// The reads and writes of a block.
 #[derive(Debug, Default)]
@@ -31,7 +32,7 @@ pub fn scan(context: Context, steps: &[Step], results: &[Value]) -> Scan {
     for &result in results {
         walker.read(result);
     }
-    walker.scan.slices.sort_unstable();
+    walker.scan.slices.arrange();
     walker.scan.slices.dedup();
     walker.scan
 }

@@ -55,9 +55,8 @@ impl Values {
         bind(out, numbers, &self.numbers, wanted);
         bind(out, masks, &self.masks, wanted);
         let before = wanted.len();
-        for value in self.all() {
-            wanted.remove(&value);
-        }
+        let own: Wanted = self.all().map(|value| (value, ())).collect();
+        wanted.retain(|value| !own.contains_key(value));
         wanted.len() < before
     }
 }

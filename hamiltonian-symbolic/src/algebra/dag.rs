@@ -6,19 +6,21 @@
 //! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
 
 mod array;
+mod map;
+mod numbers;
 pub mod op;
 mod sign;
-mod table;
 mod work;
 
 pub use array::{Array, Column, Side};
+pub use map::{Map, Mixer};
+pub(crate) use numbers::Numbers;
 pub(crate) use sign::Sign;
-pub(crate) use table::Numbers;
-pub use table::{Map, Mixer};
 pub(crate) use work::work;
 
 use crate::index::{Affine, Domain, Index, LOOPS, Loops, Size};
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use op::Op;
 
 /// An expression.
@@ -127,7 +129,7 @@ pub enum Kind {
 
 impl Kind {
     /// Calls `visit` with each child.
-    fn for_children(&self, mut visit: impl FnMut(Node)) {
+    fn for_children(&self, visit: &mut dyn FnMut(Node)) {
         match self {
             Kind::Sum(_, terms) => terms.iter().for_each(|(_, n)| visit(*n)),
             Kind::Product(_, factors) => factors.iter().for_each(|(n, _)| visit(*n)),
@@ -400,8 +402,8 @@ impl Dag {
     }
 
     /// Calls `visit` with each child of a node.
-    pub fn for_children(&self, node: Node, visit: impl FnMut(Node)) {
-        self.kind(node).for_children(visit);
+    pub fn for_children(&self, node: Node, mut visit: impl FnMut(Node)) {
+        self.kind(node).for_children(&mut visit);
     }
 
     /// All nodes the roots need, children before parents.
@@ -453,12 +455,12 @@ impl Dag {
         let key = match &kind {
             Kind::Sum(c, terms) => {
                 let mut sorted = terms.clone();
-                sorted.sort_unstable_by_key(|(_, n)| *n);
+                sorted.arrange_by_key(|(_, n)| *n);
                 Kind::Sum(c.clone(), sorted)
             }
             Kind::Product(c, factors) => {
                 let mut sorted = factors.clone();
-                sorted.sort_unstable_by_key(|(n, _)| *n);
+                sorted.arrange_by_key(|(n, _)| *n);
                 Kind::Product(c.clone(), sorted)
             }
             _ => kind.clone(),
@@ -483,7 +485,7 @@ impl Dag {
         let mut dependence = Dependence::default();
         let mut variables = Loops::default();
         let mut height = 0;
-        kind.for_children(|child| {
+        kind.for_children(&mut |child| {
             height = height.max(self.height(child) + 1);
             dependence.0 |= self.dependence(child).0;
             variables |= self.variables(child);

@@ -10,6 +10,7 @@ use crate::dag::{Array, Dag, Dependence, Kind, Map, Node};
 use crate::index::Domain;
 use crate::op::Op;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// The adjoints of the leaves that depend on `what`: (leaf, ∂root/∂leaf) in order of first
 /// appearance. Zero adjoints are left out.
@@ -39,7 +40,7 @@ fn sweep(
     contributions.insert(root, vec![dag.integer(1)]);
     let mut leaves = Vec::new();
     for &node in order.iter().rev() {
-        let Some(mut parts) = contributions.remove(&node) else {
+        let Some(mut parts) = contributions.take(&node) else {
             continue;
         };
         // Users were visited last to first; the source's order is the other way.
@@ -100,7 +101,7 @@ fn sweep(
     }
     // Leaves that only the sums of branches have.
     let mut inside: Vec<(Node, Vec<Node>)> = contributions.into_iter().collect();
-    inside.sort_unstable_by_key(|(leaf, _)| *leaf);
+    inside.arrange_by_key(|(leaf, _)| *leaf);
     for (leaf, mut parts) in inside {
         parts.reverse();
         let adjoint = dag.add_with_content(&parts);
@@ -108,7 +109,7 @@ fn sweep(
             leaves.push((leaf, adjoint));
         }
     }
-    leaves.sort_unstable_by_key(|(leaf, _)| *leaf);
+    leaves.arrange_by_key(|(leaf, _)| *leaf);
     leaves
 }
 
@@ -157,7 +158,7 @@ impl Branches {
             adjoints
         });
         let mut leaves: Vec<Node> = from_yes.iter().chain(&from_no).map(|(l, _)| *l).collect();
-        leaves.sort_unstable();
+        leaves.arrange();
         leaves.dedup();
         let by = |list: &Adjoints, leaf: Node| {
             list.binary_search_by_key(&leaf, |(l, _)| *l)

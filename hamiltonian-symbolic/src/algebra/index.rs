@@ -5,6 +5,7 @@
 //! terms sorted by variable, no zero coefficients, so that equal indices are equal values.
 
 use crate::set::{MEMBERS, Member, Set};
+use crate::sort::Arrange;
 
 /// A loop: a range in the context of an enclosing loop. Its number also names its variable.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -121,7 +122,7 @@ impl Affine {
         for (own, k) in &a {
             for (others, n) in &b {
                 let mut sizes = [own.as_slice(), others].concat();
-                sizes.sort_unstable();
+                sizes.arrange();
                 let term = match *sizes.as_slice() {
                     [] => Affine::constant(1),
                     [size] => Affine::size(size),

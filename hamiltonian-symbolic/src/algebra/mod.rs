@@ -20,3 +20,4 @@ mod reindex;
 mod rewrite;
 pub mod set;
 pub(crate) mod simplify;
+pub mod sort;

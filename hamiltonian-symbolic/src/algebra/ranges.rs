@@ -5,6 +5,7 @@
 
 use crate::dag::Dag;
 use crate::index::{Affine, Domain, End, Index, Loops};
+use crate::sort::Arrange;
 
 /// The ranges of loops, with all that is asked about indices in them.
 pub trait Ranges {
@@ -110,7 +111,7 @@ pub trait Ranges {
             }
         }
         // A range reads only loops with smaller numbers.
-        own.sort_unstable();
+        own.arrange();
         own
     }
 

@@ -8,7 +8,7 @@ use crate::index::{Affine, Domain};
 
 impl Dag {
     /// The node over other children; the node itself if no child differs.
-    pub fn rebuild(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
+    pub fn rebuild(&mut self, node: Node, new: &dyn Fn(Node) -> Node) -> Node {
         let mut is_changed = false;
         self.for_children(node, |child| is_changed |= new(child) != child);
         match is_changed {
@@ -17,7 +17,7 @@ impl Dag {
         }
     }
 
-    fn made_again(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
+    fn made_again(&mut self, node: Node, new: &dyn Fn(Node) -> Node) -> Node {
         match self.kind(node) {
             Kind::Product(_, factors) if self.is_sealed(node) => {
                 let (a, b) = (new(factors[0].0), new(factors[1].0));

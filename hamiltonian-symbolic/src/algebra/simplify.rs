@@ -12,6 +12,7 @@ use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Side};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
 use crate::rational::{LONGEST, Rational};
+use crate::sort::Arrange;
 
 /// The largest exponent of a factor. Past it a power of a power stays one, so that repeated squaring
 /// grows by a node a level, and a literal exponent is left to `pow`.
@@ -233,7 +234,7 @@ impl Dag {
             _ => {
                 // The negative of a known sum is that sum negated, so that a−b and b−a share.
                 let mut negated: Vec<_> = terms.iter().map(|(k, n)| (k.neg(), *n)).collect();
-                negated.sort_unstable_by_key(|(_, n)| *n);
+                negated.arrange_by_key(|(_, n)| *n);
                 match self.known(&Kind::Sum(constant.neg(), negated)) {
                     Some(known) => self.neg(known),
                     None => self.intern(Kind::Sum(constant, terms)),

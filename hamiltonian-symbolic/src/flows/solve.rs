@@ -13,6 +13,7 @@ use crate::flows::limits::{COMMUTING, Limit, PARTS};
 use crate::flows::space::{Space, Variables};
 use crate::model::{EXPONENTIAL, Flow, Motion};
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
 
 /// The flow of h for the time s; `None` where no row takes it.
@@ -302,7 +303,7 @@ fn kernel(space: &mut Space, u: Node, own: Variables) -> Option<(Node, Node)> {
 fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let mut terms = terms(space, h);
     // Parts grow term by term: their order must not be that in which H is written.
-    terms.sort_by_key(|term| space.set(*term).pairs().len());
+    terms.arrange_by_key(|term| space.set(*term).pairs().len());
     if terms.len() > COMMUTING {
         space.meets(Limit::Commuting, h);
     }

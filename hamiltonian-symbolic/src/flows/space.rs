@@ -21,6 +21,7 @@ use crate::model::{Flow, Model, Motion};
 use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness};
 use crate::rational::Rational;
 use crate::set::{Member, Set};
+use crate::sort::Arrange;
 use tape::Tape;
 
 /// A variable by its number: 2i is coordinate i, 2i + 1 its momentum.
@@ -138,7 +139,7 @@ impl Space {
                 _ => {}
             }
         }
-        places.sort_unstable_by_key(|(group, column, row)| (*group, *row, *column));
+        places.arrange_by_key(|(group, column, row)| (*group, *row, *column));
         places.dedup();
         if places.len() > PAIRS {
             return Err(Some(Limit::Pairs));
@@ -496,7 +497,7 @@ impl Space {
         let key = |ball: &Ball| [ball.value.to_bits(), ball.error.to_bits()];
         let key: Vec<[u64; 2]> = point.iter().map(key).collect();
         if self.points.len() > POINTS {
-            self.points.clear();
+            self.points = Map::default();
         }
         let (model, pairs) = (&self.model, &self.pairs);
         let values = self.points.entry(key).or_insert_with(|| {

@@ -9,6 +9,7 @@ use crate::algebra::simplify::SHORT;
 use crate::dag::{Dag, Kind, Node};
 use crate::programs::factor::is_prepared;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// Rewrites the expressions the roots stand for.
 pub fn balance(dag: &mut Dag, roots: &mut [Node]) {
@@ -57,7 +58,7 @@ fn balanced(dag: &mut Dag, k: &Rational, factors: Factors) -> Node {
 /// The product of nodes as a tree; those of outer loops first, each loop's by themselves.
 fn tree(dag: &mut Dag, mut leaves: Vec<Node>) -> Node {
     let depth = |dag: &Dag, node: Node| dag.depth(dag.home(node));
-    leaves.sort_by_key(|node| depth(dag, *node));
+    leaves.arrange_by_key(|node| depth(dag, *node));
     let mut runs: Vec<Vec<Node>> = Vec::new();
     for node in leaves {
         match runs.last_mut() {

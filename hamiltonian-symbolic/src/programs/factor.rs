@@ -8,6 +8,7 @@ use crate::algebra::factors::{self, Factors};
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::index::Domain;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// The number of uses of each node, by parents or as a root.
 pub(crate) fn count_uses(dag: &Dag, roots: &[Node], order: &[Node]) -> Numbers {
@@ -124,7 +125,7 @@ fn gathered(
             Kind::Product(c, inner) if c.is_one() => all.extend(inner),
             _ => all.push((body, 1)),
         }
-        all.sort_unstable();
+        all.arrange();
         if all.windows(2).any(|pair| pair[0].0 == pair[1].0) {
             return None;
         }

@@ -7,6 +7,7 @@
 
 use crate::dag::Map;
 use crate::program::{Instruction, Program, Step, Target, Value};
+use crate::sort::Arrange;
 
 impl Program {
     /// Orders the steps between loops.
@@ -93,7 +94,7 @@ impl Graph {
 
     /// Adds a unit of one step.
     fn add(&mut self, step: usize, mut reads: Vec<usize>) {
-        reads.sort_unstable();
+        reads.arrange();
         reads.dedup();
         for &value in &reads {
             self.values[value].readers.push(self.units.len());

@@ -17,6 +17,7 @@ use crate::programs::share::share;
 use crate::programs::stencil::at_sites;
 use crate::rational::Rational;
 use crate::schedule::{Request, Store, prepared, schedule};
+use crate::sort::Arrange;
 
 /// The most operations a function may need after simplification.
 pub const CAP: usize = 1 << 15;
@@ -447,7 +448,7 @@ fn overwrite(
         _ => None,
     };
     let mut elements: Vec<i64> = own.iter().filter_map(element).collect();
-    elements.sort_unstable();
+    elements.arrange();
     elements.dedup();
     if elements.len() == own.len() {
         own.iter().for_each(|at| stores[*at].add = false);

@@ -13,6 +13,7 @@ use crate::index::{Domain, Index};
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 use crate::programs::factor::count_uses;
+use crate::sort::Arrange;
 use instruct::fused_terms;
 
 /// Coordinates and momenta.
@@ -78,7 +79,7 @@ pub fn prepared(dag: &Dag, requests: &[Request]) -> Vec<Node> {
         wanted.append(&mut direct);
         wanted.append(&mut frontier(dag, &coefficients, Stage::Coefficient).1);
     }
-    wanted.sort_unstable();
+    wanted.arrange();
     wanted.dedup();
     wanted
 }
@@ -401,9 +402,8 @@ impl Placer<'_> {
                 fused.insert(store.value, ());
             }
         }
-        for node in wanted {
-            fused.remove(node);
-        }
+        let wanted: Map<Node, ()> = wanted.iter().map(|node| (*node, ())).collect();
+        fused.retain(|node| !wanted.contains_key(node));
         fused
     }
 

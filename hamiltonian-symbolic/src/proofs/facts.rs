@@ -21,6 +21,7 @@ pub use domain::conditions;
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
 use crate::op::{At, Break, Far, Op, ValueSign};
+use crate::sort::Arrange;
 use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
 use pairs::{difference, is_pair};
 
@@ -313,7 +314,7 @@ impl Facts {
         let places: Option<Vec<(Node, Node)>> = places().collect();
         let has_pair_twice = |places: Vec<(Node, Node)>| {
             let mut sorted = places.clone();
-            sorted.sort_unstable();
+            sorted.arrange();
             sorted.dedup();
             // At the variables of loops, two terms may mean the same pair.
             let is_fixed = |n: &Node| dag.variables(*n).is_empty();

@@ -9,6 +9,7 @@ use crate::dag::{Dag, Dependence, Map, Node, Part, Sign};
 use crate::index::{Domain, Loops};
 use crate::op::Op;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use std::rc::Rc;
 
 /// The kind of an atom.
@@ -264,7 +265,7 @@ impl Algebra {
                 stack.extend(self.entry(atom).key.parts());
             }
         }
-        needed.sort_unstable();
+        needed.arrange();
         needed
     }
 

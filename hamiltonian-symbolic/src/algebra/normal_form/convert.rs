@@ -32,7 +32,7 @@ impl Algebra {
             }
             // Arguments of functions were made of angles that are now multiples of smaller ones: the order
             // in which angles are met must not decide.
-            self.converted.clear();
+            self.converted = Map::default();
         }
     }
 

@@ -8,6 +8,7 @@ use super::polynomial::{Monomial, Poly, Undecided};
 use crate::dag::{Part, Sign};
 use crate::op::{Op, Parity};
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// The most arguments of functions that are compared with each other.
 pub(super) const MOST_ARGUMENTS: usize = 64;
@@ -506,7 +507,7 @@ fn factored(value: &Rational) -> Option<Vec<(i64, i32)>> {
             factors.push((rest, sign));
         }
     }
-    factors.sort_unstable();
+    factors.arrange();
     Some(factors)
 }
 

@@ -6,6 +6,7 @@
 
 use crate::dag::Map;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use std::cmp::Ordering;
 
 /// The number of an atom in its algebra.
@@ -253,7 +254,7 @@ impl Poly {
             .iter()
             .map(|(m, k)| (m.mul(monomial), k.clone()))
             .collect();
-        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        terms.arrange_by(|a, b| a.0.cmp(&b.0));
         Poly { terms }
     }
     /// The power, n ≥ 0.
@@ -328,11 +329,11 @@ impl Poly {
                 None => groups.push((n, vec![term])),
             }
         }
-        groups.sort_unstable_by_key(|(n, _)| *n);
+        groups.arrange_by_key(|(n, _)| *n);
         groups
             .into_iter()
             .map(|(n, mut terms)| {
-                terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+                terms.arrange_by(|a, b| a.0.cmp(&b.0));
                 (n, Poly { terms })
             })
             .collect()
@@ -418,7 +419,7 @@ impl Sum {
             .into_iter()
             .filter(|(_, k)| !k.is_zero())
             .collect();
-        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        terms.arrange_by(|a, b| a.0.cmp(&b.0));
         Ok(Poly { terms })
     }
 }

@@ -94,7 +94,7 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
     }
     is_large |= model.dag.has_too_many_loops();
     for (at, rows) in model.columns(side) {
-        let own = of_array.remove(&at.conjugate()).unwrap_or_default();
+        let own = of_array.take(&at.conjugate()).unwrap_or_default();
         let found = match &rows {
             _ if is_large => vec![(rows.as_ref().map(|_| Subscript::any(model, None)), None)],
             None => {

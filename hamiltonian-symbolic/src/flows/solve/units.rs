@@ -9,6 +9,7 @@ use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::flows::space::Space;
 use crate::index::Domain;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use crate::structure::expand;
 
 /// The most digits that multiplying out may lose, as a factor.
@@ -275,6 +276,6 @@ fn loss(space: &mut Space, parts: &[Node], whole: Node) -> f64 {
         // If rounding hides the whole, the ratio has no meaning.
         losses.extend((whole.is_nonzero() && loss.is_finite()).then_some(loss));
     }
-    losses.sort_by(f64::total_cmp);
+    losses.arrange_by(f64::total_cmp);
     losses.get(losses.len() / 2).copied().unwrap_or(1.0)
 }

@@ -9,6 +9,7 @@ use super::Space;
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::op::{At, Break, Op};
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 impl Space {
     /// Returns true if the orbits of h stay on one side of every break of f: each is proven to be constant
@@ -59,7 +60,7 @@ impl Space {
         if !is_entire {
             found.append(&mut poles);
         }
-        found.sort_unstable();
+        found.arrange();
         found.dedup();
         found.retain(|(node, _)| {
             !self.set(*node).is_empty() && !separates_nothing(&self.model.dag, *node)

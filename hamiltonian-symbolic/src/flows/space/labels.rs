@@ -7,6 +7,7 @@
 //! operands, nor a number that is added to H. Pairs of one label keep their order.
 
 use crate::dag::{Array, Dag, Kind, Map, Mixer, Node, Side};
+use crate::sort::Arrange;
 use std::hash::{Hash, Hasher};
 
 /// The most rounds: two variables that differ after none of these are taken for alike.
@@ -32,7 +33,7 @@ pub(super) fn sort(dag: &Dag, roots: &[Node], pairs: &mut [(Node, Node)]) {
         colours = above;
     }
     let label = |node: &Node| colours.get(node).copied().unwrap_or_default();
-    pairs.sort_by_key(|(q, p)| (label(q), label(p)));
+    pairs.arrange_by_key(|(q, p)| (label(q), label(p)));
 }
 
 fn mixed(value: &impl Hash) -> u64 {
@@ -118,7 +119,7 @@ fn above(dag: &Dag, roots: &[Node], nodes: &[Node], below: &Map<Node, u64>) -> M
             }
         }
     }
-    for (node, colour) in &mut colours {
+    for (node, colour) in colours.iter_mut() {
         *colour = mixed(&(*colour, below[node]));
     }
     colours

@@ -11,6 +11,7 @@ use crate::flows::solve::{exponential, flow};
 use crate::flows::space::{Space, Variable, Variables};
 use crate::model::Flow;
 use crate::set::{Member, Set};
+use crate::sort::Arrange;
 
 /// The most ways to cover the coupled units. It limits the choice alone: if there is a way, the first is found.
 const COVERS: usize = 60;
@@ -138,7 +139,7 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
             found.push(pieces);
         }
     }
-    found.sort_by_key(Vec::len);
+    found.arrange_by_key(Vec::len);
     Ok(found)
 }
 
@@ -170,7 +171,7 @@ fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
         };
         let mut larger: Vec<Mask> = (1..1 << numbers.len()).map(chosen).collect();
         larger.retain(|mask| mask.len() > 1);
-        larger.sort_by_key(|mask| mask.len());
+        larger.arrange_by_key(|mask| mask.len());
         subsets.extend(larger);
     } else {
         search.limit = Some(Limit::Coupled);
@@ -279,7 +280,7 @@ fn linear_pieces(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
         _ => 2,
     };
     let units = search.units;
-    numbers.sort_by_key(|at| order(search.space.set(units[at.0].node)));
+    numbers.arrange_by_key(|at| order(search.space.set(units[at.0].node)));
     let mut colours: Vec<(Mask, Variables)> = Vec::new();
     for at in numbers {
         let set = search.space.set(units[at.0].node);

@@ -9,6 +9,7 @@ use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::flows::space::Space;
 use crate::model::Model;
 use crate::model::{EXPONENTIAL, Flow};
+use crate::sort::Arrange;
 use crate::structure::components;
 
 /// The groups of terms that have no degree of freedom in common, each as a sum.
@@ -53,7 +54,7 @@ pub(super) fn flows(dag: &mut Dag, flows: &[Flow]) -> Option<Flow> {
 pub(super) fn parts(model: &mut Model, h: Node, mut groups: Vec<Parts>) -> Parts {
     let choice = choice(&groups);
     // Groups with equally many parts keep their order.
-    groups.sort_by_key(|group| std::cmp::Reverse(group.flows.len()));
+    groups.arrange_by_key(|group| std::cmp::Reverse(group.flows.len()));
     let written = units::terms(&mut model.dag, h);
     let written: Vec<Node> = written.into_iter().map(|term| term.body).collect();
     let mut all: Vec<(Node, Flow)> = Vec::new();
@@ -97,7 +98,7 @@ fn sum(dag: &mut Dag, written: &[Node], parts: [Node; 2]) -> Node {
         }
     }
     let place = |term: &Node| written.iter().position(|other| other == term);
-    terms.sort_by_key(|term| place(term).unwrap_or(usize::MAX));
+    terms.arrange_by_key(|term| place(term).unwrap_or(usize::MAX));
     dag.add(&terms)
 }
 

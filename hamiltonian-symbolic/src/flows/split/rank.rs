@@ -10,6 +10,7 @@ use crate::dag::{Map, Node};
 use crate::flows::space::Space;
 use crate::flows::space::tape::{LANES, Lanes, Tape};
 use crate::model::EXPONENTIAL;
+use crate::sort::Arrange;
 
 /// The step, and how many there are.
 const STEP: f64 = 0.1;
@@ -213,7 +214,7 @@ fn orders(space: &mut Space, pieces: &[Block]) -> Vec<Vec<usize>> {
                 let roots: Vec<Node> = block.flow.motion.moves.iter().map(|m| m.value).collect();
                 space.model.dag.reachable(&roots).len()
             };
-            by_cost.sort_by_key(|at| cost(&pieces[*at]));
+            by_cost.arrange_by_key(|at| cost(&pieces[*at]));
             let (last, first) = (by_cost.pop(), by_cost.pop());
             let mut order: Vec<usize> = first.into_iter().collect();
             order.extend(by_cost);

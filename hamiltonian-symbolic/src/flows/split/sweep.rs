@@ -17,6 +17,7 @@ use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
 use crate::ranges::Ranges;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// The terms over one chain of loops that name the same elements.
 struct Site {
@@ -172,7 +173,7 @@ pub(super) fn is_linear(columns: &[Column]) -> bool {
 /// The rows it names, sorted.
 fn rows(dag: &Dag, body: Node) -> Vec<Index> {
     let mut rows: Vec<Index> = elements(dag, body).into_iter().map(|e| e.2).collect();
-    rows.sort_unstable();
+    rows.arrange();
     rows.dedup();
     rows
 }

@@ -9,6 +9,7 @@ use crate::dag::{Kind, Node};
 use crate::program::{Instruction, Step, Value};
 use crate::programs::factor::is_prepared;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// Powers up to this one are multiplied out.
 const RUN: u32 = 3;
@@ -209,7 +210,7 @@ impl Placer<'_> {
     /// few operations make known comes first, so that the product waits for its last factor only.
     fn early_first(&self, factors: &[(Node, i32)]) -> Vec<(Node, i32)> {
         let mut ordered = factors.to_vec();
-        ordered.sort_by_key(|(node, _)| {
+        ordered.arrange_by_key(|(node, _)| {
             let depth = self.dag.depth(self.dag.home(*node));
             let height = self.dag.height(*node);
             (

@@ -189,7 +189,7 @@ impl Build<'_> {
     fn sum(&mut self, dag: &mut Dag, node: Node) -> Node {
         let (c, terms) = gathered(dag, self.pool.now, self.plan.sums[&node].clone());
         let mut list: Vec<(Rational, Node)> = Vec::with_capacity(terms.len());
-        let mut paired = self.paired.remove(&node).unwrap_or_default();
+        let mut paired = self.paired.take(&node).unwrap_or_default();
         for (k, term) in terms {
             if let Some(&at) = self.plan.absorbed_at.get(&(node, term)) {
                 let image = self.list(dag, at);

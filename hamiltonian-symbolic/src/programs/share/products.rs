@@ -9,6 +9,7 @@ use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::op::Op;
 use crate::programs::factor::is_known;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -158,7 +159,7 @@ pub(super) fn known_root(dag: &Dag, uses: &Numbers, product: Node) -> Option<(No
             _ => return None,
         };
         let mut parts: Vec<_> = factors.iter().map(|(f, n)| (*f, n / d)).collect();
-        parts.sort_unstable();
+        parts.arrange();
         let root = dag.known(&Kind::Product(root, parts))?;
         (root < product && uses.has(root)).then_some((root, d))
     })
@@ -312,7 +313,7 @@ fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Signed
         if outer.iter().map(|(.., n)| n).sum::<i32>() < 2 {
             continue;
         }
-        outer.sort_by_key(|(depth, ..)| *depth);
+        outer.arrange_by_key(|(depth, ..)| *depth);
         let mut product: Option<Item> = None;
         for (_, item, n) in outer {
             for _ in 0..n {
@@ -398,7 +399,7 @@ impl Counts {
         self.touched.push(couple);
     }
     fn offer(&mut self, heap: &mut BinaryHeap<(i64, Reverse<Couple>)>) {
-        self.touched.sort_unstable();
+        self.touched.arrange();
         self.touched.dedup();
         for couple in self.touched.drain(..) {
             let count = self.counts[&couple];

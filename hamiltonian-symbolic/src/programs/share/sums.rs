@@ -7,6 +7,7 @@ use super::products::LONGEST;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::programs::factor::is_known;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// `constant + Σ k·node`.
 pub(super) type Terms = (Rational, Vec<(Rational, Node)>);
@@ -23,7 +24,7 @@ pub(super) fn known_start(dag: &Dag, uses: &Numbers, sum: Node) -> Option<(usize
     let least = if c.is_zero() { 2 } else { 1 };
     (least..list.len()).rev().find_map(|length| {
         let mut part = list[..length].to_vec();
-        part.sort_unstable_by_key(|(_, n)| *n);
+        part.arrange_by_key(|(_, n)| *n);
         let known = dag.known(&Kind::Sum(c.clone(), part))?;
         let again = list[length..].iter().any(|(_, n)| *n == known);
         (known < sum && uses.has(known) && !again).then_some((length, known))
@@ -43,7 +44,7 @@ pub(super) fn known_multiple(
     let (c, factors) = match dag.kind(*term) {
         Kind::Product(c, factors) => {
             let mut factors = factors.clone();
-            factors.sort_unstable();
+            factors.arrange();
             (c.mul(k), factors)
         }
         _ => (k.clone(), vec![(*term, 1)]),
@@ -154,7 +155,7 @@ pub(super) fn share_terms(
         }
     }
     keys.retain(|key| holders[key].len() > 1);
-    keys.sort_by_key(|key| std::cmp::Reverse(holders[key].len()));
+    keys.arrange_by_key(|key| std::cmp::Reverse(holders[key].len()));
     let mut pairs: Vec<TermPair> = Vec::new();
     let mut result: TermPairs = Map::default();
     for key in keys {

@@ -12,6 +12,7 @@ use crate::legendre::Legendre;
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// Determinants of at most this many velocities are expanded.
 const MOST: usize = 6;
@@ -125,7 +126,7 @@ fn determinant(dag: &mut Dag, matrix: &[Vec<Node>]) -> Node {
     for row in matrix.iter().rev() {
         let mut next: Map<u32, Vec<(Rational, Node)>> = Map::default();
         let mut sets: Vec<u32> = minors.keys().copied().collect();
-        sets.sort_unstable();
+        sets.arrange();
         for set in sets {
             for column in (0..size).filter(|column| set >> column & 1 == 0) {
                 if dag.is_zero(row[column]) {
@@ -145,7 +146,7 @@ fn determinant(dag: &mut Dag, matrix: &[Vec<Node>]) -> Node {
             }
         }
         let mut sets: Vec<u32> = next.keys().copied().collect();
-        sets.sort_unstable();
+        sets.arrange();
         minors = Map::default();
         for set in sets {
             let sum = dag.linear(&Rational::ZERO, &next[&set]);

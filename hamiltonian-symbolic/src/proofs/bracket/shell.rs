@@ -11,6 +11,7 @@ use crate::dag::{Array, Column, Dag, Kind, Node, Side, Sign};
 use crate::loops::{Point, Sample, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
+use crate::sort::Arrange;
 
 /// Returns true if the residual vanishes where `shell` does.
 pub(super) fn vanishes(
@@ -47,7 +48,7 @@ pub(super) fn vanishes(
             momenta.push((*degree, atom));
         }
     }
-    momenta.sort_unstable();
+    momenta.arrange();
     let Some((_, atom)) = momenta.first().copied() else {
         return Ok(false);
     };

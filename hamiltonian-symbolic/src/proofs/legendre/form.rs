@@ -10,6 +10,7 @@ use crate::index::{Affine, Domain};
 use crate::model::Model;
 use crate::normal_form::{Proof, is_zero};
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// M and w.
 #[derive(Debug)]
@@ -149,7 +150,7 @@ impl Form {
             .iter()
             .map(|&i| (model.dag.stage(self.matrix[i][i]), coupled(i), i))
             .collect();
-        order.sort_unstable();
+        order.arrange();
         let usable = |entry: Node| !self.vanishes(model, entry);
         if let Some((_, _, i)) = order.iter().find(|(_, _, i)| usable(self.matrix[*i][*i])) {
             return Some(Pivot::One(*i));

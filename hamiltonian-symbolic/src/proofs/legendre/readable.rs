@@ -15,6 +15,7 @@ use crate::print::{
     self, Equations, Notation, hamilton_equations, is_taken, latex, scalar_equation, text,
 };
 use crate::rational::Rational;
+use crate::sort::Arrange;
 
 /// The form of the equations of motion.
 #[derive(Debug)]
@@ -389,10 +390,10 @@ fn coupled(dag: &Dag, matrix: &[Vec<Node>]) -> Vec<Vec<usize>> {
             }
             !meets
         });
-        own.sort_unstable();
+        own.arrange();
         parts.push(own);
     }
-    parts.sort_unstable();
+    parts.arrange();
     parts
 }
 

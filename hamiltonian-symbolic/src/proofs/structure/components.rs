@@ -25,7 +25,7 @@ pub(crate) fn components(dag: &Dag, terms: &[Node]) -> Vec<Vec<Node>> {
             known.insert(node, class);
         }
     }
-    for ((column, _), class) in &pairs {
+    for ((column, _), class) in pairs.iter() {
         if let Some(all) = pairs.get(&(*column, None)) {
             classes.join(*class, *all);
         }

@@ -7,6 +7,7 @@ use crate::algebra::factors::{Factors, product};
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::normal_form;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use std::rc::Rc;
 
 /// The most terms an expansion may have.
@@ -182,7 +183,7 @@ pub(crate) struct Collected {
 impl Collected {
     pub(crate) fn add(&mut self, term: Term) {
         let mut key = term.factors.clone();
-        key.sort_unstable();
+        key.arrange();
         match self.place.get(&key) {
             Some(&at) => {
                 self.terms[at].coefficient = self.terms[at].coefficient.add(&term.coefficient)

@@ -15,6 +15,7 @@ use crate::diff;
 use crate::index::{Affine, Index};
 use crate::loops;
 use crate::model::{Model, REPLACING, VectorEntry};
+use crate::sort::Arrange;
 
 /// A system in new coordinates, with the maps.
 #[derive(Clone, Debug)]
@@ -210,7 +211,7 @@ impl Transformed {
         for entry in &mut found {
             entry.value = reduce::reduce(dag, entry.value, &self.rules);
         }
-        found.sort_by_key(|e| (e.at, e.row.clone()));
+        found.arrange_by_key(|e| (e.at, e.row.clone()));
         unchanged.extend(found);
         self.model.force = unchanged;
     }

@@ -8,6 +8,7 @@ use super::charts::{Chart, Component, PhaseNodes, Replaced};
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::Index;
 use crate::model::{Group, Model, Shape};
+use crate::sort::Arrange;
 
 /// A group, or one row of it, among the old variables, and where it stands among the new ones.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -167,7 +168,7 @@ fn members(chart: &Chart) -> Vec<u16> {
         Replaced::Bodies(bodies) => return vec![bodies.group],
     };
     let mut groups: Vec<u16> = components.iter().map(|c| c.group).collect();
-    groups.sort_unstable();
+    groups.arrange();
     groups.dedup();
     groups
 }

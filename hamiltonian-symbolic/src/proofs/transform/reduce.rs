@@ -10,6 +10,7 @@ use crate::algebra::factors::{Factors, product};
 use crate::dag::{Dag, Kind, Map, Node, Sign, Stage, work};
 use crate::op::Op;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use crate::structure::{Collected, Term, expand_within};
 
 /// The most terms of all sums together that are multiplied out: of more operations a system is refused.
@@ -250,7 +251,7 @@ fn connected(dag: &Dag, terms: &[Vec<Term>], rules: &Rules) -> Vec<Vec<usize>> {
         let mut monomials: Map<Factors, ()> = Map::default();
         for term in collected.terms() {
             let (_, mut factors) = parted(dag, &term);
-            factors.sort_unstable();
+            factors.arrange();
             monomials.insert(factors, ());
         }
         let mut part = vec![at];
@@ -258,15 +259,15 @@ fn connected(dag: &Dag, terms: &[Vec<Term>], rules: &Rules) -> Vec<Vec<usize>> {
             let meets = monomials.keys().any(|factors| known.contains_key(factors));
             if meets {
                 part.append(others);
-                monomials.extend(known.drain());
+                monomials.extend(std::mem::take(known));
             }
             !meets
         });
-        part.sort_unstable();
+        part.arrange();
         parts.push((part, monomials));
     }
     let mut parts: Vec<Vec<usize>> = parts.into_iter().map(|(part, _)| part).collect();
-    parts.sort_unstable();
+    parts.arrange();
     parts
 }
 
@@ -339,7 +340,7 @@ fn grouped(dag: &mut Dag, terms: &[Term]) -> Node {
     for term in terms {
         let (parameters, factors) = parted(dag, term);
         let mut key = factors.clone();
-        key.sort_unstable();
+        key.arrange();
         let at = *place.entry(key).or_insert(groups.len());
         if at == groups.len() {
             groups.push((factors, Vec::new()));

@@ -20,7 +20,8 @@ pub use table::TableError;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
-use words::{Known, Lane, Number, Numbers, Part, Remedy, Within};
+pub(crate) use words::Known;
+use words::{Lane, Number, Numbers, Part, Remedy, Within};
 
 /// An error of a run. Memory is allocated only when one happened.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -179,7 +180,7 @@ pub enum Error {
         system: &'static str,
     },
     /// A name that the system declares no monitor, invariant or event by.
-    #[error("`{system}` declares no monitor, invariant or event `{name}`{}", Known(.known))]
+    #[error("`{system}` declares no monitor, invariant or event `{name}`{}", Known("it declares", .known))]
     Unknown {
         /// The name asked for.
         name: String,

@@ -10,7 +10,7 @@ mod event;
 pub use event::Event;
 
 use crate::checkpoint::Memory;
-use crate::error::Error;
+use crate::error::{Error, Known};
 use crate::observe::{FollowVisitor, Observer, Section, View, one_trajectory};
 use crate::root::{Sample, dip, root, side};
 use crate::state::State;
@@ -123,16 +123,12 @@ impl<T: Real> History<T> {
 
 /// Returns the reason and remedy for an event whose name is unknown, with the names that are known.
 fn unknown(name: &str, known: &[Observable]) -> String {
-    let mut text = String::from("the system declares none of this name\nhelp: ");
-    let mut lead = "it declares";
-    for one in known {
-        text.push_str(&format!("{lead} `{}`", one.name));
-        lead = ",";
+    let known: Vec<&str> = known.iter().map(|one| one.name).collect();
+    let text = "the system declares none of this name";
+    match known.is_empty() {
+        true => format!("{text}\nhelp: declare it, `event {name} = …`"),
+        false => format!("{text}{}", Known("it declares", &known)),
     }
-    if known.is_empty() {
-        text.push_str(&format!("declare it, `event {name} = …`"));
-    }
-    text
 }
 
 impl<V: Vector> Events<V> {

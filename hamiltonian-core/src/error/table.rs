@@ -1,6 +1,7 @@
 //! Errors of tables.
 
 use super::nearest::nearest;
+use super::words::Known;
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -10,7 +11,7 @@ use alloc::vec::Vec;
 #[non_exhaustive]
 pub enum TableError {
     /// There is no column of that name.
-    #[error("there is no column `{name}`{}", Known(.nearest, .known))]
+    #[error("there is no column `{name}`{}", Remedy(.nearest, .known))]
     Unknown {
         /// The name given.
         name: String,
@@ -56,26 +57,15 @@ impl TableError {
 }
 
 /// The nearest name, or all names.
-struct Known<'a>(&'a Option<String>, &'a [String]);
+struct Remedy<'a>(&'a Option<String>, &'a [String]);
 
-impl core::fmt::Display for Known<'_> {
+impl core::fmt::Display for Remedy<'_> {
     #[inline]
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        /// More names than this are not listed.
-        const MOST: usize = 24;
-        if let Some(nearest) = self.0 {
-            return write!(f, "\nhelp: did you mean `{nearest}`?");
-        }
-        let Some((first, others)) = self.1.split_first() else {
-            return write!(f, "\nhelp: the table has no columns");
-        };
-        write!(f, "\nhelp: the columns are `{first}`")?;
-        for name in others.iter().take(MOST - 1) {
-            write!(f, ", `{name}`")?;
-        }
-        match self.1.len() {
-            count if count > MOST => write!(f, " and {} more", count - MOST),
-            _ => Ok(()),
+        match self {
+            Remedy(Some(nearest), _) => write!(f, "\nhelp: did you mean `{nearest}`?"),
+            Remedy(None, []) => write!(f, "\nhelp: the table has no columns"),
+            Remedy(None, known) => Known("the columns are", known).fmt(f),
         }
     }
 }

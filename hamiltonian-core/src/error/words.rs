@@ -94,16 +94,23 @@ impl Display for Lane {
     }
 }
 
-/// The names that a system declares, where one was asked for that it does not.
-pub(super) struct Known<'a>(pub(super) &'a [&'static str]);
+/// The names that are known, where another was asked for: what they are, and the names.
+pub(crate) struct Known<'a, S>(pub(crate) &'static str, pub(crate) &'a [S]);
 
-impl Display for Known<'_> {
+impl<S: AsRef<str>> Display for Known<'_, S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        let mut lead = "\nhelp: it declares";
-        for name in self.0 {
-            write!(f, "{lead} `{name}`")?;
-            lead = ",";
+        /// More names than this are not listed.
+        const MOST: usize = 24;
+        let Known(what, names) = self;
+        for (at, name) in names.iter().take(MOST).enumerate() {
+            match at {
+                0 => write!(f, "\nhelp: {what} `{}`", name.as_ref())?,
+                _ => write!(f, ", `{}`", name.as_ref())?,
+            }
         }
-        Ok(())
+        match names.len() {
+            count if count > MOST => write!(f, " and {} more", count - MOST),
+            _ => Ok(()),
+        }
     }
 }

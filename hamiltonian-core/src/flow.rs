@@ -93,6 +93,8 @@ pub trait Pieces<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     type Outer: Flow<Self::Point>;
     /// The flows of all others, down and up.
     type Inner: Flow<Self::Point>;
+    /// The pieces as text, in the same order.
+    const NAMES: &'static [&'static str];
     /// The flow of the first piece.
     fn outer(&self, prepared: &P, c: T) -> Self::Outer;
     /// The flows of the pieces 2…k for `down` and k…2 for `up`.
@@ -186,6 +188,7 @@ impl<T: Real, P, A: Piece<T, P>> Pieces<T, P> for (A,) {
     type Point = A::Point;
     type Outer = A::Flow;
     type Inner = Nothing;
+    const NAMES: &'static [&'static str] = &[A::Flow::NAME];
     #[inline(always)]
     fn outer(&self, prepared: &P, c: T) -> A::Flow {
         self.0.flow(prepared, c)
@@ -208,6 +211,7 @@ macro_rules! pieces {
             type Point = $first::Point;
             type Outer = $first::Flow;
             type Inner = Turn<$second::Flow>;
+            const NAMES: &'static [&'static str] = &[$first::Flow::NAME, $second::Flow::NAME];
             #[inline(always)]
             fn outer(&self, prepared: &P, c: T) -> Self::Outer {
                 self.0.flow(prepared, c)
@@ -230,6 +234,8 @@ macro_rules! pieces {
             type Outer = $first::Flow;
             type Inner =
                 Sandwich<$second::Flow, <($second, $($rest),+) as Pieces<T, P>>::Inner>;
+            const NAMES: &'static [&'static str] =
+                &[$first::Flow::NAME, $second::Flow::NAME, $($rest::Flow::NAME),+];
             #[inline(always)]
             fn outer(&self, prepared: &P, c: T) -> Self::Outer {
                 self.0.flow(prepared, c)

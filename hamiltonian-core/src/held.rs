@@ -23,11 +23,10 @@ pub struct Held<T: Real, const N: usize, const M: usize = 0, D = ()> {
     pub data: D,
 }
 
-impl<T: Real, const N: usize> Held<T, N> {
-    /// Numbers alone.
+impl<T: Real, const N: usize, const M: usize, D> Held<T, N, M, D> {
+    /// Numbers, conditions and data.
     #[inline(always)]
-    pub fn of(v: [T; N]) -> Self {
-        let (m, data) = ([], ());
+    pub fn new(v: [T; N], m: [T::Mask; M], data: D) -> Self {
         Held { v, m, data }
     }
 }

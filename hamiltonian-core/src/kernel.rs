@@ -20,7 +20,7 @@ pub trait Shift<K, T: Real>: Dynamics<T> {
     /// The piece in the author's notation.
     const NAME: &'static str;
     /// True if momenta move, false if coordinates do.
-    const KICKS: bool;
+    const KICKS: bool = true;
     /// See [`Flow::MERGES`].
     const MERGES: bool = true;
     /// The values that depend on the prepared system and the coefficient alone.

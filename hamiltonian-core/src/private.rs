@@ -276,6 +276,7 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
     type Point = X;
     type Outer = Self;
     type Inner = Self;
+    const NAMES: &'static [&'static str] = &[];
     fn outer(&self, _: &P, _: T) -> Self {
         *self
     }
@@ -290,13 +291,13 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __prepared {
-    ([$visibility:vis struct $name:ident] [$($generics:tt)*] $held:ty; $prepared:ty, $over:ty) => {
+    ([$visibility:vis struct $name:ident] [$($generics:tt)*] [$($arguments:tt)*] $held:ty) => {
         #[doc(hidden)]
         #[derive($crate::private::Clone, $crate::private::fmt::Debug)]
         $visibility struct $name $($generics)* ($held);
         #[automatically_derived]
-        impl $($generics)* $crate::private::Gather<T> for $prepared {
-            type Over<__U: $crate::private::Real> = $over;
+        impl $($generics)* $crate::private::Gather<T> for $name<$($arguments)* T> {
+            type Over<__U: $crate::private::Real> = $name<$($arguments)* __U>;
             #[inline(always)]
             fn gather<__P: $crate::private::Pack>(_of: &[&Self]) -> Self::Over<T::Over<__P>> {
                 $name($crate::private::gathered::<T, __P, _, _>(_of, |_one| &_one.0))
@@ -359,10 +360,11 @@ macro_rules! __timeless {
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __halves {
-    ($impl:tt $system:ty: $kick:ty, $drift:ty, $names:tt; $($structure:ident)*) => {
-        $($crate::__halves! { @$structure $impl $system, $kick, $drift, $names })*
+    ($impl:tt $system:ty, $prepared:ty, $kick:ty: $($structure:ident)*) => {
+        $($crate::__halves! { @$structure $impl $system, $crate::private::Kernel<$prepared, $kick>,
+        $crate::private::Kernel<$prepared, $crate::private::Shifts<$crate::private::Drift>> })*
     };
-    (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty, $names:tt) => {
+    (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Separable<T> for $system {
             type Kick = $kick;
             const KICK: $kick = $crate::private::Kernel::PIECE;
@@ -370,14 +372,13 @@ macro_rules! __halves {
             const DRIFT: $drift = $crate::private::Kernel::PIECE;
         }
     };
-    (@Split [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty, $names:tt) => {
+    (@Split [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Split<T> for $system {
             type Pieces = ($kick, $drift);
             const PIECES: Self::Pieces = ($crate::private::Kernel::PIECE, $crate::private::Kernel::PIECE);
-            const NAMES: &'static [&'static $crate::private::str] = &$names;
         }
     };
-    (@Nystrom [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty, $names:tt) => {
+    (@Nystrom [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Nystrom<T> for $system {
             type Kick = $kick;
             const KICK: $kick = $crate::private::Kernel::PIECE;
@@ -387,10 +388,11 @@ macro_rules! __halves {
     };
 }
 
-/// The formula of H as `Display`, and markers that hold without more to be said.
+/// The formula of H as `Display`, markers that hold without more to be said, and in item form the texts of the type.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __known {
+    (@texts) => {};
     (@ [$($impl:tt)*] $system:ty: $marker:ident) => {
         $($impl)* $crate::private::$marker for $system {}
     };
@@ -402,8 +404,21 @@ macro_rules! __known {
             }
         }
     };
-    ($impl:tt $system:ty: $formula:literal; $($marker:ident)*) => {
+    // Over `f64`: nothing in the paths of these constants would tell the scalar.
+    (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal $($names:ident)?) => {
+        $($impl)* $system {
+            $(/// The pieces of H with exact flows, the outermost first.
+            $visibility const $names: &'static [&'static $crate::private::str] =
+                <Self as $crate::private::Split<$crate::private::f64>>::NAMES;)?
+            /// H in LaTeX.
+            $visibility const LATEX: &'static $crate::private::str = $latex;
+            /// Hamilton's equations in LaTeX, one a line.
+            $visibility const LATEX_EQUATIONS: &'static $crate::private::str = $equations;
+        }
+    };
+    ($impl:tt $system:ty: $formula:literal; $($marker:ident)*; $($texts:tt)*) => {
         $crate::__known! { @ $impl $system, $formula }
         $($crate::__known! { @ $impl $system: $marker })*
+        $crate::__known! { @texts $($texts)* }
     };
 }

@@ -393,7 +393,7 @@ pub trait Split<T: Real>: System<T> {
     /// The pieces.
     const PIECES: Self::Pieces;
     /// The pieces as text, in the same order.
-    const NAMES: &'static [&'static str];
+    const NAMES: &'static [&'static str] = <Self::Pieces as Pieces<T, Self::Prepared>>::NAMES;
 }
 
 /// H = T(p, t) + V(q, t), proven at compile time.

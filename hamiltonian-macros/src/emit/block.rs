@@ -47,14 +47,14 @@ pub fn operand(context: Context, value: Value) -> String {
 }
 
 /// Writes steps; `arithmetic` is the expression of how their loops are computed. Values of `inlined` stand where
-/// they are used.
+/// they are used. Returns them with those of the steps.
 pub fn write(
     out: &mut String,
     context: Context,
     arithmetic: &'static str,
     steps: &[Step],
     inlined: Inlined,
-) {
+) -> Inlined {
     let mut writer = Writer {
         inlined,
         context,
@@ -71,6 +71,7 @@ pub fn write(
         is_nest: false,
     };
     writer.steps(steps);
+    writer.inlined
 }
 
 pub(super) struct Writer<'a> {

@@ -5,7 +5,6 @@
 //! prepared values. Invariant: every method a trait asks for is there; one whose program is
 //! missing is a compile error where it is first used.
 
-use super::block::operand;
 use super::construct::{as_slice, set_by_new};
 use super::context::Context;
 use super::function::{Bodies, Body};
@@ -125,9 +124,9 @@ impl<'a> Emission<'a> {
             results: &results,
             arrays: &read,
         };
-        self.bodies.write(&mut self.out, body);
+        let results = self.bodies.write(&mut self.out, body);
         let default = "__h::Default::default()";
-        let fill = self.prepared.fill(context, default, |array| {
+        let fill = self.prepared.fill(context, &results, default, |array| {
             let place = match array {
                 Slice::Read(Array::Held(number)) => format!("_made.{number}"),
                 _ => format!("_b{}", array.name().trim_start_matches("_a")),
@@ -245,12 +244,8 @@ impl<'a> Emission<'a> {
         let result = if returns { " -> T" } else { "" };
         let body = match self.context.program.function(purpose) {
             Some(function) => {
-                let text = self.evaluation(name, None, &arguments, function);
-                let results = match returns {
-                    true => results(self.context, &function.results),
-                    false => String::new(),
-                };
-                with_self(&(text + &results))
+                let (text, results) = self.evaluation(name, None, &arguments, function);
+                with_self(&(text + if returns { &results } else { "" }))
             }
             None => derived::body(purpose, self.context.definition.third),
         };
@@ -261,14 +256,14 @@ impl<'a> Emission<'a> {
         );
     }
 
-    /// The body of a function's evaluation, as a method of a holder or of the prepared system.
+    /// The body of a function's evaluation, as a method of a holder or of the prepared system, and its results.
     pub(super) fn evaluation(
         &mut self,
         name: &str,
         holder: Option<&Holder>,
         arguments: &[(&'static str, String)],
         function: &Function,
-    ) -> String {
+    ) -> (String, String) {
         let mut text = String::new();
         let body = Body {
             name,
@@ -279,8 +274,8 @@ impl<'a> Emission<'a> {
             results: &function.results,
             arrays: &[],
         };
-        self.bodies.write(&mut text, body);
-        text
+        let results = self.bodies.write(&mut text, body).join(", ");
+        (text, results)
     }
 
     /// The function of a purpose with the holder of the values and arrays that it reads.
@@ -308,10 +303,10 @@ impl<'a> Emission<'a> {
             results: &results,
             arrays: &[],
         };
-        self.bodies.write(&mut text, body);
+        let results = self.bodies.write(&mut text, body);
         let (context, prepared) = (self.context, &self.prepared);
         let clone = |array| format!("{}.clone()", prepared.array(context, array));
-        text + &holder.fill(context, "_self.0.data.0", clone)
+        text + &holder.fill(context, &results, "_self.0.data.0", clone)
     }
 
     /// H, the force and the pieces as text, by which a saved run knows its system.
@@ -336,13 +331,12 @@ impl<'a> Emission<'a> {
     /// The method that writes the values of the parameters.
     fn parameters(&self) -> String {
         let context = self.context;
-        let mut lines = String::new();
+        let mut lines = Vec::new();
         for size in context.run_time_sizes() {
             let name = &context.definition.checked.sizes[size].name;
-            let _ = writeln!(
-                lines,
-                "__h::core::writeln!(_out, \"{name} = {{}}\", *self.{name})?;"
-            );
+            lines.push(format!(
+                "__h::core::writeln!(_out, \"{name} = {{}}\", *self.{name})"
+            ));
         }
         for (at, parameter) in context.model.parameters.iter().enumerate() {
             let (at, name) = (at as u16, &parameter.name);
@@ -356,23 +350,21 @@ impl<'a> Emission<'a> {
                 _ => (format!("let _b = {value};\n"), "_b"),
             };
             let whole = as_slice(&parameter.shape, value);
-            let _ = writeln!(
-                lines,
-                "{array}__h::describe_parameter(_out, \"{name}\", {whole})?;"
-            );
+            lines.push(format!(
+                "{array}__h::describe_parameter(_out, \"{name}\", {whole})"
+            ));
         }
         for (at, (ty, arity)) in context.generics.functions.iter().enumerate() {
             let name = &context.definition.checked.functions[at].name;
-            let _ = writeln!(
-                lines,
+            lines.push(format!(
                 "__h::core::writeln!(_out, \"{name} = function {{:016x}}\", \
-                 <{ty} as __h::Function<{arity}>>::fingerprint(&self.{name}))?;"
-            );
+                 <{ty} as __h::Function<{arity}>>::fingerprint(&self.{name}))"
+            ));
         }
         if lines.is_empty() {
-            return lines;
+            return String::new();
         }
-        let body = with_self(&(lines + "__h::Result::Ok(())"));
+        let body = with_self(&lines.join("?;\n"));
         format!(
             "fn describe_parameters(&self, _out: &mut dyn __h::Write) -> __h::fmt::Result {{\n{body}\n}}\n"
         )
@@ -397,8 +389,8 @@ impl<'a> Emission<'a> {
             };
             let arguments = self.arguments(&["_q", "_p"]);
             let name = format!("o{at}");
-            let text = self.evaluation(&name, None, &arguments, function);
-            let body = with_self(&format!("{text}[{}]", results(context, &function.results)));
+            let (text, results) = self.evaluation(&name, None, &arguments, function);
+            let body = with_self(&format!("{text}[{results}]"));
             line!(
                 self,
                 "#[inline(always)]\nfn {name}(&self, {}) -> [T; {}] {{\n{body}\n}}",
@@ -424,7 +416,7 @@ impl<'a> Emission<'a> {
         let ty = context.generics.system_type_over("T");
         let mut arguments = self.arguments(&["_q", "_p"]);
         arguments.push(("_d", format!("&mut {ty}")));
-        let text = self.evaluation("parameters", None, &arguments, function);
+        let (text, _) = self.evaluation("parameters", None, &arguments, function);
         let (mut sizes, mut fields) = (String::new(), String::new());
         Receiver::Holder(&self.prepared).bind_sizes(&mut sizes, context);
         for size in context.run_time_sizes() {
@@ -480,12 +472,6 @@ pub(super) fn with_self(body: &str) -> String {
 pub(super) fn declared(arguments: &[(&'static str, String)]) -> String {
     let arguments = arguments.iter().map(|(name, ty)| format!("{name}: {ty}"));
     arguments.collect::<Vec<_>>().join(", ")
-}
-
-/// The operands of a list of results.
-fn results(context: Context, results: &[Value]) -> String {
-    let texts = results.iter().map(|value| operand(context, *value));
-    texts.collect::<Vec<_>>().join(", ")
 }
 
 /// The entries of `System::GROUPS`.

@@ -27,7 +27,7 @@ pub struct Body<'a> {
     pub steps: &'a [Step],
     /// Outputs that are set to 0 first.
     pub cleared: &'a [Target],
-    /// Values it ends with, in scope after its last step.
+    /// Values it ends with.
     pub results: &'a [Value],
     /// Parameter arrays that are bound as slices although no step reads them.
     pub arrays: &'a [Slice],

@@ -187,12 +187,14 @@ impl Generics {
 
     /// `Name<N0, F0, T>` of a holder.
     pub fn holder_type(&self, name: &str) -> String {
-        self.holder_type_over(name, "T")
+        self.type_over(name, ["T".to_owned()])
     }
 
-    /// The same over another scalar.
-    pub fn holder_type_over(&self, name: &str, scalar: &str) -> String {
-        self.type_over(name, [scalar.to_owned()])
+    /// `N0, F0, `: what stands before the scalar of a holder.
+    pub fn holder_arguments(&self) -> String {
+        let functions = self.functions.iter().map(|(name, _)| name);
+        let all = self.constants.iter().chain(functions);
+        all.map(|name| format!("{name}, ")).collect()
     }
 
     /// A field of `_self` as a value of type `T`.

@@ -4,7 +4,6 @@
 //! expressions that fill and read it. Invariant: a holder has exactly the values that its functions read,
 //! and all run-time sizes and functions.
 
-use super::block::names;
 use super::context::Context;
 use super::layout::Slice;
 use super::values::{Values, Wanted};
@@ -155,19 +154,19 @@ impl Holder {
         let (declaration, name) = (generics.holder_declaration(), &self.name);
         let _ = writeln!(
             out,
-            "__h::prepared!([{} struct {name}] [{declaration}] {}; {}, {});",
+            "__h::prepared!([{} struct {name}] [{declaration}] [{}] {});",
             generics.visibility,
+            generics.holder_arguments(),
             self.held(context),
-            self.ty(context),
-            generics.holder_type_over(name, "__U"),
         );
     }
 
-    /// The expression that makes one where all its values are in scope; `array` is the expression of
-    /// an array and `arithmetic` that of the arithmetic.
+    /// The expression that makes one of the texts of its values; `array` is the expression of an array and
+    /// `arithmetic` that of the arithmetic.
     pub fn fill(
         &self,
         context: Context,
+        values: &[String],
         arithmetic: &str,
         array: impl Fn(Slice) -> String,
     ) -> String {
@@ -178,18 +177,14 @@ impl Holder {
             Datum::Array(own) => array(own),
         };
         let data: Vec<String> = self.data(context).iter().map(value).collect();
-        let numbers = names(&self.values.numbers);
-        let masks = names(&self.values.masks);
-        let held = match data.is_empty() && masks.is_empty() {
-            true => format!("__h::Held::of([{numbers}])"),
-            false => format!(
-                "__h::Held {{ v: [{numbers}], m: [{masks}], data: {} }}",
-                pairs(&data)
-            ),
-        };
+        let (numbers, masks) = values.split_at(self.values.numbers.len());
+        let (numbers, masks, data) = (numbers.join(", "), masks.join(", "), pairs(&data));
         match self.is_prepared {
-            true => format!("{}({held})", self.name),
-            false => held,
+            true => format!(
+                "let _v = [{numbers}];\n{}(__h::Held::new(_v, [{masks}], {data}))",
+                self.name
+            ),
+            false => format!("__h::Held::new([{numbers}], [{masks}], {data})"),
         }
     }
 

@@ -31,10 +31,11 @@ pub struct Inlined {
 }
 
 impl Inlined {
-    /// Finds the values that are used exactly once, at the outermost level of `steps`. Values in `kept` are used by
-    /// name and are not inlined.
-    pub fn of(context: Context, steps: &[Step], kept: &[Value]) -> Inlined {
-        let mut uses: Map<Value, u32> = kept.iter().map(|value| (*value, 2)).collect();
+    /// Finds the values that are used exactly once, at the outermost level of `steps` or as the one result. Several
+    /// `results` are used by name and are not inlined.
+    pub fn of(context: Context, steps: &[Step], results: &[Value]) -> Inlined {
+        let by = if results.len() == 1 { 1 } else { 2 };
+        let mut uses: Map<Value, u32> = results.iter().map(|value| (*value, by)).collect();
         count(context, steps, 1, &mut uses);
         let mut once = Map::default();
         for step in steps {

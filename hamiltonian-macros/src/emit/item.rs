@@ -288,7 +288,7 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
 
 /// Constants, the getters of private fields, observables, derivatives by parameters.
 fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
-    let (text, generics) = (&context.definition.text, context.generics);
+    let generics = context.generics;
     let header = lex(&generics.header());
     let visibility = &item.visibility;
     let methods = observables::methods(context, visibility);
@@ -308,25 +308,8 @@ fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
             }
         }
     });
-    // Nothing in their paths would tell the scalar.
-    let (constants, system) = generics.over_f64();
-    let untold = lex(&format!("impl{constants} {system}"));
-    let (latex, equations) = (&text.latex, text.latex_equations.join("\n"));
-    let names = context.definition.structure.split.is_ok().then(|| {
-        quote! {
-            /// The pieces of H with exact flows, the outermost first.
-            #visibility const NAMES: &'static [&'static __h::str] = <Self as __h::Split<__h::f64>>::NAMES;
-        }
-    });
     quote! {
         #new
-        #untold {
-            #names
-            /// H in LaTeX.
-            #visibility const LATEX: &'static __h::str = #latex;
-            /// Hamilton's equations in LaTeX, one a line.
-            #visibility const LATEX_EQUATIONS: &'static __h::str = #equations;
-        }
         #header {
             #getters
             #methods

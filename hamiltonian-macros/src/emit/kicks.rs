@@ -22,16 +22,15 @@ fn kind(purpose: Purpose) -> &'static str {
 }
 
 impl Emission<'_> {
-    /// The pieces V and T, as types.
-    pub(super) fn halves(&self) -> [String; 2] {
-        let kick = match self.context.definition.structure.kick {
+    /// The kind of the piece V.
+    pub(super) fn kick_kind(&self) -> &'static str {
+        match self.context.definition.structure.kick {
             Some(Kick::Damped { rest: true }) => "__h::Damped",
             Some(Kick::Damped { rest: false }) => "__h::Moves<__h::Push>",
             Some(Kick::Coupled) => "__h::Pushed",
             Some(Kick::SubStep) => "__h::Stepped",
             Some(Kick::Plain) | None => "__h::Shifts<__h::Kick>",
-        };
-        [kick, "__h::Shifts<__h::Drift>"].map(|kind| self.kernel(kind))
+        }
     }
 
     /// The type of a piece of a kind.

@@ -18,7 +18,6 @@ pub fn of_pieces(
     name: &str,
     names: &[&str],
     pieces: Result<(&[String], &str), (&str, &Reason)>,
-    more: &str,
 ) {
     let mut items = String::new();
     for (at, name) in names.iter().enumerate() {
@@ -32,7 +31,6 @@ pub fn of_pieces(
             "type {name} = {ty};\nconst {constant}: Self::{name} = {value};"
         );
     }
-    items.push_str(more);
     let declaration = context.generics.declaration_with_scalar();
     let name = format!("{name}<T>");
     marker(out, context, &name, &declaration, pieces.err(), &items);
@@ -68,11 +66,24 @@ pub fn implementations(context: Context) -> String {
             marker(&mut out, context, "Cyclic", &declaration, None, &names);
         }
     }
+    let text = &context.definition.text;
+    let texts = context.definition.checked.item.as_ref().map(|_| {
+        let (constants, system) = generics.over_f64();
+        let names = structure.split.is_ok().then_some("NAMES");
+        format!(
+            " {} [impl{constants}] {system}: {:?}, {:?} {}",
+            generics.visibility,
+            text.latex,
+            text.latex_equations.join("\n"),
+            names.unwrap_or_default(),
+        )
+    });
     let _ = writeln!(
         out,
-        "__h::known!([impl{declaration}] {}: {:?};{known});",
+        "__h::known!([impl{declaration}] {}: {:?};{known};{});",
         generics.system_type(),
-        context.definition.text.hamiltonian,
+        text.hamiltonian,
+        texts.unwrap_or_default(),
     );
     out
 }

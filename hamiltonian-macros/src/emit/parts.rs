@@ -4,9 +4,9 @@
 //! as arrays. Invariant: rustc sees no straight line of more than about [`LONGEST`] values in one
 //! function, because its time grows faster than their number.
 
-use super::block;
+use super::block::{self, operand};
 use super::function::{Bodies, Body};
-use super::inline::Inlined;
+use super::inline::{Binding, Inlined};
 use super::scan::{Scan, scan};
 use super::values::{Values, Wanted};
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
@@ -46,12 +46,13 @@ fn weight(program: &Program, step: &Step) -> usize {
 }
 
 impl Bodies<'_> {
-    /// Writes a body after `let _self = …;`. All `results` are in scope at its end.
-    pub fn write(&mut self, out: &mut String, body: Body) {
+    /// Writes a body after `let _self = …;`. Returns the texts of its `results`.
+    pub fn write(&mut self, out: &mut String, body: Body) -> Vec<String> {
         let context = self.context;
         if cut(context.program, body.steps).len() > 1 {
             let steps = context.program.compact(body.steps);
-            return self.write_parts(out, body, &steps);
+            self.write_parts(out, body, &steps);
+            return (body.results.iter().map(|value| operand(context, *value))).collect();
         }
         let scan = scan(context, body.steps, body.results);
         let mut slices = scan.slices;
@@ -62,7 +63,12 @@ impl Bodies<'_> {
         block::clear(out, context, body.cleared);
         let inlined = Inlined::of(context, body.steps, body.results);
         let arithmetic = body.receiver.arithmetic();
-        block::write(out, context, arithmetic, body.steps, inlined);
+        let inlined = block::write(out, context, arithmetic, body.steps, inlined);
+        let text = |value: &Value| match inlined.text(*value, Binding::Whole) {
+            Some(text) => text,
+            None => operand(context, *value),
+        };
+        body.results.iter().map(text).collect()
     }
 
     /// Writes a body as calls of its parts, and the parts.

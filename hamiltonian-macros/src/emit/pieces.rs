@@ -65,7 +65,8 @@ impl Emission<'_> {
     pub(super) fn structures(&mut self) {
         let context = self.context;
         let (structure, own) = (&context.definition.structure, &context.model.pieces);
-        let (halves, names) = (self.halves(), &structure.halves);
+        let kick = self.kick_kind();
+        let halves = [kick, "__h::Shifts<__h::Drift>"].map(|kind| self.kernel(kind));
         let of_halves = [
             ("Separable", structure.separable.is_ok()),
             ("Split", structure.split.is_ok() && own.is_empty()),
@@ -77,10 +78,10 @@ impl Emission<'_> {
         if !of_halves.is_empty() {
             line!(
                 self,
-                "__h::halves!([impl{}] {}: {}, {names:?}; {});",
+                "__h::halves!([impl{}] {}, {}, {kick}: {});",
                 context.generics.declaration_with_scalar(),
                 context.generics.system_type(),
-                halves.join(", "),
+                self.prepared.ty(context),
                 of_halves.join(" "),
             );
         }
@@ -89,39 +90,25 @@ impl Emission<'_> {
             Nystrom::Halves => halves.clone(),
             Nystrom::Pieces(numbers) => numbers.map(|number| own[number].clone()),
         });
-        let mut list = context
-            .model
-            .pieces
-            .iter()
-            .map(|piece| &piece.name)
-            .collect::<Vec<_>>();
         if structure.kick.is_some() && structure.separable.is_err() {
             own.push(halves[0].clone());
-            list.push(&names[0]);
         }
         let values = format!("({})", format!("{PIECE}, ").repeat(own.len()));
         let tuple = [format!("({},)", own.join(", "))];
-        let list = format!("const NAMES: &'static [&'static __h::str] = &{list:?};\n");
-        let mut of_pieces = |name, types: &[&str], pieces, bound, more: &str| {
+        let mut of_pieces = |name, types: &[&str], pieces, bound| {
             if !of_halves.contains(&name) {
                 let pieces: Result<_, &Reason> = pieces;
                 let pieces = pieces.map_err(|reason| (bound, reason));
-                markers::of_pieces(&mut self.out, context, name, types, pieces, more);
+                markers::of_pieces(&mut self.out, context, name, types, pieces);
             }
         };
         let separable = structure.separable.as_ref().map(|()| (&halves[..], PIECE));
-        of_pieces(
-            "Separable",
-            &["Kick", "Drift"],
-            separable,
-            "__HIsSeparable",
-            "",
-        );
+        of_pieces("Separable", &["Kick", "Drift"], separable, "__HIsSeparable");
         let split = structure
             .split
             .as_ref()
             .map(|()| (&tuple[..], values.as_str()));
-        of_pieces("Split", &["Pieces"], split, "__HIsSplit", &list);
+        of_pieces("Split", &["Pieces"], split, "__HIsSplit");
         let kicked = kicked.as_ref().map(|pieces| (&pieces[..], PIECE));
         let kicked = kicked.map_err(|reason| *reason);
         of_pieces(
@@ -129,7 +116,6 @@ impl Emission<'_> {
             &["Kick", "Quadratic"],
             kicked,
             "__HIsKickedQuadratic",
-            "",
         );
     }
 
@@ -150,7 +136,9 @@ impl Emission<'_> {
         };
         if let (Some(from), None) = (self.one_way(function), rows) {
             let kicks = from == Side::Q;
-            let _ = writeln!(constants, "const KICKS: __h::bool = {kicks};");
+            if !kicks {
+                constants.push_str("const KICKS: __h::bool = false;\n");
+            }
             self.open_kernel("Shift", kind, function, &holder, &constants);
             let vectors = if kicks { ["_q", "_op"] } else { ["_p", "_oq"] };
             self.evaluated("add", &holder, &vectors, function);
@@ -196,7 +184,7 @@ impl Emission<'_> {
         function: &Function,
     ) {
         let (name, arguments) = (format!("{}_{method}", holder.name), self.arguments(vectors));
-        let text = self.evaluation(&name, Some(holder), &arguments, function);
+        let (text, _) = self.evaluation(&name, Some(holder), &arguments, function);
         let list = declared(&arguments);
         line!(
             self,

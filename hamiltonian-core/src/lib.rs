@@ -72,6 +72,7 @@ mod any;
 
 mod ensemble;
 
+mod calls;
 mod loops;
 mod pairs;
 mod slabs;

@@ -21,6 +21,10 @@ pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
 
+pub use crate::calls::{
+    Acosh, Asinh, Atan, Atanh, Call, Cbrt, Cosh, Exp, ExpM1, Ln, Ln1p, SinCos, Sinh, Tan, Tanh,
+    are_together, together,
+};
 pub use crate::error::Error;
 pub use crate::exponential::Exponential;
 use crate::flow::{Flow, Piece, Pieces};
@@ -50,8 +54,8 @@ pub use crate::system::{
 pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
 pub use crate::{
-    __computed_as_chosen as computed_as_chosen, __halves as halves, __known as known,
-    __prepared as prepared, __timeless as timeless,
+    __computed_as_chosen as computed_as_chosen, __each as each, __halves as halves,
+    __known as known, __prepared as prepared, __timeless as timeless,
 };
 
 /// A group of coordinates with its rank, part, offset and columns.
@@ -340,6 +344,19 @@ macro_rules! __computed_as_chosen {
             _kernel: __K,
         ) -> $crate::private::Option<__K::Output> {
             $crate::private::in_pack(self, _kept, _kernel)
+        }
+    };
+}
+
+/// The values of one function at several points.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __each {
+    ($scalar:ident, $name:ident $function:ident $written_out:literal: $($x:expr),*) => {
+        if const { $crate::private::are_together::<$scalar, $crate::private::$name>([$(stringify!($x)),*].len()) } {
+            $crate::private::together::<$scalar, $crate::private::$name, _, $written_out>([$($x),*])
+        } else {
+            [$($x.$function()),*]
         }
     };
 }

@@ -61,5 +61,5 @@ mod level;
 pub use double_double::{DoubleDouble, ParseDoubleDoubleError};
 pub use hamiltonian_real::{Dual, Lift, Mask, Pack, Real, itself_in_lanes};
 pub use level::{
-    Base, Cpu, Kernel, KernelAt, Level, Nf, OnEveryLevel, W, dispatch, dispatch_at_most,
+    AtHand, Base, Cpu, Kernel, KernelAt, Level, Nf, OnEveryLevel, W, dispatch, dispatch_at_most,
 };

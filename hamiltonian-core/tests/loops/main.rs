@@ -3,6 +3,7 @@
 
 #[path = "../common/allocator.rs"]
 mod allocator;
+mod calls;
 #[allow(dead_code)]
 mod common;
 #[allow(dead_code)]

@@ -166,6 +166,28 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output;
 }
 
+/// The level that each CPU of the architecture has: its packs need no way in.
+///
+/// ```
+/// use hamiltonian::lanes::{AtHand, Level, Nf, Pack};
+/// use hamiltonian::prelude::*;
+///
+/// let mut sines = [0.0; 4];
+/// Nf::<<AtHand as Level>::Four>::load(&[0.0, 0.5, 1.0, 1.5], 0.0).sin().store(&mut sines);
+/// assert_eq!(sines, [0.0, 0.5, 1.0, 1.5].map(<f64 as Real>::sin));
+/// ```
+#[cfg(target_arch = "x86_64")]
+pub type AtHand = Sse2;
+/// The level that each CPU of the architecture has: its packs need no way in.
+#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+pub type AtHand = Neon;
+/// The level that each CPU of the architecture has: its packs need no way in.
+#[cfg(not(any(
+    target_arch = "x86_64",
+    all(target_arch = "aarch64", target_feature = "neon")
+)))]
+pub type AtHand = Portable;
+
 /// Work on one level: what [`Kernel`] is on all of them, for bounds that name the level's packs.
 ///
 /// `run` and all that it calls in a loop must be `#[inline(always)]`, as for [`Kernel`].

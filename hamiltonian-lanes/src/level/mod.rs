@@ -13,7 +13,8 @@
 //! - [`Register`], the register types behind packs, and the types that implement [`Level`] are in
 //!   private modules and no signature of this crate gives one of them away: outside, a pack is
 //!   always `L::Pack`, `L::Wide` or `L::Scalar` of some `L: Level`, and [`Level`] is sealed.
-//! - `L` is chosen in one place, [`dispatch_at_most`], from the capabilities found in the CPU.
+//! - [`AtHand`] is the level that each CPU of the architecture has.
+//! - Any other `L` is chosen in one place, [`dispatch_at_most`], from the capabilities found in the CPU.
 //!   rustc compiles generic code over a level for every level, and only the chosen one runs.
 //! - Values that a kernel returns (a boxed pack, a pointer to one of its functions) stay in this
 //!   process, on this CPU.
@@ -34,5 +35,7 @@ mod register;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
 
-pub use dispatch::{Cpu, Kernel, KernelAt, Level, OnEveryLevel, dispatch, dispatch_at_most};
+pub use dispatch::{
+    AtHand, Cpu, Kernel, KernelAt, Level, OnEveryLevel, dispatch, dispatch_at_most,
+};
 pub use pack::{Base, Nf, W};

@@ -10,6 +10,7 @@ use super::index::variable;
 use super::inline::{Binding, Inlined};
 use super::layout::{Layout, Slice};
 use super::number;
+use super::together::{Calls, few, first};
 use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::model::Shape;
@@ -56,6 +57,7 @@ pub fn write(
     inlined: Inlined,
 ) -> Inlined {
     let mut writer = Writer {
+        is_written_out: few(context.program, steps),
         inlined,
         context,
         arithmetic,
@@ -98,6 +100,8 @@ pub(super) struct Writer<'a> {
     pub(super) is_inside: bool,
     /// True in a nest that core runs as a whole.
     pub(super) is_nest: bool,
+    /// True if calls that are computed together are written out.
+    is_written_out: bool,
     /// The values of the outermost level that stand where they are used.
     inlined: Inlined,
 }
@@ -108,7 +112,10 @@ impl Writer<'_> {
         while let Some(step) = steps.get(next) {
             next += 1;
             match step {
-                Step::Let(value) => self.compute(*value),
+                Step::Let(value) => match first(self.context.program, &steps[next - 1..]) {
+                    Some(calls) if !self.is_inside => next += self.each(calls) - 1,
+                    _ => self.compute(*value),
+                },
                 Step::Accumulate(to, value) => {
                     let (sum, value) = (name(*to), self.operand(*value));
                     match self.trees.iter().find(|(tree, ..)| tree == to) {
@@ -173,6 +180,25 @@ impl Writer<'_> {
     fn at(&self, value: Value, place: Binding) -> String {
         let text = self.inlined.text(value, place);
         text.unwrap_or_else(|| operand(self.context, value))
+    }
+
+    /// Writes calls of one function as one; the number of their steps.
+    fn each(&mut self, calls: Calls) -> usize {
+        let values = calls.values.iter().map(|(value, cosine)| match cosine {
+            Some(cosine) => format!("({}, {})", name(*value), name(*cosine)),
+            None => name(*value),
+        });
+        let arguments = calls.arguments.iter();
+        let arguments = arguments.map(|argument| self.at(*argument, Binding::Whole));
+        line!(
+            self,
+            "let [{}] = __h::each!(T, {} {}: {});",
+            values.collect::<Vec<_>>().join(", "),
+            calls.function,
+            self.is_written_out,
+            arguments.collect::<Vec<_>>().join(", ")
+        );
+        calls.steps
     }
 
     fn compute(&mut self, value: Value) {

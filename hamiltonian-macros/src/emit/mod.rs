@@ -49,6 +49,7 @@ mod scan;
 mod slabs;
 mod storage;
 mod stretch;
+mod together;
 mod values;
 mod vectors;
 mod whole;

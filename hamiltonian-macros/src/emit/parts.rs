@@ -8,6 +8,7 @@ use super::block::{self, operand};
 use super::function::{Bodies, Body};
 use super::inline::{Binding, Inlined};
 use super::scan::{Scan, scan};
+use super::together::neighbours;
 use super::values::{Values, Wanted};
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 use std::fmt::Write;
@@ -55,15 +56,20 @@ impl Bodies<'_> {
             return (body.results.iter().map(|value| operand(context, *value))).collect();
         }
         let scan = scan(context, body.steps, body.results);
+        // Preparation is done once, or once for each map.
+        let together = match body.name.starts_with("prepare") {
+            true => body.steps.to_vec(),
+            false => neighbours(context, body.steps),
+        };
         let mut slices = scan.slices;
         slices.extend(block::cleared(context, body.cleared));
         slices.extend(body.arrays);
         self.bind(out, body.receiver, slices);
         self.read(out, body.receiver, &scan.reads);
         block::clear(out, context, body.cleared);
-        let inlined = Inlined::of(context, body.steps, body.results);
+        let inlined = Inlined::of(context, &together, body.results);
         let arithmetic = body.receiver.arithmetic();
-        let inlined = block::write(out, context, arithmetic, body.steps, inlined);
+        let inlined = block::write(out, context, arithmetic, &together, inlined);
         let text = |value: &Value| match inlined.text(*value, Binding::Whole) {
             Some(text) => text,
             None => operand(context, *value),

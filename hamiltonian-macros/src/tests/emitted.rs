@@ -85,6 +85,35 @@ fn halves_without_common_work_make_the_gradient() {
 }
 
 #[test]
+fn independent_calls_are_neighbours() {
+    let code = |definition: &str| {
+        let code = emitted(definition).to_string();
+        code.replace(' ', "")
+    };
+    let exponentials = code("H(a, b, c; p, r, s) = exp(a - b) + exp(b*c) + exp(c) + p*r*s");
+    assert!(
+        exponentials.contains("__h::each!(T,Expexptrue:"),
+        "{exponentials}"
+    );
+    // One needs the value of the other; those of two functions are two lines.
+    let nested = code("H(a, b; p, r) = exp(exp(a)) + p + r*b");
+    assert!(!nested.contains("each!"), "{nested}");
+    let two = code("H(a, b; p, r) = exp(ln(a)*b) + exp(b) + ln(b) + p*r");
+    assert!(two.contains("__h::each!(T,Lnlntrue:"), "{two}");
+    // Many calls are not written out.
+    let terms: Vec<String> = (1..30).map(|k| format!("exp(a/{k})")).collect();
+    let many = code(&format!("H(a; p) = p + {}", terms.join(" + ")));
+    assert!(many.contains("__h::each!(T,Expexpfalse:"), "{many}");
+    // Sines of one angle each are faster alone.
+    assert!(!code("H(a, b; p, r) = sin(a)*p + sin(b)*r").contains("Sinsin"));
+    let angles = code("H(a, b; p, r) = sin(a)*cos(a)*p + sin(b)*cos(b)*r");
+    assert!(
+        angles.contains("__h::each!(T,SinCossin_costrue:"),
+        "{angles}"
+    );
+}
+
+#[test]
 fn emission_is_deterministic() {
     for definition in [PENDULUM, GRAVITY] {
         let [first, second] = [(); 2].map(|()| emitted(definition).to_string());

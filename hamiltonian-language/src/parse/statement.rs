@@ -461,6 +461,16 @@ impl Parser<'_> {
         }
         self.equals(&format!("fn {name}(…)"))?;
         let value = self.rust_path(FORM)?;
+        if ['+', '-', '*', '/', '^']
+            .into_iter()
+            .any(|sign| self.at_punct(sign))
+        {
+            return self.abort(
+                self.here(),
+                format!("`fn {name}` takes a Rust function by its path, and no formula"),
+                format!("write `let {name}(…) = …`"),
+            );
+        }
         let first = if self.at_punct(',') || self.at_open(Delimiter::Parenthesis) {
             Some(self.path_list("the partial derivatives", FORM)?)
         } else {

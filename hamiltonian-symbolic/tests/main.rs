@@ -13,6 +13,7 @@ mod jumps;
 mod legendre;
 mod limits;
 mod loops;
+mod maps;
 mod mathml;
 mod nests;
 mod normal_form;

@@ -26,6 +26,16 @@ hamiltonian! {
         + atan(a + pa) + atan(b*pb) + cosh(a/8) + cosh(b/9) + sinh(c/5)*sinh(pc/5)
 }
 
+hamiltonian! {
+    /// The functions that no system above calls, each four times.
+    pub struct Others {}
+    let four(x, y, z, w) = x + y + z + w;
+    H(a, b; pa, pb) = four(tan(a/3), tan(b/3), tan(pa/3), tan(pb/3)) + four(cbrt(3 + a), cbrt(4 + b), cbrt(5 + pa), cbrt(6 + pb))
+        + four(asinh(a), asinh(b), asinh(pa), asinh(pb)) + four(acosh(2 + a^2), acosh(3 + b^2), acosh(4 + pa^2), acosh(5 + pb^2))
+        + four(atanh(a/9), atanh(b/9), atanh(pa/9), atanh(pb/9)) + four(exp_m1(a), exp_m1(b), exp_m1(pa), exp_m1(pb))
+        + four(ln_1p(a^2), ln_1p(b^2), ln_1p(pa^2), ln_1p(pb^2))
+}
+
 /// The bits of H, its gradient and its second derivatives, along a line of points.
 macro_rules! same {
     ($system:expr, $n:literal) => {
@@ -69,6 +79,7 @@ macro_rules! same {
 fn definitions_have_the_bits_of_one_call_after_the_other() {
     same!(Ring {}, 8);
     same!(Nested::default(), 3);
+    same!(Others {}, 2);
 }
 
 /// Arguments of every kind, the rare ones among them.

@@ -4,13 +4,11 @@
 //! point. Output: [`WrongDerivative`] for the first that differs. Invariant: no step size; both
 //! sides are exact except for rounding.
 
+use core::fmt::{self, Display, Formatter};
 use hamiltonian_lanes::Dual;
 
 /// A partial derivative that differs from the supplied one.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error(
-    "the derivative by argument {argument} is {expected} there, but the function supplied gives {found}"
-)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrongDerivative {
     /// The number of the argument, from 0.
     pub argument: usize,
@@ -19,6 +17,23 @@ pub struct WrongDerivative {
     /// The value of the function supplied for it.
     pub found: f64,
 }
+
+impl Display for WrongDerivative {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            argument,
+            expected,
+            found,
+        } = self;
+        write!(
+            f,
+            "the derivative by argument {argument} is {expected} there, but the function supplied \
+             gives {found}"
+        )
+    }
+}
+
+impl core::error::Error for WrongDerivative {}
 
 /// Checks `partials[i] = ∂f/∂xᵢ` at a point: the functions that `fn f(x, y) = f, (f_x, f_y);`
 /// supplies to a definition. Second derivatives are checked as the derivatives of first ones.

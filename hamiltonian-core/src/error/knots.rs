@@ -1,11 +1,13 @@
 //! Errors of knots and of the values at them.
 
+use super::Error;
+use core::fmt::{self, Display, Formatter};
+
 /// Data that a [`Spline`](crate::function::Spline) or a [`Grid`](crate::function::Grid) cannot pass through.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum KnotError {
     /// There are too few knots.
-    #[error("{found} knots are too few: at least {needed} are needed")]
     TooFew {
         /// The least number of knots, in each direction of a grid.
         needed: usize,
@@ -13,7 +15,6 @@ pub enum KnotError {
         found: usize,
     },
     /// The numbers of knots and of values differ.
-    #[error("{knots} knots have {values} values")]
     Lengths {
         /// The number of knots.
         knots: usize,
@@ -21,7 +22,6 @@ pub enum KnotError {
         values: usize,
     },
     /// A knot, a value, a slope, an origin or a spacing is infinite or NaN.
-    #[error("{what} {at} is {found}, and must be finite")]
     NotFinite {
         /// The quantity: "knot", "value", "slope", "origin" or "spacing".
         what: &'static str,
@@ -31,7 +31,6 @@ pub enum KnotError {
         found: f64,
     },
     /// A knot is not above the knot before it.
-    #[error("knot {at} is {found}, and must be above knot {}, which is {before}", .at - 1)]
     NotIncreasing {
         /// The number of the knot, from 1 on.
         at: usize,
@@ -41,7 +40,6 @@ pub enum KnotError {
         found: f64,
     },
     /// A spacing is not positive.
-    #[error("spacing {at} is {found}, and must be positive")]
     Spacing {
         /// The direction, 0 or 1.
         at: usize,
@@ -49,15 +47,47 @@ pub enum KnotError {
         found: f64,
     },
     /// The first and the last value of a periodic function differ.
-    #[error(
-        "a periodic function begins and ends with the same value: the first is {first}, the last {last}"
-    )]
     NotPeriodic {
         /// The first value.
         first: f64,
         /// The last value.
         last: f64,
     },
+}
+
+impl Display for KnotError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFew { needed, found } => {
+                write!(f, "{found} knots are too few: at least {needed} are needed")
+            }
+            Self::Lengths { knots, values } => write!(f, "{knots} knots have {values} values"),
+            Self::NotFinite { what, at, found } => {
+                write!(f, "{what} {at} is {found}, and must be finite")
+            }
+            Self::NotIncreasing { at, before, found } => write!(
+                f,
+                "knot {at} is {found}, and must be above knot {}, which is {before}",
+                at - 1
+            ),
+            Self::Spacing { at, found } => {
+                write!(f, "spacing {at} is {found}, and must be positive")
+            }
+            Self::NotPeriodic { first, last } => write!(
+                f,
+                "a periodic function begins and ends with the same value: the first is {first}, \
+                 the last {last}"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for KnotError {}
+
+impl From<KnotError> for Error {
+    fn from(error: KnotError) -> Self {
+        Error::Knots(error)
+    }
 }
 
 impl KnotError {

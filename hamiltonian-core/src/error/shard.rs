@@ -1,14 +1,14 @@
 //! Errors of shards.
 
+use super::Error;
 use alloc::string::String;
-use core::fmt;
+use core::fmt::{self, Display, Formatter};
 
 /// A part of a sweep that does not exist, or that the environment does not determine.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ShardError {
     /// There is no part of that number.
-    #[error("shard {index}/{count}{} does not exist\nhelp: {}", From(.variable), Parts(*.count))]
     Range {
         /// The number of the part, counted from 0.
         index: u64,
@@ -18,7 +18,6 @@ pub enum ShardError {
         variable: Option<&'static str>,
     },
     /// A text or a variable does not have the required form.
-    #[error("{}`{text}`, and must be {expected}", Named(.variable))]
     Form {
         /// The variable, if the environment gives it.
         variable: Option<&'static str>,
@@ -28,7 +27,6 @@ pub enum ShardError {
         expected: &'static str,
     },
     /// A variable is set without another one that belongs to it.
-    #[error("`{variable}` is set, but `{missing}` is not\nhelp: {remedy}")]
     Missing {
         /// The variable that is set.
         variable: &'static str,
@@ -38,9 +36,6 @@ pub enum ShardError {
         remedy: &'static str,
     },
     /// Two variables contradict each other.
-    #[error(
-        "`{one}` contradicts `{other}`: {reason}\nhelp: set `HAMILTONIAN_SHARD=k/n` for each process"
-    )]
     Contradiction {
         /// A variable with its value.
         one: String,
@@ -51,11 +46,54 @@ pub enum ShardError {
     },
 }
 
-/// ` (from …)` for a variable.
-struct From<'a>(&'a Option<&'static str>);
+impl Display for ShardError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Range {
+                index,
+                count,
+                variable,
+            } => write!(
+                f,
+                "shard {index}/{count}{} does not exist\nhelp: {}",
+                Origin(variable),
+                Parts(*count)
+            ),
+            Self::Form {
+                variable,
+                text,
+                expected,
+            } => write!(f, "{}`{text}`, and must be {expected}", Named(variable)),
+            Self::Missing {
+                variable,
+                missing,
+                remedy,
+            } => write!(
+                f,
+                "`{variable}` is set, but `{missing}` is not\nhelp: {remedy}"
+            ),
+            Self::Contradiction { one, other, reason } => write!(
+                f,
+                "`{one}` contradicts `{other}`: {reason}\n\
+                 help: set `HAMILTONIAN_SHARD=k/n` for each process"
+            ),
+        }
+    }
+}
 
-impl fmt::Display for From<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl core::error::Error for ShardError {}
+
+impl From<ShardError> for Error {
+    fn from(error: ShardError) -> Self {
+        Error::Shard(error)
+    }
+}
+
+/// ` (from …)` for a variable.
+struct Origin<'a>(&'a Option<&'static str>);
+
+impl Display for Origin<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(variable) => write!(f, " (from `{variable}`)"),
             None => Ok(()),
@@ -66,8 +104,8 @@ impl fmt::Display for From<'_> {
 /// `… is ` for a variable.
 struct Named<'a>(&'a Option<&'static str>);
 
-impl fmt::Display for Named<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Display for Named<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(variable) => write!(f, "`{variable}` is "),
             None => write!(f, "the shard is "),
@@ -78,8 +116,8 @@ impl fmt::Display for Named<'_> {
 /// The parts that exist.
 struct Parts(u64);
 
-impl fmt::Display for Parts {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Display for Parts {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             0 => write!(f, "a sweep has at least one shard, 0/1"),
             1 => write!(f, "the only shard is 0/1"),

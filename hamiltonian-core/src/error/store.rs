@@ -1,11 +1,13 @@
 //! Errors of stores.
 
+use super::Error;
+use core::fmt::{self, Display, Formatter};
+
 /// An error of a store.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StoreError {
     /// A layout that no store can have.
-    #[error("{fact}\nhelp: {remedy}")]
     Layout {
         /// The part that does not fit.
         fact: String,
@@ -13,7 +15,6 @@ pub enum StoreError {
         remedy: &'static str,
     },
     /// The directory holds something else.
-    #[error("`{path}` is no store: it has `{found}` in it\nhelp: give a path of its own")]
     Foreign {
         /// The directory.
         path: String,
@@ -21,10 +22,6 @@ pub enum StoreError {
         found: String,
     },
     /// The store belongs to another sweep.
-    #[error(
-        "`{path}` is the store of another sweep: it says `{saved}`, and this sweep `{given}`\n\
-         help: give another path, or remove the store"
-    )]
     Other {
         /// The file that differs.
         path: String,
@@ -34,10 +31,6 @@ pub enum StoreError {
         given: String,
     },
     /// The chunk was written with other members.
-    #[error(
-        "chunk {chunk} of `{path}` was made from other members: its first one had another system or \
-         another start\nhelp: give another path, or make the members as they were made"
-    )]
     Members {
         /// The store.
         path: String,
@@ -45,7 +38,6 @@ pub enum StoreError {
         chunk: u64,
     },
     /// A file of the store differs from what was written.
-    #[error("`{path}` is damaged: it has {found} bytes, and must have {expected}\nhelp: remove it")]
     Damaged {
         /// The file.
         path: String,
@@ -55,7 +47,6 @@ pub enum StoreError {
         expected: u64,
     },
     /// A chunk does not have the shape of the layout.
-    #[error("chunk {chunk}: `{array}` has {found} values, and must have {expected}")]
     Shape {
         /// The number of the chunk.
         chunk: u64,
@@ -67,20 +58,71 @@ pub enum StoreError {
         expected: u64,
     },
     /// The disk is full, or a quota is used up. Chunks written before are intact.
-    #[error(
-        "`{path}` cannot be written: no space is left\n\
-         help: make space and run the sweep again; chunks that exist are skipped"
-    )]
     Full {
         /// The store.
         path: String,
     },
     /// A file cannot be read or written.
-    #[error("`{path}`: {message}")]
     File {
         /// Its path.
         path: String,
         /// The system's message.
         message: String,
     },
+}
+
+impl Display for StoreError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Layout { fact, remedy } => write!(f, "{fact}\nhelp: {remedy}"),
+            Self::Foreign { path, found } => write!(
+                f,
+                "`{path}` is no store: it has `{found}` in it\nhelp: give a path of its own"
+            ),
+            Self::Other { path, saved, given } => write!(
+                f,
+                "`{path}` is the store of another sweep: it says `{saved}`, and this sweep \
+                 `{given}`\n\
+                 help: give another path, or remove the store"
+            ),
+            Self::Members { path, chunk } => write!(
+                f,
+                "chunk {chunk} of `{path}` was made from other members: its first one had another \
+                 system or another start\n\
+                 help: give another path, or make the members as they were made"
+            ),
+            Self::Damaged {
+                path,
+                found,
+                expected,
+            } => write!(
+                f,
+                "`{path}` is damaged: it has {found} bytes, and must have {expected}\n\
+                 help: remove it"
+            ),
+            Self::Shape {
+                chunk,
+                array,
+                found,
+                expected,
+            } => write!(
+                f,
+                "chunk {chunk}: `{array}` has {found} values, and must have {expected}"
+            ),
+            Self::Full { path } => write!(
+                f,
+                "`{path}` cannot be written: no space is left\n\
+                 help: make space and run the sweep again; chunks that exist are skipped"
+            ),
+            Self::File { path, message } => write!(f, "`{path}`: {message}"),
+        }
+    }
+}
+
+impl core::error::Error for StoreError {}
+
+impl From<StoreError> for Error {
+    fn from(error: StoreError) -> Self {
+        Error::Store(error)
+    }
 }

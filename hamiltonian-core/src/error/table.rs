@@ -1,17 +1,18 @@
 //! Errors of tables.
 
+use super::Error;
 use super::nearest::nearest;
 use super::words::Known;
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt::{self, Display, Formatter};
 
 /// An error of a table.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum TableError {
     /// There is no column of that name.
-    #[error("there is no column `{name}`{}", Remedy(.nearest, .known))]
     Unknown {
         /// The name given.
         name: String,
@@ -21,13 +22,11 @@ pub enum TableError {
         known: Vec<String>,
     },
     /// Two columns have the same name.
-    #[error("two columns have the name `{name}`\nhelp: give each column a name of its own")]
     Twice {
         /// The name.
         name: String,
     },
     /// A row has too few or too many values.
-    #[error("a row has {found} values, and the table {columns} columns")]
     Width {
         /// The number of columns.
         columns: usize,
@@ -35,13 +34,44 @@ pub enum TableError {
         found: usize,
     },
     /// A value of the index column is not a whole number.
-    #[error("the index `{name}` is {found:?}, and must be a whole number of at most 2^53")]
     Index {
         /// The name of the index column.
         name: String,
         /// The value.
         found: f64,
     },
+}
+
+impl Display for TableError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown {
+                name,
+                nearest,
+                known,
+            } => write!(f, "there is no column `{name}`{}", Remedy(nearest, known)),
+            Self::Twice { name } => write!(
+                f,
+                "two columns have the name `{name}`\nhelp: give each column a name of its own"
+            ),
+            Self::Width { columns, found } => write!(
+                f,
+                "a row has {found} values, and the table {columns} columns"
+            ),
+            Self::Index { name, found } => write!(
+                f,
+                "the index `{name}` is {found:?}, and must be a whole number of at most 2^53"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for TableError {}
+
+impl From<TableError> for Error {
+    fn from(error: TableError) -> Self {
+        Error::Table(error)
+    }
 }
 
 impl TableError {
@@ -59,9 +89,9 @@ impl TableError {
 /// The nearest name, or all names.
 struct Remedy<'a>(&'a Option<String>, &'a [String]);
 
-impl core::fmt::Display for Remedy<'_> {
+impl Display for Remedy<'_> {
     #[inline]
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Remedy(Some(nearest), _) => write!(f, "\nhelp: did you mean `{nearest}`?"),
             Remedy(None, []) => write!(f, "\nhelp: the table has no columns"),

@@ -10,6 +10,7 @@ mod expr;
 mod header;
 mod number;
 mod operator;
+mod path;
 mod statement;
 
 use crate::ast::{Ast, Expr, ExprId, ExprKind, Expression, ScopeId};

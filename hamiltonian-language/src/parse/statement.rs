@@ -501,32 +501,6 @@ impl Parser<'_> {
         Ok(Paths { spans, paths })
     }
 
-    /// A path of Rust: identifiers, `::`, generics.
-    fn rust_path(&mut self, form: &str) -> Result<TokenStream> {
-        let mut path = TokenStream::new();
-        while let Some(token) = self.peek() {
-            let belongs = match token.kind {
-                TokenKind::Ident => true,
-                TokenKind::Punct(character, _) => matches!(character, ':' | '<' | '>'),
-                _ => false,
-            };
-            if !belongs {
-                break;
-            }
-            path.extend(token.tree.clone());
-            self.position += 1;
-        }
-        if path.is_empty() {
-            return self.expected("the path of a Rust function", form);
-        }
-        // Code that rustc cannot parse would make the whole output unusable.
-        if let Err(error) = syn::parse2::<syn::ExprPath>(path.clone()) {
-            let message = format!("`{path}` is not the path of a Rust function");
-            return self.abort(error.span(), message, form);
-        }
-        Ok(path)
-    }
-
     /// `dt = factor*ds`
     fn time(&mut self) -> Result<StatementKind> {
         const HELP: &str = "write `dt = (…)*ds`, with `ds` as the last factor";

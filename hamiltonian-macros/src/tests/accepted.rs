@@ -1,6 +1,6 @@
 //! Definitions that are accepted, and what they become.
 
-use super::accept;
+use super::{accept, read};
 use hamiltonian_language::ast::BinaryOp;
 use hamiltonian_language::checked::{
     Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, Type, Variable,
@@ -65,6 +65,8 @@ const DEFINITIONS: &[&str] = &[
     "struct Rust { k = 1 } fn well(r) = crate::well, (crate::well_prime), (crate::well_second);
      fn two(a, b) = m::f::<f64>, (fa, fb,), (faa, fab, fbb);
      H = p^2/2 + k*well(q) + two(q, p)",
+    "fn f(x) = <f64 as m::Real<_>>::f, (<T>::f); fn g(x) = ::m::g::<Vec<m::V<f64>>>::r#fn, (self::g);
+     H = p^2/2 + f(q) + g(q)",
     "H(q[3]; p[3]) = norm_squared(p)/2 + if norm(q) < 1 { dot(q, q) } else { max(1, q[0]) }",
     "struct Matrix<const N: usize> { M: [N][N], b: [N] }
      H(q[N]; p[N]) = dot(p, M*p)/2 + dot(b, q) + sqrt(1 + sum(i in 0..N) { p[i]^2 })",
@@ -228,4 +230,28 @@ fn time_factors_and_charts_are_taken_apart() {
     let checked = accept("H(q[2]; p[2]) = norm_squared(p); coordinates polar(q)");
     assert!(matches!(&checked.charts[0].kind, Chart::Polar([x, y])
         if x.row == Some(0) && y.row == Some(1)));
+}
+
+#[test]
+fn paths_of_functions_are_paths_to_syn() {
+    const WORDS: [&str; 7] = ["a", "_", "as", "match", "::", "<", ">"];
+    let mut accepted = 0;
+    let mut sequences = ["", "a::<a", "<a as a"].map(String::from).to_vec();
+    for _ in 0..4 {
+        sequences = sequences
+            .iter()
+            .flat_map(|sequence| WORDS.map(|word| format!("{sequence} {word}")))
+            .collect();
+        for sequence in &sequences {
+            let (_, _, report) = read(&format!("fn f(x) = {sequence}; H = p^2/2 + f(q)"));
+            let by_syn = syn::parse_str::<syn::ExprPath>(sequence).is_ok();
+            assert_eq!(report.is_empty(), by_syn, "{sequence}");
+            accepted += usize::from(by_syn);
+        }
+    }
+    assert_eq!(accepted, 13);
+    // Depth that would overflow the stack is refused.
+    let deep = "a::<".repeat(100_000);
+    let (_, _, report) = read(&format!("fn f(x) = {deep}; H = p^2/2 + f(q)"));
+    assert_eq!(report.errors().len(), 1);
 }

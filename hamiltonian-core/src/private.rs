@@ -55,7 +55,7 @@ pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
 pub use crate::{
     __computed_as_chosen as computed_as_chosen, __each as each, __halves as halves,
-    __known as known, __prepared as prepared, __timeless as timeless,
+    __known as known, __prepared as prepared,
 };
 
 /// A group of coordinates with its rank, part, offset and columns.
@@ -223,10 +223,6 @@ impl<X> SetByNew<X> {
     pub fn new(value: X) -> Self {
         SetByNew(value)
     }
-    /// Its content, to be filled by derivatives.
-    pub fn get_mut(field: &mut Self) -> &mut X {
-        &mut field.0
-    }
 }
 
 impl<X> core::ops::Deref for SetByNew<X> {
@@ -317,11 +313,15 @@ macro_rules! __prepared {
 }
 
 /// The field of a kind, and the methods of a prepared system whose data begins with how it is computed, in lanes where
-/// there are some.
+/// there are some. The derivative by time of an H that does not depend on it is 0.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __computed_as_chosen {
-    ($scalar:ident, $field:ty) => {
+    ($scalar:ident, $field:ty $(, $zero:ident)?) => {
+        $(#[inline(always)]
+        fn $zero(&self, _: $scalar, _: &Self::Vector, _: &Self::Vector) -> $scalar {
+            <$scalar as $crate::private::Real>::constant(0.0, 0.0)
+        })?
         type Field = $crate::private::FieldOf<Self, $field, $scalar>;
         #[inline(always)]
         fn field(&self, _c: $scalar) -> Self::Field {
@@ -361,18 +361,6 @@ macro_rules! __each {
     };
 }
 
-/// The derivative by time of an H that does not depend on it.
-#[macro_export]
-#[doc(hidden)]
-macro_rules! __timeless {
-    ($scalar:ident) => {
-        #[inline(always)]
-        fn time_derivative(&self, _: $scalar, _: &Self::Vector, _: &Self::Vector) -> $scalar {
-            <$scalar as $crate::private::Real>::constant(0.0, 0.0)
-        }
-    };
-}
-
 /// The structures of a system that its kick and its drift make up.
 #[macro_export]
 #[doc(hidden)]
@@ -405,11 +393,20 @@ macro_rules! __halves {
     };
 }
 
-/// The formula of H as `Display`, markers that hold without more to be said, and in item form the texts of the type.
+/// The formula of H as `Display`, markers that hold without more to be said, and in item form the texts of the type and
+/// its `Default`. A bound that no system meets instead of a marker is that of `new`, which then does not exist.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __known {
     (@texts) => {};
+    (@ [$($impl:tt)*] $system:ty: ParameterWithoutDefault) => {
+        $($impl)* $crate::private::EveryParameterHasADefault for $system
+        where $system: $crate::private::ParameterWithoutDefault {}
+    };
+    (@ [$($impl:tt)*] $system:ty: AnyParameter) => {
+        $($impl)* $crate::private::EveryParameterHasADefault for $system
+        where for<'a> $system: $crate::private::AnyParameter<'a> {}
+    };
     (@ [$($impl:tt)*] $system:ty: $marker:ident) => {
         $($impl)* $crate::private::$marker for $system {}
     };
@@ -418,6 +415,15 @@ macro_rules! __known {
         $($impl)* $crate::private::fmt::Display for $system {
             fn fmt(&self, _f: &mut $crate::private::fmt::Formatter<'_>) -> $crate::private::fmt::Result {
                 _f.write_str($formula)
+            }
+        }
+    };
+    (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal $($names:ident)? = $default:expr) => {
+        $crate::__known! { @texts $visibility [$($impl)*] $system: $latex, $equations $($names)? }
+        #[automatically_derived]
+        $($impl)* $crate::private::Default for $system {
+            fn default() -> Self {
+                $default
             }
         }
     };

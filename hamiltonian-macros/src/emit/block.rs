@@ -13,7 +13,6 @@ use super::number;
 use super::together::{Calls, few, first};
 use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
-use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Update, Value};
 use std::fmt::Write;
 
@@ -222,7 +221,7 @@ impl Writer<'_> {
             return;
         }
         let text = self.instruction(instruction);
-        if !self.inlined.take(value, instruction, &text) {
+        if !self.inlined.take(value, Binding::of(instruction), &text) {
             line!(self, "let {} = {text};", name(value));
         }
     }
@@ -333,12 +332,7 @@ impl Writer<'_> {
         match target {
             Target::Phase(Column { group, .. }) => self.place(slice, Some(group), row),
             Target::Held(_) => self.place(slice, None, row),
-            Target::Parameter(parameter) => {
-                match self.context.model.parameters[usize::from(parameter.0)].shape {
-                    Shape::Scalar => format!("_d.{}", self.context.generics.field(parameter.0)),
-                    _ => self.entry(slice, parameter.0, row, column),
-                }
-            }
+            Target::Parameter(parameter) => self.entry(slice, parameter.0, row, column),
         }
     }
 

@@ -14,57 +14,31 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use std::fmt::Write;
 
-/// `Default`, over f64 only, and `with_defaults` over any scalar, if every parameter has a default.
-/// A `Default` over any scalar would leave the scalar of `Name::default()` open, and the fields of
-/// `Name { l: 2.0, ..Default::default() }` without methods such as `sqrt`.
-pub fn default(context: Context) -> String {
-    let definition = context.definition;
+/// Returns true if every parameter has a default, and nothing else must be given.
+pub fn is_all_defaults(context: Context) -> bool {
     let has_functions = !context.generics.functions.is_empty();
-    if context.has_run_time_sizes() || has_functions || definition.defaults.contains(&None) {
-        return String::new();
-    }
-    let generics = context.generics;
-    let (constants, system) = generics.over_f64();
-    let value = match generics.scalars.is_empty() {
-        true => "Self {}",
-        false => "Self::with_defaults()",
-    };
-    let mut text = format!(
-        "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
-         fn default() -> Self {{ {value} }}\n}}\n"
+    !context.has_run_time_sizes() && !has_functions && !context.definition.defaults.contains(&None)
+}
+
+/// `with_defaults` over any scalar. A `Default` over any scalar would leave the scalar of `Name::default()` open, and the
+/// fields of `Name { l: 2.0, ..Default::default() }` without methods such as `sqrt`.
+pub fn with_defaults(context: Context, item: &Header) -> Option<TokenStream> {
+    let all = is_all_defaults(context);
+    let scalar = context.generics.scalars.first().filter(|_| all)?;
+    let parameters = context.definition.checked.parameters.iter().enumerate();
+    let fields = parameters.map(|(number, parameter)| {
+        let value = default_of(context, number, scalar);
+        format!("{}: {value}, ", parameter.name)
+    });
+    let method = format!(
+        "/// The system with the default of every parameter, each rounded once to the scalar type of \
+         the parameters. `Default` is the same over `f64`.\n\
+         #[must_use]\n{} fn with_defaults() -> Self {{ Self {{ {} }} }}\n",
+        context.generics.visibility,
+        fields.collect::<String>()
     );
-    // The bound stands on the implementation, which is then no candidate: a trait of the user's may give the type a
-    // `new`.
-    let (declaration, named) = (
-        generics.declaration_without_bounds(),
-        generics.system_type(),
-    );
-    let bound = match generics.scalars.is_empty() {
-        true => format!("for<'_a> {named}: __h::AnyParameter<'_a>"),
-        false => format!("{named}: __h::ParameterWithoutDefault"),
-    };
-    let _ = writeln!(
-        text,
-        "impl{declaration} __h::EveryParameterHasADefault for {named} where {bound} {{}}"
-    );
-    if let Some(scalar) = generics.scalars.first() {
-        let parameters = definition.checked.parameters.iter().enumerate();
-        let fields = parameters.map(|(number, parameter)| {
-            let value = default_of(context, number, scalar);
-            format!("{}: {value}, ", parameter.name)
-        });
-        let _ = write!(
-            text,
-            "{} {{\n\
-             /// The system with the default of every parameter, each rounded once to the scalar type of \
-             the parameters. `Default` is the same over `f64`.\n\
-             #[must_use]\n{} fn with_defaults() -> Self {{ Self {{ {} }} }}\n}}\n",
-            generics.header(),
-            generics.visibility,
-            fields.collect::<String>()
-        );
-    }
-    text
+    let name = context.definition.type_name(item);
+    Some(located(lex(&method), name.span(), 0))
 }
 
 /// The default of a parameter that has one, over a scalar.

@@ -14,11 +14,12 @@ use super::layout::{Layout, Slice};
 use super::scan::scan;
 use super::{derived, observables, reach};
 use hamiltonian_symbolic::dag::Array;
-use hamiltonian_symbolic::model::{Model, Shape, VectorUse};
+use hamiltonian_symbolic::model::{Model, ParameterDeclaration, Shape, VectorUse};
 use hamiltonian_symbolic::print;
 
-use hamiltonian_symbolic::program::{Function, Instruction, Purpose, Step, Value};
+use hamiltonian_symbolic::program::{Function, Instruction, Purpose, Step, Target, Update, Value};
 use hamiltonian_symbolic::rational::Rational;
+use hamiltonian_symbolic::sort::Arrange;
 use std::fmt::Write;
 
 /// Everything a definition implements that is the same in both forms, the free functions that long bodies call, and
@@ -141,27 +142,21 @@ impl<'a> Emission<'a> {
         let mut sizes = String::new();
         Receiver::System.bind_sizes(&mut sizes, context);
         let zeros = with_self(&(sizes + &context.zeros()));
-        line!(
-            self,
-            "#[inline]\nfn zeros(&self) -> Self::Vector {{\n{zeros}\n}}\n}}"
-        );
+        line!(self, "fn zeros(&self) -> Self::Vector {{\n{zeros}\n}}\n}}");
     }
 
-    /// The arrays that preparation fills, as an argument of its parts; made as `_made`.
+    /// The arrays that preparation fills.
     fn held(&mut self) -> Vec<(&'static str, String)> {
         let context = self.context;
-        if context.program.held.is_empty() {
-            return Vec::new();
+        let array = |number| {
+            let shape = shape(context, Slice::Read(Array::Held(number)));
+            (context.storage(&shape, "T"), context.zero(&shape))
+        };
+        let count = context.program.held.len() as u16;
+        if count > 0 {
+            Receiver::System.bind_sizes(&mut self.out, context);
         }
-        let (mut types, mut values) = (String::new(), String::new());
-        for number in 0..context.program.held.len() {
-            let shape = shape(context, Slice::Read(Array::Held(number as u16)));
-            types.push_str(&format!("{}, ", context.storage(&shape, "T")));
-            values.push_str(&format!("{}, ", context.zero(&shape)));
-        }
-        Receiver::System.bind_sizes(&mut self.out, context);
-        line!(self, "let mut _made = ({values});\nlet _held = &mut _made;");
-        vec![("_held", format!("&mut ({types})"))]
+        filled(&mut self.out, (0..count).map(array))
     }
 
     fn dynamics(&mut self) {
@@ -198,9 +193,7 @@ impl<'a> Emission<'a> {
             let halves = [Purpose::GradientQ, Purpose::GradientP];
             match purpose {
                 Purpose::Gradient if are_apart(context.program, purpose, halves) => {}
-                Purpose::TimeDerivative if is_timeless(context) => {
-                    line!(self, "__h::timeless!(T);");
-                }
+                Purpose::TimeDerivative if is_timeless(context) => {}
                 _ => self.method(name, purpose, more, returns),
             }
         }
@@ -222,7 +215,11 @@ impl<'a> Emission<'a> {
             );
         }
         let field = self.field_kind();
-        line!(self, "__h::computed_as_chosen!(T, {field});\n}}");
+        let zero = match is_timeless(context) {
+            true => ", time_derivative",
+            false => "",
+        };
+        line!(self, "__h::computed_as_chosen!(T, {field}{zero});\n}}");
     }
 
     /// The arguments of an evaluation: t, and vectors that are read or written.
@@ -245,7 +242,7 @@ impl<'a> Emission<'a> {
         let body = match self.context.program.function(purpose) {
             Some(function) => {
                 let (text, results) = self.evaluation(name, None, &arguments, function);
-                with_self(&(text + if returns { &results } else { "" }))
+                with_self(&(text + &results.concat()))
             }
             None => derived::body(purpose, self.context.definition.third),
         };
@@ -263,7 +260,7 @@ impl<'a> Emission<'a> {
         holder: Option<&Holder>,
         arguments: &[(&'static str, String)],
         function: &Function,
-    ) -> (String, String) {
+    ) -> (String, Vec<String>) {
         let mut text = String::new();
         let body = Body {
             name,
@@ -274,7 +271,7 @@ impl<'a> Emission<'a> {
             results: &function.results,
             arrays: &[],
         };
-        let results = self.bodies.write(&mut text, body).join(", ");
+        let results = self.bodies.write(&mut text, body);
         (text, results)
     }
 
@@ -390,7 +387,7 @@ impl<'a> Emission<'a> {
             let arguments = self.arguments(&["_q", "_p"]);
             let name = format!("o{at}");
             let (text, results) = self.evaluation(&name, None, &arguments, function);
-            let body = with_self(&format!("{text}[{results}]"));
+            let body = with_self(&format!("{text}[{}]", results.join(", ")));
             line!(
                 self,
                 "#[inline(always)]\nfn {name}(&self, {}) -> [T; {}] {{\n{body}\n}}",
@@ -410,13 +407,32 @@ impl<'a> Emission<'a> {
         line!(self, "}}");
     }
 
-    /// ∂H/∂(parameters), which have one scalar: the result is the user's type over it.
+    /// ∂H/∂(parameters), which have one scalar: the result is the user's type over it. Numbers are results of the body;
+    /// it writes arrays.
     fn parameter_gradient(&mut self, function: &Function) -> String {
         let context = self.context;
-        let ty = context.generics.system_type_over("T");
+        let parameters = &context.model.parameters;
+        let mut function = function.clone();
+        let number = |step: &Step| match step {
+            Step::Store(Target::Parameter(at), _, _, Update::Set(value)) => {
+                let is_number = parameters[usize::from(at.0)].shape == Shape::Scalar;
+                is_number.then_some((at.0, *value))
+            }
+            _ => None,
+        };
+        let mut numbers: Vec<_> = function.evaluation.iter().filter_map(number).collect();
+        numbers.arrange();
+        function.results = numbers.into_iter().map(|(_, value)| value).collect();
+        function.evaluation.retain(|step| number(step).is_none());
         let mut arguments = self.arguments(&["_q", "_p"]);
-        arguments.push(("_d", format!("&mut {ty}")));
-        let (text, _) = self.evaluation("parameters", None, &arguments, function);
+        let array = |parameter: &ParameterDeclaration| match &parameter.shape {
+            Shape::Scalar => ("()".to_owned(), "()".to_owned()),
+            shape => (context.field(shape, "T"), context.zero_field(shape)),
+        };
+        let mut made = String::new();
+        arguments.extend(filled(&mut made, parameters.iter().map(array)));
+        let (text, results) = self.evaluation("parameters", None, &arguments, &function);
+        let mut results = results.into_iter();
         let (mut sizes, mut fields) = (String::new(), String::new());
         Receiver::Holder(&self.prepared).bind_sizes(&mut sizes, context);
         for size in context.run_time_sizes() {
@@ -431,17 +447,36 @@ impl<'a> Emission<'a> {
                 self.prepared.function(context, at)
             );
         }
-        for (at, parameter) in context.model.parameters.iter().enumerate() {
-            let zero = context.field_of_zeros(&parameter.shape);
-            let _ = write!(fields, "{}: {zero}, ", context.generics.field(at as u16));
+        for (at, parameter) in (0..).zip(parameters) {
+            let value = match &parameter.shape {
+                Shape::Scalar => results.next().unwrap_or_default(),
+                shape if context.is_dynamic(shape) => set_by_new(&format!("_made.{at}")),
+                _ => format!("_made.{at}"),
+            };
+            let _ = write!(fields, "{}: {value}, ", context.generics.field(at));
         }
         format!(
             "let _self = &<Self as __h::System<T>>::prepare(self);\n\
              let (_t, _q, _p) = (state.t, &state.q, &state.p);\n\
-             {sizes}let mut _result = {} {{ {fields} }};\nlet _d = &mut _result;\n{text}_result",
+             {sizes}{made}{text}{} {{ {fields} }}",
             context.generics.name,
         )
     }
+}
+
+/// Makes arrays as `_made`, each of a type and a value, and returns them as an argument of the body that fills them.
+/// Numbers among them are `()`.
+fn filled(
+    out: &mut String,
+    arrays: impl Iterator<Item = (String, String)>,
+) -> Vec<(&'static str, String)> {
+    let (types, values): (Vec<_>, Vec<_>) = arrays.unzip();
+    if types.iter().all(|ty| ty == "()") {
+        return Vec::new();
+    }
+    let values = values.join(", ");
+    let _ = writeln!(out, "let mut _made = ({values},);\nlet _held = &mut _made;");
+    vec![("_held", format!("&mut ({},)", types.join(", ")))]
 }
 
 /// Returns true if the derivative of H by time is the constant 0.

@@ -9,7 +9,6 @@ use super::holder::Receiver;
 use super::inline::Inlined;
 use super::layout::Slice;
 use hamiltonian_symbolic::dag::{Array, Parameter};
-use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Step, Target, Value};
 use hamiltonian_symbolic::sort::Arrange;
 use std::fmt::Write;
@@ -61,20 +60,12 @@ impl Bodies<'_> {
                     let _ = writeln!(out, "let {name} = _held.{number}.as_mut_slice();");
                 }
                 Slice::Write(Target::Parameter(Parameter(number))) => {
-                    let field = context.generics.field(*number);
-                    let _ = match &context.model.parameters[usize::from(*number)].shape {
-                        // Written as a field.
-                        Shape::Scalar => Ok(()),
-                        shape if context.is_dynamic(shape) => writeln!(
-                            out,
-                            "let {name} = __h::SetByNew::get_mut(&mut _d.{field}).as_mut_slice();"
-                        ),
-                        Shape::Lattice(_, axes) => {
-                            let flat = ".as_flattened_mut()".repeat(axes.len() - 1);
-                            writeln!(out, "let {name} = _d.{field}{flat};")
-                        }
-                        _ => writeln!(out, "let {name} = _d.{field}.as_mut_slice();"),
+                    let shape = &context.model.parameters[usize::from(*number)].shape;
+                    let slice = match context.typed_axes(shape) {
+                        Some(axes) => ".as_flattened_mut()".repeat(axes.len() - 1),
+                        None => ".as_mut_slice()".to_owned(),
                     };
+                    let _ = writeln!(out, "let {name} = _held.{number}{slice};");
                 }
                 _ => {}
             }
@@ -82,8 +73,14 @@ impl Bodies<'_> {
     }
 
     /// Binds values computed earlier: by an earlier stage or, where they cost nothing, again.
-    pub(super) fn read(&self, out: &mut String, receiver: Receiver, reads: &[Value]) {
-        for value in receiver.read(out, reads) {
+    pub(super) fn read(
+        &self,
+        out: &mut String,
+        receiver: Receiver,
+        reads: &[Value],
+        inlined: &mut Inlined,
+    ) {
+        for value in receiver.read(out, reads, inlined) {
             block::write(
                 out,
                 self.context,

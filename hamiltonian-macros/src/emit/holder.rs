@@ -5,6 +5,7 @@
 //! and all run-time sizes and functions.
 
 use super::context::Context;
+use super::inline::Inlined;
 use super::layout::Slice;
 use super::values::{Values, Wanted};
 use hamiltonian_symbolic::dag::{Array, Parameter};
@@ -247,13 +248,13 @@ impl Receiver<'_> {
     }
 
     /// Binds values computed earlier; returns those that it does not have.
-    pub fn read(self, out: &mut String, reads: &[Value]) -> Vec<Value> {
+    pub fn read(self, out: &mut String, reads: &[Value], inlined: &mut Inlined) -> Vec<Value> {
         let Receiver::Holder(holder) = self else {
             return reads.to_vec();
         };
         let mut rest: Wanted = reads.iter().map(|value| (*value, ())).collect();
         let [numbers, masks] = ["v", "m"].map(|field| format!("{}.{field}", holder.root()));
-        holder.values.bind(out, [&numbers, &masks], &mut rest);
+        (holder.values).bind(out, [&numbers, &masks], &mut rest, inlined);
         let is_missing = |value: &Value| rest.contains_key(value);
         reads.iter().copied().filter(is_missing).collect()
     }

@@ -23,6 +23,18 @@ pub enum Binding {
     Atom,
 }
 
+impl Binding {
+    /// The tightest place in which the text of an instruction needs no parentheses.
+    pub fn of(instruction: &Instruction) -> Binding {
+        match instruction {
+            Instruction::Add(..) | Instruction::Sub(..) => Binding::Term,
+            Instruction::Mul(..) | Instruction::Div(..) | Instruction::Neg(_) => Binding::Factor,
+            Instruction::Not(_) | Instruction::And(..) | Instruction::Or(..) => Binding::Whole,
+            _ => Binding::Atom,
+        }
+    }
+}
+
 /// The inlined values of a body.
 #[derive(Debug, Default)]
 pub struct Inlined {
@@ -32,12 +44,14 @@ pub struct Inlined {
 
 impl Inlined {
     /// Finds the values that are used exactly once, at the outermost level of `steps` or as the one result. Several
-    /// `results` are used by name and are not inlined.
-    pub fn of(context: Context, steps: &[Step], results: &[Value]) -> Inlined {
+    /// `results` are used by name and are not inlined. `reads` are computed earlier.
+    pub fn of(context: Context, steps: &[Step], results: &[Value], reads: &[Value]) -> Inlined {
         let by = if results.len() == 1 { 1 } else { 2 };
         let mut uses: Map<Value, u32> = results.iter().map(|value| (*value, by)).collect();
         count(context, steps, 1, &mut uses);
-        let mut once = Map::default();
+        let is_once = |value: &&Value| uses.get(*value) == Some(&1);
+        let reads = reads.iter().filter(is_once).map(|value| (*value, ()));
+        let mut once: Map<Value, ()> = reads.collect();
         for step in steps {
             if let Step::Let(value) = step {
                 let instruction = context.program.instruction(*value);
@@ -49,7 +63,7 @@ impl Inlined {
                     Instruction::Call(..) | Instruction::External(..) => false,
                     _ => true,
                 };
-                if may_move && uses.get(value) == Some(&1) {
+                if may_move && is_once(&value) {
                     once.insert(*value, ());
                 }
             }
@@ -61,18 +75,12 @@ impl Inlined {
     }
 
     /// Takes the text of a value to be inlined. Returns false if it needs a `let`.
-    pub fn take(&mut self, value: Value, instruction: &Instruction, text: &str) -> bool {
-        if text.len() > LONGEST || !self.once.contains_key(&value) {
-            return false;
+    pub fn take(&mut self, value: Value, binding: Binding, text: &str) -> bool {
+        let is_taken = text.len() <= LONGEST && self.once.contains_key(&value);
+        if is_taken {
+            self.texts.insert(value, (text.to_owned(), binding));
         }
-        let binding = match instruction {
-            Instruction::Add(..) | Instruction::Sub(..) => Binding::Term,
-            Instruction::Mul(..) | Instruction::Div(..) | Instruction::Neg(_) => Binding::Factor,
-            Instruction::Not(_) | Instruction::And(..) | Instruction::Or(..) => Binding::Whole,
-            _ => Binding::Atom,
-        };
-        self.texts.insert(value, (text.to_owned(), binding));
-        true
+        is_taken
     }
 
     /// Returns the text of an inlined value, with parentheses if the place requires them.

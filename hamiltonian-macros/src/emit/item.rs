@@ -30,7 +30,6 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     for context in declared::mixed(context) {
         text.push_str(&mixed::implementations(context));
     }
-    text.push_str(&construct::default(context));
     let implementations = located(lex(&text), name.span(), SIGNATURES);
     let functions = lex(&functions);
     let externals = externals::wrappers(context);
@@ -295,6 +294,7 @@ fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
     let vectors = vectors::methods(context, visibility);
     let pieces = pieces(context, item);
     let new = construct::new(context, item);
+    let defaults = construct::with_defaults(context, item);
     let getters = construct::getters(context, item);
     let derivatives = (!generics.scalars.is_empty()).then(|| {
         let bound = lex(&generics.state_bound());
@@ -311,6 +311,7 @@ fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
     quote! {
         #new
         #header {
+            #defaults
             #getters
             #methods
             #vectors

@@ -5,6 +5,7 @@
 //! whose message is the reason, so that a scheme that needs it says what couples what.
 
 use super::Reason;
+use super::construct::is_all_defaults;
 use super::context::Context;
 use std::fmt::Write;
 
@@ -36,7 +37,7 @@ pub fn of_pieces(
     marker(out, context, &name, &declaration, pieces.err(), &items);
 }
 
-/// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact` and `Cyclic`, and `Display`.
+/// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact` and `Cyclic`, `Display` and `Default`.
 pub fn implementations(context: Context) -> String {
     let (structure, generics) = (&context.definition.structure, context.generics);
     let (mut out, mut known) = (String::new(), String::new());
@@ -70,8 +71,14 @@ pub fn implementations(context: Context) -> String {
     let texts = context.definition.checked.item.as_ref().map(|_| {
         let (constants, system) = generics.over_f64();
         let names = structure.split.is_ok().then_some("NAMES");
+        let (default, missing) = match (is_all_defaults(context), generics.scalars.is_empty()) {
+            (false, _) => ("", ""),
+            (true, true) => ("= Self {}", " AnyParameter"),
+            (true, false) => ("= Self::with_defaults()", " ParameterWithoutDefault"),
+        };
+        known += missing;
         format!(
-            " {} [impl{constants}] {system}: {:?}, {:?} {}",
+            " {} [impl{constants}] {system}: {:?}, {:?} {} {default}",
             generics.visibility,
             text.latex,
             text.latex_equations.join("\n"),

@@ -65,9 +65,9 @@ impl Bodies<'_> {
         slices.extend(block::cleared(context, body.cleared));
         slices.extend(body.arrays);
         self.bind(out, body.receiver, slices);
-        self.read(out, body.receiver, &scan.reads);
+        let mut inlined = Inlined::of(context, &together, body.results, &scan.reads);
+        self.read(out, body.receiver, &scan.reads, &mut inlined);
         block::clear(out, context, body.cleared);
-        let inlined = Inlined::of(context, &together, body.results);
         let arithmetic = body.receiver.arithmetic();
         let inlined = block::write(out, context, arithmetic, &together, inlined);
         let text = |value: &Value| match inlined.text(*value, Binding::Whole) {
@@ -121,16 +121,16 @@ impl Bodies<'_> {
         earlier: &[Values],
     ) -> Vec<usize> {
         let mut rest: Wanted = wanted.iter().map(|value| (*value, ())).collect();
-        let mut bound = Vec::new();
+        let (mut bound, mut none) = (Vec::new(), Inlined::default());
         for (number, live) in earlier.iter().enumerate() {
-            let arrays = [format!("_g{number}.0"), format!("_g{number}.1")];
-            if live.bind(out, arrays.each_ref().map(String::as_str), &mut rest) {
+            let [numbers, masks] = [0, 1].map(|array| format!("_g{number}.{array}"));
+            if live.bind(out, [&numbers, &masks], &mut rest, &mut none) {
                 bound.push(number);
             }
         }
         let is_missing = |value: &Value| rest.contains_key(value);
         let earlier: Vec<Value> = wanted.iter().copied().filter(is_missing).collect();
-        self.read(out, body.receiver, &earlier);
+        self.read(out, body.receiver, &earlier, &mut none);
         bound
     }
 

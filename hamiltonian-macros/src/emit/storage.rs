@@ -3,7 +3,6 @@
 //! Input: the groups and shapes of a model. Output: text of types and values, and the bindings of slices
 //! at the top of a function body. Invariant: extents that are set at run time are in no type.
 
-use super::construct::set_by_new;
 use super::context::{Context, ZERO};
 use super::layout::{Layout, Slice};
 use hamiltonian_symbolic::index::Affine;
@@ -78,11 +77,10 @@ impl Context<'_> {
         }
     }
 
-    /// The expression of zeros in the field of a parameter.
-    pub fn field_of_zeros(self, shape: &Shape) -> String {
+    /// The expression of zeros of the type of a parameter.
+    pub fn zero_field(self, shape: &Shape) -> String {
         match self.typed_axes(shape) {
             Some(axes) => self.nested(axes, ZERO),
-            None if self.is_dynamic(shape) => set_by_new(&self.zero(shape)),
             None => self.zero(shape),
         }
     }

@@ -5,6 +5,7 @@
 //! many indices do.
 
 use super::block::{name, names};
+use super::inline::{Binding, Inlined};
 use hamiltonian_symbolic::dag::Map;
 use hamiltonian_symbolic::program::{Program, Value};
 use std::fmt::Write;
@@ -49,36 +50,41 @@ impl Values {
         format!("([T; {numbers}], [<T as __h::Real>::Mask; {masks}])")
     }
 
-    /// Binds its values that are wanted, which are no longer wanted then, out of the two arrays. Whether
-    /// there are any.
-    pub fn bind(&self, out: &mut String, [numbers, masks]: [&str; 2], wanted: &mut Wanted) -> bool {
-        bind(out, numbers, &self.numbers, wanted);
-        bind(out, masks, &self.masks, wanted);
+    /// Binds its values that are wanted, which are no longer wanted then, out of the two arrays. A few that are used once
+    /// stand where they are used. Whether there are any.
+    pub fn bind(
+        &self,
+        out: &mut String,
+        arrays: [&str; 2],
+        wanted: &mut Wanted,
+        inlined: &mut Inlined,
+    ) -> bool {
+        const FEW: usize = 2;
+        for (array, values) in arrays.into_iter().zip([&self.numbers, &self.masks]) {
+            let is_wanted = |at: &usize| wanted.contains_key(&values[*at]);
+            let mut own: Vec<usize> = (0..values.len()).filter(is_wanted).collect();
+            let element = |at: usize| format!("{array}[{at}]");
+            if own.len() <= FEW {
+                own.retain(|at| !inlined.take(values[*at], Binding::Atom, &element(*at)));
+            }
+            let (Some(&first), Some(&last)) = (own.first(), own.last()) else {
+                continue;
+            };
+            let name = |at: usize| match own.binary_search(&at) {
+                Ok(_) => name(values[at]),
+                Err(_) => "_".to_owned(),
+            };
+            let names: Vec<String> = (first..=last).map(name).collect();
+            let pattern = names.join(", ");
+            let _ = match names.len() {
+                1 => writeln!(out, "let {pattern} = {};", element(first)),
+                length if length == values.len() => writeln!(out, "let [{pattern}] = {array};"),
+                _ => writeln!(out, "let [{pattern}] = *__h::window(&{array}, {first});"),
+            };
+        }
         let before = wanted.len();
         let own: Wanted = self.all().map(|value| (value, ())).collect();
         wanted.retain(|value| !own.contains_key(value));
         wanted.len() < before
     }
-}
-
-/// Binds the `wanted` elements of the array of `values` that stands in `place`.
-fn bind(out: &mut String, place: &str, values: &[Value], wanted: &Wanted) {
-    let is_wanted = |value: &Value| wanted.contains_key(value);
-    let (Some(first), Some(last)) = (
-        values.iter().position(is_wanted),
-        values.iter().rposition(is_wanted),
-    ) else {
-        return;
-    };
-    let element = |value: &Value| match is_wanted(value) {
-        true => name(*value),
-        false => "_".to_owned(),
-    };
-    let names: Vec<String> = values[first..=last].iter().map(element).collect();
-    let pattern = names.join(", ");
-    let _ = match names.len() {
-        1 => writeln!(out, "let {pattern} = {place}[{first}];"),
-        length if length == values.len() => writeln!(out, "let [{pattern}] = {place};"),
-        _ => writeln!(out, "let [{pattern}] = *__h::window(&{place}, {first});"),
-    };
 }

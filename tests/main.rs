@@ -42,6 +42,7 @@ mod periodic;
 pub mod planets;
 mod potentials;
 mod processed;
+mod products;
 mod profiles;
 pub mod readme;
 mod reindexed;

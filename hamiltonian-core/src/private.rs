@@ -36,7 +36,7 @@ pub use crate::kernel::{
 };
 use crate::lattice::write_indices;
 pub use crate::lattice::{
-    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
+    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, check_product, fits, lattice,
 };
 pub use crate::loops::{
     Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, worth, wrapped,

@@ -107,14 +107,36 @@ pub enum Size {
     Literal(u64, Span),
     /// `N` or `n`
     Name(Ident),
+    /// `n*m`
+    Product(Vec<Size>),
 }
 
 impl Size {
+    /// The product of its numbers.
+    pub fn number(&self) -> u64 {
+        match self {
+            Size::Literal(value, _) => *value,
+            Size::Name(_) => 1,
+            Size::Product(factors) => {
+                let numbers = factors.iter().map(Size::number);
+                numbers.fold(1, u64::saturating_mul)
+            }
+        }
+    }
+    /// Its names.
+    pub fn names(&self) -> Vec<&Ident> {
+        match self {
+            Size::Literal(..) => Vec::new(),
+            Size::Name(name) => vec![name],
+            Size::Product(factors) => factors.iter().flat_map(Size::names).collect(),
+        }
+    }
     /// The place of the number or the name.
     pub fn span(&self) -> Span {
         match self {
             Size::Literal(_, span) => *span,
             Size::Name(name) => name.span(),
+            Size::Product(factors) => factors[0].span(),
         }
     }
 }

@@ -204,7 +204,7 @@ impl<'a> Checker<'a> {
     fn extent_shown(&self, extent: Extent) -> String {
         match extent {
             Extent::Literal(value) => value.to_string(),
-            Extent::Size(size) => self.out.sizes[size.0 as usize].name.to_string(),
+            _ => self.affine_shown(&extent.affine()),
         }
     }
 
@@ -231,11 +231,40 @@ impl<'a> Checker<'a> {
         self.out.nodes[node.0 as usize].ty
     }
 
+    /// The extent that a product of sizes is. It is in no type, so one of them is set at run time.
+    fn product(&mut self, span: Span, factors: &[Size]) -> Option<Extent> {
+        // All unknown sizes are reported.
+        let extents: Vec<Option<Extent>> = factors.iter().map(|size| self.extent(size)).collect();
+        let mut extents = extents.into_iter().collect::<Option<Vec<_>>>()?.into_iter();
+        let form = extents.try_fold(Affine::constant(1), |product, extent| {
+            product.checked_times(&extent.affine())
+        });
+        let Some((form, extent)) = form.and_then(|form| Some((form.clone(), Extent::of(&form)?)))
+        else {
+            let message = "this product needs more than 64 bits, or has more than four sizes";
+            self.report
+                .error(span, message, "write several extents: `[n][m]`");
+            return None;
+        };
+        let mut sizes = form.all_sizes();
+        if form.has_sizes() && !sizes.any(|size| self.out.sizes[size.0 as usize].run_time) {
+            let message = format!(
+                "the extent `{}` is set by const generics alone",
+                self.affine_shown(&form)
+            );
+            let help = "write several extents, `[N][M]`, or set a size at run time, `n: usize`: types of Rust have no products";
+            self.report.error(span, message, help);
+            return None;
+        }
+        Some(extent)
+    }
+
     /// The extent that a size stands for.
     fn extent(&mut self, size: &Size) -> Option<Extent> {
         let name = match size {
             Size::Literal(value, _) => return Some(Extent::Literal(*value)),
             Size::Name(name) => name,
+            Size::Product(factors) => return self.product(size.span(), factors),
         };
         let text = name.to_string();
         if let Some(index) = self.out.sizes.iter().position(|size| size.name == *name) {

@@ -235,6 +235,8 @@ pub enum Extent {
     Literal(u64),
     /// A const generic or run-time size.
     Size(Size),
+    /// A number times sizes, in order.
+    Product(u64, [Option<Size>; AXES]),
 }
 
 impl Extent {
@@ -245,7 +247,33 @@ impl Extent {
                 Affine::constant(i64::try_from(value).expect("check bounds literal sizes"))
             }
             Extent::Size(size) => Affine::size(size),
+            Extent::Product(number, sizes) => {
+                let number = Extent::Literal(number).affine();
+                let times = |form: Affine, size: Size| form.checked_times(&Affine::size(size));
+                let form = sizes.into_iter().flatten().try_fold(number, times);
+                form.expect("a product has one term")
+            }
         }
+    }
+
+    /// The extent that a form is, if it is a number, a size, or a product of a number and at most [`AXES`] sizes.
+    pub fn of(form: &Affine) -> Option<Extent> {
+        let number = |factor: i64| u64::try_from(factor).ok().filter(|number| *number > 0);
+        if let Some(value) = form.as_constant() {
+            return number(value).map(Extent::Literal);
+        }
+        let (sizes, factor) = match (&form.sizes[..], &form.products[..]) {
+            (&[(size, 1)], []) if *form == Affine::size(size) => return Some(Extent::Size(size)),
+            ([(size, factor)], []) => (std::slice::from_ref(size), factor),
+            ([], [(sizes, factor)]) => (&sizes[..], factor),
+            _ => return None,
+        };
+        let mut product = [None; AXES];
+        for (place, size) in product.get_mut(..sizes.len())?.iter_mut().zip(sizes) {
+            *place = Some(*size);
+        }
+        let extent = Extent::Product(number(*factor)?, product);
+        (extent.affine() == *form).then_some(extent)
     }
 }
 

@@ -5,7 +5,7 @@
 
 use super::Checker;
 use super::expr::Frame;
-use crate::ast::{ExprId, ExprKind};
+use crate::ast::{BinaryOp, ExprId, ExprKind};
 use crate::checked::Kind;
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 
@@ -13,10 +13,14 @@ impl Checker<'_> {
     /// An affine form over sizes and loops as it would be written.
     pub(super) fn affine_shown(&self, form: &Affine) -> String {
         let mut text = String::new();
-        let size = |&(size, k): &(Size, i64)| (&self.out.sizes[size.0 as usize].name, k);
-        let variable = |&(id, k): &(Domain, i64)| (&self.out.loops[id.0 as usize].name, k);
-        let sizes = form.sizes.iter().map(size);
-        for (name, coefficient) in sizes.chain(form.loops.iter().map(variable)) {
+        let name = |size: &Size| self.out.sizes[size.0 as usize].name.to_string();
+        let product = |sizes: &[Size]| sizes.iter().map(name).collect::<Vec<_>>().join("*");
+        let sizes = form.sizes.iter().map(|(size, k)| (name(size), *k));
+        let products = form.products.iter().map(|(sizes, k)| (product(sizes), *k));
+        let variable =
+            |&(id, k): &(Domain, i64)| (self.out.loops[id.0 as usize].name.to_string(), k);
+        let variables = form.loops.iter().map(variable);
+        for (name, coefficient) in sizes.chain(products).chain(variables) {
             let sign = match (text.is_empty(), coefficient < 0) {
                 (true, true) => "-",
                 (true, false) => "",
@@ -28,7 +32,7 @@ impl Checker<'_> {
             if magnitude != 1 {
                 text += &format!("{magnitude}*");
             }
-            text += &name.to_string();
+            text += &name;
         }
         match (text.is_empty(), form.constant) {
             (true, constant) => constant.to_string(),
@@ -82,6 +86,14 @@ impl Checker<'_> {
                 "this number is too large for an index or a range".into(),
                 format!("write one up to {}", i64::MAX),
             ),
+            Some(Kind::Binary(BinaryOp::Mul, a, b))
+                if [a, b].map(|side| self.affines[side.0 as usize].is_some()) == [true; 2] =>
+            {
+                (
+                    "a loop variable in an index or a range is multiplied by numbers alone".into(),
+                    "write an extent for each index: `w[n][m]` and `w[i][j]` instead of `w[n*m]` and `w[i*m + j]`".into(),
+                )
+            }
             _ => (
                 "indices and ranges are sums of whole multiples of loop variables and sizes".into(),
                 "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`".into(),

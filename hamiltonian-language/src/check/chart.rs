@@ -61,7 +61,9 @@ impl Checker<'_> {
 
     /// Records the condition that body 0 exists: the other bodies are relative to it.
     fn needs_first(&mut self, positions: &Ident, group: u16) {
-        if let Some((bodies @ Extent::Size(_), _)) = self.out.groups[usize::from(group)].ty.rows() {
+        if let Some((bodies, _)) = self.out.groups[usize::from(group)].ty.rows()
+            && !matches!(bodies, Extent::Literal(_))
+        {
             self.note(Reach {
                 shown: format!("{positions}[0]"),
                 span: positions.span(),

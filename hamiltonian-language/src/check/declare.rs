@@ -164,7 +164,7 @@ impl Checker<'_> {
                     self.type_shown(ty)
                 ),
             };
-            let is_open = |extent: &Extent| matches!(extent, Extent::Size(_));
+            let is_open = |extent: &Extent| !matches!(extent, Extent::Literal(_));
             let help = match ty {
                 _ if extents.iter().any(is_open) => {
                     "remove it and give the value to `new`: an array with a default has literal extents"
@@ -221,19 +221,11 @@ impl Checker<'_> {
     }
 
     pub(super) fn array(&mut self, sizes: &[Size]) -> Option<Type> {
-        let literal = |size: &Size| match size {
-            Size::Literal(value, _) => Some(*value),
-            Size::Name(_) => None,
-        };
-        let numbers = sizes.iter().filter_map(literal);
-        let numbers = numbers.fold(1u64, u64::saturating_mul);
-        let is_open = |size: &Size| match size {
-            Size::Name(name) => {
-                (self.out.sizes.iter()).any(|one| one.run_time && one.name == *name)
-            }
-            Size::Literal(..) => false,
-        };
-        if numbers > LARGEST && !sizes.iter().any(is_open) {
+        let numbers = sizes.iter().map(Size::number);
+        let numbers = numbers.fold(1, u64::saturating_mul);
+        let is_open =
+            |name: &Ident| (self.out.sizes.iter()).any(|one| one.run_time && one.name == *name);
+        if numbers > LARGEST && !sizes.iter().flat_map(Size::names).any(is_open) {
             let rows = &sizes[0];
             let message = format!(
                 "an array of {numbers} numbers does not fit on the stack, where at most {LARGEST} may stand"

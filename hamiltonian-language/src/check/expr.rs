@@ -268,9 +268,9 @@ impl Checker<'_> {
             (BinaryOp::Add, (Some(x), Some(y))) => x.checked_plus(1, y),
             (BinaryOp::Sub, (Some(x), Some(y))) => x.checked_plus(-1, y),
             (BinaryOp::Mul, (Some(x), Some(y))) => match (x.as_constant(), y.as_constant()) {
-                (Some(factor), _) => Affine::default().checked_plus(factor, y),
-                (_, Some(factor)) => Affine::default().checked_plus(factor, x),
-                _ => None,
+                (Some(factor), _) => y.times(factor),
+                (_, Some(factor)) => x.times(factor),
+                _ => x.checked_times(y),
             },
             _ => None,
         };

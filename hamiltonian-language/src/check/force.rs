@@ -98,7 +98,7 @@ impl Checker<'_> {
         };
         let name = |size: &Size| match size {
             Size::Name(name) => Some(name.clone()),
-            Size::Literal(..) => None,
+            Size::Literal(..) | Size::Product(_) => None,
         };
         let variables = signature.sections.iter().take(2).flatten();
         let mut names = variables.map(|variable| variable.sizes.iter().map(name).collect());

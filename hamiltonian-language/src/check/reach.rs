@@ -64,7 +64,7 @@ impl Checker<'_> {
         let room = self.fitting(raw.0, greatest.room_below(&size))?;
         let last = match extent {
             Extent::Literal(value) => (value - 1).to_string(),
-            Extent::Size(_) => format!("{shown} - 1"),
+            _ => format!("{shown} - 1"),
         };
         let help = if !affine.loops.is_empty() {
             format!(
@@ -254,14 +254,7 @@ impl Checker<'_> {
     /// The size to the right of `%`.
     fn modulus(&mut self, raw: ExprId, frame: &Frame) -> Option<Extent> {
         let form = self.affines[frame.value(raw)?.0 as usize].as_ref();
-        let extent = form.and_then(|form| match (form.as_constant(), form.sizes.as_slice()) {
-            (Some(value), _) => u64::try_from(value)
-                .ok()
-                .filter(|value| *value > 0)
-                .map(Extent::Literal),
-            (None, &[(size, 1)]) if *form == Affine::size(size) => Some(Extent::Size(size)),
-            _ => None,
-        });
+        let extent = form.and_then(Extent::of);
         if extent.is_none() {
             self.error(
                 raw,

@@ -107,7 +107,7 @@ impl Checker<'_> {
         let ty = ty.unwrap_or(Type::Scalar);
         let is_lattice = match ty {
             Type::Matrix(_, Extent::Literal(columns)) => columns > written_out(velocity.is_some()),
-            Type::Matrix(_, Extent::Size(_)) | Type::Array(_) => true,
+            Type::Matrix(..) | Type::Array(_) => true,
             _ => false,
         };
         self.out.groups.push(Group {

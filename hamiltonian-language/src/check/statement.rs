@@ -236,7 +236,7 @@ impl<'a> Checker<'a> {
         match ty {
             Type::Scalar | Type::Vector(Extent::Literal(_)) => return Some(root),
             Type::Bool => self.condition_as_number(value.root),
-            Type::Vector(Extent::Size(_)) | Type::Matrix(..) | Type::Array(_) => {
+            Type::Vector(_) | Type::Matrix(..) | Type::Array(_) => {
                 let article = if word == "invariant" { "an" } else { "a" };
                 let message = format!(
                     "{article} {word} is a scalar or a vector of known extent, but this is {}",

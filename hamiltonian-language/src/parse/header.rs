@@ -21,7 +21,7 @@ pub(super) struct Attribute {
     rest: (usize, usize),
 }
 
-const SIZE: &str = "write a number or the name of a size: `[3]`, `[N]`";
+const SIZE: &str = "write a number or the name of a size, or their product: `[3]`, `[N]`, `[n*m]`";
 const STRUCT: &str = "write `pub struct Name { m = 1.0 }` and the statements after it";
 
 impl Parser<'_> {
@@ -323,7 +323,10 @@ impl Parser<'_> {
         while self.at_open(Delimiter::Bracket) {
             let spans = self.group_spans();
             let outer = self.enter();
-            let size = self.size(spans)?;
+            let mut factors = vec![self.size(spans)?];
+            while self.eat('*') {
+                factors.push(self.size(spans)?);
+            }
             if self.position != self.limit {
                 let (message, help) = match self.kind() {
                     Some(TokenKind::Punct(';', _)) => (
@@ -335,7 +338,7 @@ impl Parser<'_> {
                         "write `[n][3]`",
                     ),
                     _ => (
-                        "a size is a number or a name, not an expression".into(),
+                        "a size is a number, a name, or a product of them".into(),
                         SIZE,
                     ),
                 };
@@ -349,7 +352,10 @@ impl Parser<'_> {
                     "write `[n][m][k][3]`, or several arrays",
                 );
             }
-            sizes.push(size);
+            sizes.push(match factors.len() {
+                1 => factors.remove(0),
+                _ => Size::Product(factors),
+            });
         }
         Ok(sizes)
     }

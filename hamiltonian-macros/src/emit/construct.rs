@@ -173,18 +173,16 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             let (rows, columns) = context.extents(shape);
             let _ = writeln!(
                 checks,
-                "__h::check_extents(\"{name}\", [{rows}, {columns}], [{value}.nrows(), {value}.ncols()])?;",
+                "__h::check_extents({:?}, [{rows}, {columns}], [{value}.nrows(), {value}.ncols()])?;",
+                reach::declared(&name.to_string(), parameter.ty, context),
             );
         }
     }
     if names.is_empty() {
         return TokenStream::new();
     }
-    let room: String = context
-        .groups
-        .iter()
-        .filter_map(|g| context.room(g))
-        .collect();
+    let groups = context.groups.iter().filter_map(|g| context.room(g));
+    let room = reach::products(context) + &groups.collect::<String>();
     let mut allow = allowances(&names);
     if names.len() > 7 {
         // The number of parameters of a system is not a matter of style.

@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::{lex, located};
-use hamiltonian_language::checked::{Extent, Reach};
+use hamiltonian_language::checked::{Extent, Reach, Type};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 use hamiltonian_symbolic::sort::Arrange;
 use proc_macro2::TokenStream;
@@ -13,11 +13,14 @@ use quote::quote;
 use std::fmt::Write;
 use std::iter;
 
-/// The sizes in the forms of a question.
-fn sizes(reach: &Reach) -> Vec<Size> {
+/// The sizes, and products of sizes, in the forms of a question.
+fn sizes(reach: &Reach) -> Vec<Vec<Size>> {
     let ranges = reach.loops.iter().flat_map(|(_, range)| range);
-    let forms = ranges.chain([&reach.form]);
-    let mut sizes: Vec<Size> = forms.flat_map(Affine::all_sizes).collect();
+    let mut sizes: Vec<Vec<Size>> = Vec::new();
+    for form in ranges.chain([&reach.form]) {
+        sizes.extend(form.sizes.iter().map(|(size, _)| vec![*size]));
+        sizes.extend(form.products.iter().map(|(product, _)| product.clone()));
+    }
     sizes.arrange();
     sizes.dedup();
     sizes
@@ -25,11 +28,8 @@ fn sizes(reach: &Reach) -> Vec<Size> {
 
 /// Returns true if a size that is set at run time has a say.
 fn is_run_time(reach: &Reach, context: Context) -> bool {
-    let extent = reach.extent.and_then(|extent| match extent {
-        Extent::Size(size) => Some(size),
-        Extent::Literal(_) => None,
-    });
-    let mut sizes = sizes(reach).into_iter().chain(extent);
+    let extent = reach.extent.map_or(Affine::default(), Extent::affine);
+    let mut sizes = sizes(reach).into_iter().flatten().chain(extent.all_sizes());
     sizes.any(|size| context.is_run_time[usize::from(size.0)])
 }
 
@@ -38,7 +38,7 @@ fn is_run_time(reach: &Reach, context: Context) -> bool {
 fn value(reach: &Reach, context: Context) -> String {
     let sizes = sizes(reach);
     let factors = |form: &Affine, loops: &[(Domain, [Affine; 2])]| {
-        let of_sizes = sizes.iter().map(|size| form.factor_of_size(*size));
+        let of_sizes = sizes.iter().map(|sizes| form.factor_of_sizes(sizes));
         let of_loops = loops.iter().map(|(id, _)| form.factor(*id));
         let factors: Vec<i64> = iter::once(form.constant)
             .chain(of_sizes)
@@ -53,10 +53,11 @@ fn value(reach: &Reach, context: Context) -> String {
         format!("[{lower}, {upper}]")
     };
     let loops: Vec<String> = reach.loops.iter().enumerate().map(range).collect();
-    let names: Vec<&str> = sizes
-        .iter()
-        .map(|size| context.indices.size(*size))
-        .collect();
+    let name = |sizes: &Vec<Size>| {
+        let names = sizes.iter().map(|size| context.indices.size(*size));
+        names.collect::<Vec<_>>().join(" * ")
+    };
+    let names: Vec<String> = sizes.iter().map(name).collect();
     format!(
         "__h::Reach {{ sizes: &[{}], loops: [{}], index: {} }}",
         names.join(", "),
@@ -66,10 +67,56 @@ fn value(reach: &Reach, context: Context) -> String {
 }
 
 fn bound(extent: Extent, context: Context) -> String {
+    context.indices.plain(&extent.affine())
+}
+
+/// An extent as it is written.
+fn written(extent: Extent, context: Context) -> String {
+    let name = |size: &Size| context.model.sizes[usize::from(size.0)].clone();
     match extent {
-        Extent::Literal(value) => format!("{value}usize"),
-        Extent::Size(size) => context.indices.size(size).to_owned(),
+        Extent::Literal(value) => value.to_string(),
+        Extent::Size(size) => name(&size),
+        Extent::Product(number, sizes) => {
+            let number = (number > 1).then(|| number.to_string()).into_iter();
+            let factors = number.chain(sizes.iter().flatten().map(name));
+            factors.collect::<Vec<_>>().join("*")
+        }
     }
+}
+
+/// The name of a parameter, with its extents if one of them is a product.
+pub fn declared(name: &str, ty: Type, context: Context) -> String {
+    let extents = ty.extents();
+    let is_product = |extent: &Extent| matches!(extent, Extent::Product(..));
+    let shown = extents.iter().filter(|_| extents.iter().any(is_product));
+    let shown = shown.map(|extent| format!("[{}]", written(*extent, context)));
+    name.to_owned() + &shown.collect::<String>()
+}
+
+/// The checks that products of sizes, in extents and ranges, fit `usize`.
+pub fn products(context: Context) -> String {
+    let checked = context.definition.checked;
+    let parameters = checked.parameters.iter().map(|parameter| parameter.ty);
+    let types = parameters.chain(checked.groups.iter().map(|group| group.ty));
+    let mut extents: Vec<Extent> = types.flat_map(Type::extents).collect();
+    for range in &checked.loops {
+        let products = [&range.lower, &range.upper].map(|form| form.products.iter());
+        extents.extend(products.into_iter().flatten().filter_map(|term| {
+            Extent::of(&Affine {
+                products: vec![(term.0.clone(), 1)],
+                ..Affine::default()
+            })
+        }));
+    }
+    extents.retain(|extent| matches!(extent, Extent::Product(..)));
+    extents.arrange();
+    extents.dedup();
+    let check = |extent: &Extent| {
+        let factors = bound(*extent, context).replace(" * ", ", ");
+        let written = written(*extent, context);
+        format!("__h::check_product({written:?}, &[{factors}])?;\n")
+    };
+    extents.iter().map(check).collect()
 }
 
 /// The questions asked when the code is compiled for certain sizes: a constant for each, which
@@ -82,9 +129,7 @@ pub fn compiled(context: Context) -> TokenStream {
             Some(extent) => {
                 let last = match extent {
                     Extent::Literal(value) => value.saturating_sub(1).to_string(),
-                    Extent::Size(size) => {
-                        format!("{} - 1", context.model.sizes[usize::from(size.0)])
-                    }
+                    _ => format!("{} - 1", written(extent, context)),
                 };
                 let message = format!(
                     "`{shown}` is out of range for these sizes: indices there run from 0 to {last}"

@@ -180,6 +180,17 @@ impl Affine {
     pub fn factor_of_size(&self, size: Size) -> i64 {
         factor(&self.sizes, size)
     }
+    /// The factor of a size, or of a product of sizes in order.
+    #[must_use]
+    pub fn factor_of_sizes(&self, sizes: &[Size]) -> i64 {
+        match sizes {
+            [size] => self.factor_of_size(*size),
+            _ => {
+                let term = self.products.iter().find(|(own, _)| own == sizes);
+                term.map_or(0, |(_, factor)| *factor)
+            }
+        }
+    }
     /// `factor·self`; `None` where a coefficient overflows.
     #[must_use]
     pub fn times(&self, factor: i64) -> Option<Affine> {

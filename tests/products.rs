@@ -1,0 +1,158 @@
+//! Extents that are products of sizes.
+
+use crate::common::bits;
+use hamiltonian::prelude::*;
+
+hamiltonian! {
+    /// A product of sizes and a multiple of a size: sums over all elements, over a ring, over neighbours; a product as
+    /// a number, and in an index.
+    pub struct Flat { n: usize, m: usize, k = 1.5, w: [n*m], s: [2*n] }
+    H(q[n*m]; p[n*m]) = sum(i in 0..n*m) {
+        p[i]^2/(2*w[i]) + k*q[i]^4/4 + (q[(i + 1) % (m*n)] - q[i])^2/2
+    } + sum(i in 0..2*n) { s[i] }*q[0] + dot(w, q)/(n*m) + q[n*m - 1]^2
+        + sum(i in 0..n*m - 1) { cos(q[i + 1] - q[i]) };
+    monitor last = q[n*m - 1]
+}
+
+hamiltonian! {
+    /// The same with a name for each extent.
+    pub struct Line { n: usize, l: usize, k = 1.5, w: [n], s: [l] }
+    H(q[n]; p[n]) = sum(i in 0..n) {
+        p[i]^2/(2*w[i]) + k*q[i]^4/4 + (q[(i + 1) % n] - q[i])^2/2
+    } + sum(i in 0..l) { s[i] }*q[0] + dot(w, q)/n + q[n - 1]^2
+        + sum(i in 0..n - 1) { cos(q[i + 1] - q[i]) };
+    monitor last = q[n - 1]
+}
+
+hamiltonian! {
+    /// A const generic among the factors, columns, and sums over pairs.
+    pub struct Bonds<const N: usize> { m: usize, G = 1.0 }
+    H(q[N*m][3]; p[N*m][3]) = sum(i in 0..N*m) { norm_squared(p[i])/2 }
+        + sum(i in 0..N*m, j in 0..i) { G*norm_squared(q[i] - q[j])^2 };
+    invariant momentum = sum(i in 0..N*m) { p[i] };
+    invariant angular = sum(i in 0..m*N) { cross(q[i], p[i]) }
+}
+
+hamiltonian! {
+    /// The twin of `Bonds`.
+    pub struct Pairs { n: usize, G = 1.0 }
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/2 }
+        + sum(i in 0..n, j in 0..i) { G*norm_squared(q[i] - q[j])^2 }
+}
+
+hamiltonian! {
+    /// Rows of a lattice.
+    pub struct Sheet { n: usize, m: usize }
+    H(u[n*m][n]; p[n*m][n]) = sum(i in 0..n*m, j in 0..n) {
+        p[i][j]^2/2 + (u[(i + 1) % (n*m)][j] - u[i][j])^4/4
+    };
+    invariant momentum = sum(i in 0..n*m, j in 0..n) { p[i][j] }
+}
+
+hamiltonian! {
+    /// The twin of `Sheet`.
+    pub struct Rows { r: usize, n: usize }
+    H(u[r][n]; p[r][n]) = sum(i in 0..r, j in 0..n) {
+        p[i][j]^2/2 + (u[(i + 1) % r][j] - u[i][j])^4/4
+    }
+}
+
+fn given(count: usize, salt: usize) -> Vec<f64> {
+    (0..count).map(|k| ((7 * k + salt) as f64).sin()).collect()
+}
+
+/// Both systems have the same energies and gradients at a state, and after some steps of each scheme, bit for bit.
+macro_rules! same {
+    ($a:expr, $b:expr, $start:expr) => {{
+        let (a, b, start) = (&$a, &$b, $start);
+        assert_eq!(a.energy(&start).to_bits(), b.energy(&start).to_bits());
+        assert_eq!(a.gradient(&start), b.gradient(&start));
+        same!(@ StormerVerlet::default(), a, b, start);
+        same!(@ Gauss::<2>::default(), a, b, start);
+    }};
+    (@ $scheme:expr, $a:ident, $b:ident, $start:ident) => {
+        let mut one = Integrator::new($a, $scheme, $start.clone(), 0.01).unwrap();
+        let mut other = Integrator::new($b, $scheme, $start.clone(), 0.01).unwrap();
+        one.advance(20).unwrap();
+        other.advance(20).unwrap();
+        assert_eq!(one.state(), other.state());
+        assert_ne!(*one.state(), $start);
+    };
+}
+
+/// Extents of one element, short ones, and ones that enter lanes.
+const SIZES: [(usize, usize); 6] = [(1, 1), (1, 2), (2, 3), (5, 13), (8, 37), (40, 40)];
+
+#[test]
+fn a_product_has_the_bits_of_a_size_of_its_value() {
+    for (n, m) in SIZES {
+        let k = n * m;
+        let w: Vec<f64> = given(k, 0).iter().map(|x| x + 1.5).collect();
+        let flat = Flat::new(n, m, w.clone(), given(2 * n, 1)).unwrap();
+        let line = Line::new(k, 2 * n, w, given(2 * n, 1)).unwrap();
+        let start = State::new(given(k, 2), given(k, 3));
+        let (a, b) = (
+            flat.parameter_gradient(&start),
+            line.parameter_gradient(&start),
+        );
+        assert_eq!((a.k, a.w(), a.s()), (b.k, b.w(), b.s()));
+        assert_eq!(flat.last(&start), start.q[k - 1]);
+        bits::check(&flat, k as u64);
+        same!(flat, line, start);
+    }
+}
+
+#[test]
+fn products_are_extents_of_columns_and_of_lattices() {
+    for m in [1, 2, 17, 20] {
+        let triples = |salt| {
+            let numbers = given(6 * m, salt).into_iter();
+            numbers.map(|x| [x, x * x, 0.5 - x]).collect::<Vec<_>>()
+        };
+        let bonds = Bonds::<2>::new(m).unwrap();
+        let start = State::new(triples(0)[..2 * m].to_vec(), triples(1)[..2 * m].to_vec());
+        same!(bonds, Pairs::new(2 * m).unwrap(), start);
+        let rows = |salt| vec![given(3, salt); 3 * m];
+        let sheet = Sheet::new(3, m).unwrap();
+        same!(
+            sheet,
+            Rows::new(3 * m, 3).unwrap(),
+            State::new(rows(0), rows(1))
+        );
+    }
+}
+
+#[test]
+fn errors_name_the_product() {
+    let refused = |n, m, w: usize, s: usize| {
+        let made = Flat::new(n, m, vec![1.0; w], vec![1.0; s]);
+        made.unwrap_err().to_string()
+    };
+    assert_eq!(
+        refused(2, 3, 5, 4),
+        "`w[n*m]` must have 6 components, found 5"
+    );
+    assert_eq!(
+        refused(2, 3, 6, 3),
+        "`s[2*n]` must have 4 components, found 3"
+    );
+    assert_eq!(
+        refused(2, 0, 0, 4),
+        "`q[0]` reaches 0, but the extent is 0: the sizes do not fit"
+    );
+    let large = 1 << (usize::BITS - 2);
+    assert_eq!(
+        refused(large, 8, 1, 1),
+        "`n*m` does not fit into memory: the sizes are too large"
+    );
+    let flat = Flat::new(2, 3, vec![1.0; 6], vec![1.0; 4]).unwrap();
+    let short = State::new(vec![1.0; 5], vec![1.0; 5]);
+    assert_eq!(
+        flat.check_shape(&short).unwrap_err().to_string(),
+        "`q` must have 6 components, found 5"
+    );
+    assert!(
+        flat.to_string()
+            .starts_with("H(q[n*m]; p[n*m]) = sum(i in 0..n*m) { p[i]^2/(2*w[i])")
+    );
+}

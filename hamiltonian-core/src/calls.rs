@@ -44,24 +44,7 @@ macro_rules! calls {
     };
 }
 
-// From how many calls on the chain of an evaluation is shorter by a fifth or more. (Zen 5, ns of 2, 4 and 8 calls alone
-// and together: exp 19 → 17, 23 → 18, 41 → 21; ln 25 → 19, 27 → 19, 49 → 22; sines and cosines together 20 → 20,
-// 28 → 23, 56 → 34. Sines alone, cosines, inverse sines and error functions are slower together.)
-calls! {
-    Cbrt cbrt 4;
-    Tan tan 4;
-    Atan atan 2;
-    Sinh sinh 2;
-    Cosh cosh 2;
-    Tanh tanh 2;
-    Asinh asinh 2;
-    Acosh acosh 2;
-    Atanh atanh 2;
-    Exp exp 3;
-    ExpM1 exp_m1 4;
-    Ln ln 2;
-    Ln1p ln_1p 4;
-}
+hamiltonian_lanes::computed_together!(calls);
 
 /// Sine and cosine of one angle.
 #[derive(Debug)]

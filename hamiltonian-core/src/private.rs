@@ -21,10 +21,7 @@ pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
 
-pub use crate::calls::{
-    Acosh, Asinh, Atan, Atanh, Call, Cbrt, Cosh, Exp, ExpM1, Ln, Ln1p, SinCos, Sinh, Tan, Tanh,
-    are_together, together,
-};
+pub use crate::calls::*;
 pub use crate::error::Error;
 pub use crate::exponential::Exponential;
 use crate::flow::{Flow, Piece, Pieces};

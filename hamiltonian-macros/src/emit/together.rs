@@ -6,25 +6,8 @@
 
 use super::context::{Access, Context};
 use hamiltonian_symbolic::dag::Map;
-use hamiltonian_symbolic::op::Op;
+use hamiltonian_symbolic::op::{Op, TOGETHER};
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
-
-/// Functions of one number that are faster together, as core's `calls` knows them.
-const TOGETHER: [Op; 13] = [
-    Op::Cbrt,
-    Op::Tan,
-    Op::Atan,
-    Op::Sinh,
-    Op::Cosh,
-    Op::Tanh,
-    Op::Asinh,
-    Op::Acosh,
-    Op::Atanh,
-    Op::Exp,
-    Op::ExpM1,
-    Op::Ln,
-    Op::Ln1p,
-];
 
 /// The most calls that core computes together.
 const MOST: usize = 8;

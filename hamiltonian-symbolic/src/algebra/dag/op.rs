@@ -304,6 +304,13 @@ operations! {
         |d, x, f| underivable();
 }
 
+macro_rules! list {
+    ($($variant:ident $name:ident $least:literal;)*) => { &[$(Op::$variant),*] };
+}
+
+/// Functions whose independent calls are faster together.
+pub const TOGETHER: &[Op] = hamiltonian_real::computed_together!(list);
+
 /// Rows from here on are those of exact flows, and no functions of the language.
 const LANGUAGE: usize = Op::Anomaly as usize;
 

@@ -186,6 +186,7 @@ fn main() {
         RungeKutta4, Strang, Ruth3, Yoshida4, Suzuki4, BlanesMoan4, Yoshida6, KahanLi6, BlanesMoan6,
         McLachlan8, KahanLi8, SofroniouSpaletta8, SofroniouSpaletta10, Saba2, Saba3, Saba4, Aba104, Aba864,
         Aba1064, Processed4::default(), Processed6::default(), BlanesCasasMurua8::default(),
+        CheapProcessed4::default(),
         WisdomHolman3::default(), WisdomHolman5::default(), WisdomHolman7::default(), WisdomHolman11::default(),
         WisdomHolman17::default(), Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst,
         TwoStepMidpoint { start: Start::Equal }, TwoStepMidpoint { start: Start::HalfEuler },

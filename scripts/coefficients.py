@@ -249,6 +249,36 @@ class Processed(Table):
         return f"{rust(self.kernel, kernel)}\n{self.name}: {weights(processor)}"
 
 
+class Mean(Table):
+    """The cheap post-processor ρ of the table `processed`: the mean of ρ(h) and ρ(−h) agrees with π in the words
+    of weight at most `to`, both being even. ρ is χ and its adjoint in turn, and the sum of its durations is zero.
+    """
+
+    def __init__(self, name, processed, to, numbers):
+        self.name, self.processed, self.to = name, processed, to
+        self.digits = [mpf(n) for n in numbers]
+
+    @lru_cache(maxsize=None)
+    def wanted(self):
+        _, processor = self.processed.parts(polish(self.processed))
+        return self.series(processor + [-c for c in processor])
+
+    def series(self, numbers):
+        """The words of a composition for which there are conditions."""
+        space = words(tuple(range(1, self.to + 1)), self.to)
+        series = {w: mpf(w == ()) for w in space}
+        for i, c in enumerate(numbers):
+            sign = (-1) ** i
+            series = times_exponential(series, lambda k, c=c, s=sign: s * (s * c) ** k, space)
+        return [series[w] for w in space if sum(w) % 2 == 0 or w == (1,)]
+
+    def conditions(self, x):
+        return [a - b for a, b in zip(self.series(list(x)), self.wanted())]
+
+    def rust(self, x):
+        return f"{self.name}: {weights(x)}"
+
+
 # --- polishing -----------------------------------------------------------------------------------
 
 def jacobian(table, x):
@@ -320,7 +350,7 @@ def weights(numbers):
 
 
 def rust(table, x):
-    if isinstance(table, Processed):
+    if isinstance(table, (Processed, Mean)):
         return table.rust(x)
     return f"{table.name}: {weights(x)}"
 
@@ -464,6 +494,12 @@ TABLES += [
               "-0.543415765371656 0.598212975943381 0.236885952363384 -0.511744926116413 "
               "0.162324207599241 0.588351189003849 0.333987768164597 -0.337188967354338 "
               "-0.008488123494574411".split(), layout="symmetric"),
+]
+
+TABLES += [
+    Mean("MEAN_4", TABLES[-3], 5,
+         "0.1120566881706584 -0.2980096237039461 -0.08628892551533857 0.011319292170399361 "
+         "0.26092256887822596".split()),
 ]
 
 

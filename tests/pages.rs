@@ -101,6 +101,7 @@ fn an_author_of_schemes_has_one_page() {
             "Kernel",
             "Processor",
             "Corrector",
+            "Mean",
             "Visitor",
             "visit_",
         ]

@@ -106,6 +106,61 @@ fn processing_saves_a_quarter_of_the_stages_of_order_6() {
     assert!(round_the_hole >= 1.3, "{round_the_hole}");
 }
 
+/// Stages of runs whose states are seen, relative to [`BlanesMoan4`]; both have an error of 1e-8 in H.
+struct Seen {
+    /// [`Processed4`] without its processors.
+    processed: f64,
+    /// [`CheapProcessed4`] without its means.
+    cheap: f64,
+}
+
+impl Seen {
+    fn new<S>(system: &S, start: &State<S::Vector>, end: f64, least: f64) -> Seen
+    where
+        S: Split<f64> + Exact + Unforced,
+    {
+        let (processed, cheap) = (Processed4::default(), CheapProcessed4::default());
+        let plain = stages(system, &BlanesMoan4, start, end, (6.0, least));
+        Seen {
+            processed: stages(system, &processed, start, end, (5.0, least)) / plain,
+            cheap: stages(system, &cheap, start, end, (5.0, least)) / plain,
+        }
+    }
+
+    /// With one state seen in `every` steps: 12 stages of π, or 2 × 2½ of the mean, for 5 of a step.
+    fn every(&self, every: f64) -> [f64; 2] {
+        [
+            self.processed * (1.0 + 12.0 / 5.0 / every),
+            self.cheap * (1.0 + 1.0 / every),
+        ]
+    }
+}
+
+/// The table in `book/src/schemes.md`: where every step is seen, the scheme without a processor is the best of the
+/// three, and where every tenth is, that with the cheap post-processor.
+#[test]
+fn a_cheap_post_processor_saves_work_where_many_steps_are_seen() {
+    let start = State::new([11.0, FRAC_PI_2], [0.0, 2.062_449_325_976_816]);
+    for (name, seen) in [
+        (
+            "(34)",
+            Seen::new(&Coupled {}, &State::new([-3.0], [0.0]), 10.0, 60.0),
+        ),
+        (
+            "black hole",
+            Seen::new(&BlackHole::default(), &start, 1000.0, 0.6),
+        ),
+    ] {
+        for every in [1.0, 2.0, 5.0, 10.0, 20.0] {
+            println!("{name}, one in {every}: {:.2?}", seen.every(every));
+        }
+        let [processed, cheap] = seen.every(1.0);
+        assert!(1.0 < cheap && cheap < 0.65 * processed, "{name}");
+        let [processed, cheap] = seen.every(10.0);
+        assert!(cheap < 1.0 && cheap < 0.95 * processed, "{name}");
+    }
+}
+
 /// The Sun and the outer planets on 5 September 1994 (Hairer, Lubich, Wanner, Geometric Numerical Integration,
 /// 2006, table I.2.2): mass, position, velocity.
 #[rustfmt::skip]
@@ -195,6 +250,7 @@ fn forced_systems_have_the_order_of_the_scheme() {
     is_of_order(Processed4::default(), exact);
     is_of_order(Processed6::default(), exact);
     is_of_order(WisdomHolman3::default(), exact);
+    is_of_order(CheapProcessed4::default(), exact);
 }
 
 /// max |ΔH| of every tenth of 10⁷ steps round the black hole is that of the first.

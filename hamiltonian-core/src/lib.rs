@@ -171,14 +171,14 @@ pub mod prelude {
     };
     pub use crate::schemes::{
         Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesCasasMurua8, BlanesMoan4,
-        BlanesMoan6, Compensated, Composition, ConsecutiveSubTrajectories, Density,
-        DiscreteGradient, Gauss, GaussNystrom, ImplicitMidpoint, IntersectingSubTrajectories,
-        KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed, MomentumVariational, Paced,
-        Pihajoki, Processed, Processed4, Processed6, RungeKutta4, Ruth3, Saba2, Saba3, Saba4,
-        Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start,
-        StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint,
-        Variational, WisdomHolman3, WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17,
-        Yoshida4, Yoshida6,
+        BlanesMoan6, CheapProcessed, CheapProcessed4, Compensated, Composition,
+        ConsecutiveSubTrajectories, Density, DiscreteGradient, Gauss, GaussNystrom,
+        ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8,
+        MidpointProjected, Mixed, MomentumVariational, Paced, Pihajoki, Processed, Processed4,
+        Processed6, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8,
+        SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
+        SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational, WisdomHolman3,
+        WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
     };
     pub use crate::tangents::{
         Closing, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,

@@ -22,6 +22,8 @@ pub enum Form {
     /// dq_a∧dp_b + dq_b∧dp_a of two points a and b that the scheme carries, and not dq∧dp of
     /// the one that is seen.
     TwoPoint,
+    /// dq∧dp of the point that the scheme carries, and not of the one that is seen.
+    CarriedPoint,
     /// dq∧dp of the state up to O(h^(2p+2)) a step for order p: the scheme is pseudo-symplectic.
     Nearly,
     /// None.

@@ -10,7 +10,7 @@ use hamiltonian_core::schemes::{
     inside::{Kernel4, Kernel6},
 };
 use hamiltonian_core::{
-    Scheme,
+    DoubleDouble, Exact, Real, Scheme, Split,
     schemes::author::{Entry, Listed, OneStep},
 };
 
@@ -77,6 +77,38 @@ fn observers_change_no_bit() {
     assert!((unseen.carried().q[0] - unseen.state().q[0]).abs() > 1e-9);
     drop(watched);
     assert_eq!(seen[0], 0.9);
+}
+
+/// Three and four pieces, and pieces that depend on time.
+#[test]
+fn a_cheap_post_processor_is_off_by_its_order_and_no_bit_is_carried() {
+    fn holds<S: Split<DoubleDouble> + Exact>(system: &S, q: &[f64], p: &[f64]) {
+        let begin = start::<DoubleDouble, S>(system, q, p);
+        let off = |n: u64| {
+            let h = DoubleDouble::one() / DoubleDouble::from(n as f64);
+            let mut cheap =
+                Integrator::new(system, CheapProcessed4::default(), begin.clone(), h).unwrap();
+            let mut processed =
+                Integrator::new(system, Processed4::default(), begin.clone(), h).unwrap();
+            cheap.advance(n).unwrap();
+            processed.advance(n).unwrap();
+            assert_eq!(cheap.carried(), processed.carried());
+            difference(cheap.state(), processed.state())
+        };
+        // Over seven halvings of the step: the terms h⁵ and h⁶ cancel somewhere between.
+        let order = (off(64) / off(8192)).log2() / 7.0;
+        assert!((4.95..6.0).contains(&order), "{order}");
+        is(4.0, slope(system, CheapProcessed4::default(), q, p));
+        // ρ alone is no processor: the control.
+        let alone = Processed {
+            kernel: Kernel4,
+            processor: CheapProcessed4::default().mean_of,
+        };
+        is(3.0, slope(system, alone, q, p));
+    }
+    holds(&Hand(Polar::<3>), &[0.4, 0.7], &[0.2, 0.15]);
+    holds(&Hand(Polar::<4>), &[0.4, 0.7], &[0.2, 0.15]);
+    holds(&Hand(Pumped), &[0.9], &[0.4]);
 }
 
 /// Processors of different steps do not cancel: each stage closes and the next one opens.
@@ -151,6 +183,7 @@ fn energy_does_not_drift() {
     }
     tenths(Processed4::default(), 0.5);
     tenths(Processed6::default(), 1.2);
+    tenths(CheapProcessed4::default(), 0.5);
     tenths(BlanesCasasMurua8::default(), 1.2);
     tenths(WisdomHolman17::default(), 0.25);
 }

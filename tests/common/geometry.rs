@@ -175,6 +175,10 @@ impl<S: System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
                     &carried_tangent(&self.system, &scheme, &start, self.h, made),
                     uncrossed(n),
                 ),
+                Form::CarriedPoint => defect(
+                    &carried_tangent(&self.system, &scheme, &start, self.h, made),
+                    one_point(n),
+                ),
                 Form::OnePoint | Form::Nearly | Form::Nothing => defect(
                     &visible_tangent(&self.system, &scheme, &start, self.h, made + 1),
                     one_point(n),

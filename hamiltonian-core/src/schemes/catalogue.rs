@@ -6,8 +6,8 @@
 
 use super::{
     Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesCasasMurua8, BlanesMoan4, BlanesMoan6,
-    Compensated, ConsecutiveSubTrajectories, DiscreteGradient, Gauss, GaussNystrom,
-    ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8,
+    CheapProcessed4, Compensated, ConsecutiveSubTrajectories, DiscreteGradient, Gauss,
+    GaussNystrom, ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8,
     MidpointProjected, Mixed, MomentumVariational, Pihajoki, Processed4, Processed6, RungeKutta4,
     Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b,
     Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao,
@@ -47,7 +47,7 @@ macro_rules! visit {
 
 macro_rules! catalogue {
     (any { $($any:expr,)+ } unforced { $($(@$unforced_kind:ident)? $unforced:expr,)+ }
-     split { $($split:expr,)+ } exact { $($exact:expr,)+ }
+     split { $($split:expr,)+ } exact { $($(@$exact_kind:ident)? $exact:expr,)+ }
      separable { $($separable:expr,)+ } nystrom { $($nystrom:expr,)+ } quadratic { $($quadratic:expr,)+ }
      implicit { $($implicit:expr,)+ } energy { $($energy:expr,)+ } doubled { $($(@$doubled_kind:ident)? $doubled:expr,)+ }
      compensated { $($compensated:expr,)+ } transformed { $($transformed:expr,)+ }) => {
@@ -83,7 +83,7 @@ macro_rules! catalogue {
 
         /// Visits the schemes that require pieces with exact flows only.
         pub fn visit_exact<T: Real, S: Split<T> + Exact>(visitor: &mut impl Visitor<T, S>) {
-            $(visit!(visitor, $exact);)+
+            $(visit!(visitor, $($exact_kind)? $exact);)+
         }
 
         /// Visits the schemes that require H = T(p, t) + V(q, t).
@@ -179,6 +179,7 @@ exact {
     Processed4::default(),
     Processed6::default(),
     BlanesCasasMurua8::default(),
+    @carries CheapProcessed4::default(),
     WisdomHolman3::default(),
     WisdomHolman5::default(),
     WisdomHolman7::default(),

@@ -2,13 +2,13 @@
 //!
 //! Input: a [`Split`] system, the tables of a kernel and of a processor. Output: [`Processed`].
 //! Invariant: the carried value is the state before the processor, so that a step costs its kernel
-//! alone; the processor is applied to the observed copy.
+//! alone; the post-processor is applied to the observed copy.
 
 use super::splitting::{Durations, Negated, Reversed, Splitting};
 use super::strang::Strang;
 use super::tables::processed as tables;
-use super::zigzag::Zigzag;
-use crate::flow::{Flow, Pieces};
+use super::zigzag::{Zigzag, ZigzagOf};
+use crate::flow::{Flow, Pieces, Scratch};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Carried, Point, State};
@@ -25,8 +25,9 @@ use hamiltonian_lanes::{Mask, Real};
 /// A run applies π⁻¹ once at its start, then K in each step, and π to the copy of the state that an
 /// observer or the caller sees. K has to satisfy only the order conditions that no change of
 /// variables removes. It therefore needs fewer stages than a splitting of the same order, or has
-/// smaller errors with as many. An observer of every step causes a processor in every step; see
-/// [`every`](crate::observers::every).
+/// smaller errors with as many. An observer of every step causes a processor in every step: observe less
+/// often, by [`every`](crate::observers::every), or use a
+/// [cheap post-processor](super::CheapProcessed).
 ///
 /// Both K and π are compositions of the exact flows, so Φ preserves dq∧dp. Its adjoint is
 /// π₋ₕ ∘ K* ∘ π₋ₕ⁻¹; π and π₋ₕ agree to the order of the scheme but not to the last bit, so Φ is symmetric to
@@ -85,16 +86,13 @@ where
         <S::Pieces as Pieces<T, S::Prepared>>::Inner,
         K,
         P,
+        ZigzagOf<T, S, S::Pieces, P>,
     >;
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        let (pieces, whole) = (&S::PIECES, Step::of(step.h));
-        let unprocessing = Reversed(Negated(self.processor));
-        Processing {
-            unprocessor: Zigzag::new(&unprocessing, pieces, prepared, whole),
-            kernel: Zigzag::new(&self.kernel, pieces, prepared, step),
-            processor: Zigzag::new(&self.processor, pieces, prepared, whole),
-        }
+        let whole = Step::of(step.h);
+        let post_processor = Zigzag::new(&self.processor, &S::PIECES, prepared, whole);
+        Processing::new(self, post_processor, &S::PIECES, prepared, step)
     }
     /// Processors of different steps do not cancel.
     #[inline(always)]
@@ -115,67 +113,121 @@ where
     }
 }
 
-/// The map of a [`Processed`] scheme.
+/// What makes the observed state from the kernel's, at one time.
+pub trait PostProcessor<X: Carried, W> {
+    /// Scratch besides that of the kernel.
+    type Work: Scratch<X>;
+    /// Makes the observed state.
+    fn post_process(&self, t: X::Scalar, z: &mut X, work: &mut (W, Self::Work));
+    /// Repeats what led to a state that is not finite, and returns the cause.
+    fn blame(&self, t: X::Scalar, z: &mut X, work: &mut (W, Self::Work)) -> Cause;
+}
+
+/// π itself.
+impl<X: Carried, O: Flow<X>, I: Flow<X>, P: Splitting> PostProcessor<X, (O::Work, I::Work)>
+    for Zigzag<X, O, I, P>
+{
+    type Work = ();
+
+    #[inline(always)]
+    fn post_process(&self, t: X::Scalar, z: &mut X, (work, ()): &mut ((O::Work, I::Work), ())) {
+        self.step(t, t, z, work);
+    }
+
+    #[cold]
+    fn blame(&self, t: X::Scalar, z: &mut X, (work, ()): &mut ((O::Work, I::Work), ())) -> Cause {
+        self.explain(t, t, true, z, work)
+    }
+}
+
+/// The map of a processed scheme whose post-processor is `C`.
 #[derive(Debug)]
-pub struct Processing<X: Vector, O, I, K: Splitting, P: Splitting> {
+pub struct Processing<X: Vector, O, I, K: Splitting, P: Splitting, C> {
     /// π⁻¹.
     unprocessor: Zigzag<X, O, I, Reversed<Negated<P>>>,
     kernel: Zigzag<X, O, I, K>,
-    /// π.
-    processor: Zigzag<X, O, I, P>,
+    post_processor: C,
 }
 
-/// A processor at the time `t`, to which the clock returns, because the durations sum to zero.
+impl<X: Vector, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting, C>
+    Processing<X, O, I, K, P, C>
+{
+    /// Folds the tables into the flows.
+    #[inline(always)]
+    pub(super) fn new<D, Q>(
+        scheme: &Processed<K, P>,
+        post_processor: C,
+        pieces: &Q,
+        prepared: &D,
+        step: Step<X::Scalar>,
+    ) -> Self
+    where
+        Q: Pieces<X::Scalar, D, Point = X, Outer = O, Inner = I>,
+    {
+        let unprocessing = Reversed(Negated(scheme.processor));
+        Processing {
+            unprocessor: Zigzag::new(&unprocessing, pieces, prepared, Step::of(step.h)),
+            kernel: Zigzag::new(&scheme.kernel, pieces, prepared, step),
+            post_processor,
+        }
+    }
+}
+
+/// A processor at one time, to which its clock returns, because the durations sum to zero.
 ///
 /// It is long and rare, so it is compiled once, apart from the loop over steps. Its point is moved
 /// there and back, so that the point of the loop stays in registers.
 #[inline(always)]
-fn apart<X, O, I, W>(
-    processor: &Zigzag<X, O, I, W>,
-    t: X::Scalar,
-    z: &mut X,
-    work: &mut (O::Work, I::Work),
-) where
-    X: Carried,
-    O: Flow<X>,
-    I: Flow<X>,
-    W: Splitting,
-{
+fn apart<X: Carried>(z: &mut X, processor: impl FnOnce(&mut X)) {
     let mut moved = z.take();
     X::Scalar::out_of_line(
         #[inline(always)]
-        || processor.step(t, t, &mut moved, work),
+        || processor(&mut moved),
     );
     *z = moved;
 }
 
-impl<X: Carried, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting> Map
-    for Processing<X, O, I, K, P>
+impl<X, O, I, K, P, C> Map for Processing<X, O, I, K, P, C>
+where
+    X: Carried,
+    O: Flow<X>,
+    I: Flow<X>,
+    K: Splitting,
+    P: Splitting,
+    C: PostProcessor<X, (O::Work, I::Work)>,
 {
     type Carried = X;
-    /// The scratch of the kernel, which the processors share.
-    type Work = (O::Work, I::Work);
+    /// The scratch of the kernel, which the processors share, and more of the post-processor.
+    type Work = ((O::Work, I::Work), C::Work);
 
     #[inline(always)]
     fn open(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
-        apart(&self.unprocessor, t, z, work);
-        self.kernel.open(t, z, work);
+        apart(
+            z,
+            #[inline(always)]
+            |moved| self.unprocessor.step(t, t, moved, &mut work.0),
+        );
+        self.kernel.open(t, z, &mut work.0);
     }
 
     #[inline(always)]
     fn body(&self, t: X::Scalar, end: X::Scalar, z: &mut X, work: &mut Self::Work) {
-        self.kernel.body(t, end, z, work);
+        self.kernel.body(t, end, z, &mut work.0);
     }
 
     #[inline(always)]
     fn close(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
-        self.kernel.close(t, z, work);
-        apart(&self.processor, t, z, work);
+        self.kernel.close(t, z, &mut work.0);
+        apart(
+            z,
+            #[inline(always)]
+            |moved| self.post_processor.post_process(t, moved, work),
+        );
     }
 
     #[inline(always)]
     fn join(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
-        self.kernel.join(t, z, work);
+        self.kernel.join(t, z, &mut work.0);
     }
 
     #[cold]
@@ -188,17 +240,17 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting> Map
         work: &mut Self::Work,
     ) -> Cause {
         if first {
-            let cause = self.unprocessor.explain(t, t, true, z, work);
+            let cause = self.unprocessor.explain(t, t, true, z, &mut work.0);
             if !z.is_finite() {
                 return cause;
             }
         }
         // This closes the kernel too.
-        let cause = self.kernel.explain(t, end, first, z, work);
+        let cause = self.kernel.explain(t, end, first, z, &mut work.0);
         if !z.is_finite() {
             return cause;
         }
-        self.processor.explain(end, end, true, z, work)
+        self.post_processor.blame(end, z, work)
     }
 }
 
@@ -237,6 +289,8 @@ macro_rules! weights {
         }
     };
 }
+
+pub(super) use weights;
 
 /// The kernel `$kernel` and the processor `$processor` of a table, and the scheme `$scheme` of the two.
 macro_rules! processed {

@@ -1,10 +1,10 @@
 //! Tables of processed splittings: a kernel, and the processor π around all its steps.
 //!
 //! Input: the digits as published or found by `scripts/kernels.py`, polished by `scripts/coefficients.py`.
-//! Output: the tables of order 4 to 8, and the correctors of Strang's splitting. Invariant: π⁻¹, kernel and π
-//! one after the other satisfy the conditions of the class; the durations of π sum to zero.
+//! Output: the tables of order 4 to 8, the correctors of Strang's splitting, a cheap post-processor. Invariant:
+//! π⁻¹, kernel and π one after the other satisfy the conditions of the class; the durations of π sum to zero.
 
-use super::{Class, near_integrable::SABA_1, palindrome, symmetric};
+use super::{Class, Coefficients, near_integrable::SABA_1, palindrome, symmetric};
 use crate::schemes::author::{Durations, Weight};
 
 /// A kernel of `K` stages and a processor of `P`.
@@ -51,6 +51,22 @@ pub const PROCESSED_4: Processing<5, 12> = Processing {
         Weight(0.0783060994789379, -5.569641933618102e-18),
     ]),
     source: "kernel and processor by scripts/kernels.py, after S. Blanes, F. Casas, A. Murua, SIAM J. Sci. Comput. 27, 1817 (2006), doi:10.1137/030601223",
+};
+
+/// ρ of [`PROCESSED_4`]: the mean of ρ(h) and ρ(−h) is π up to O(h⁵).
+pub const MEAN_4: Coefficients<3> = Coefficients {
+    name: "Processed 4, cheap post-processor",
+    order: 4,
+    class: Class::General,
+    stages: pairs([
+        Weight(0.11205668817065838, 5.825840820242514e-18),
+        Weight(-0.29800962370394685, -3.2063224867774246e-18),
+        Weight(-0.08628892551533836, 3.927585551402205e-18),
+        Weight(0.01131929217039982, -3.652389357487664e-19),
+        Weight(0.260922568878227, -1.1386035377048948e-17),
+        Weight(0.0, 0.0),
+    ]),
+    source: "by scripts/coefficients.py, after S. Blanes, F. Casas, A. Murua, SIAM J. Numer. Anal. 42, 531 (2004), doi:10.1137/S0036142902417029",
 };
 
 /// Order 6 with 8 stages: the least error modulo conjugation that was found.

@@ -1,6 +1,7 @@
 //! Extents that are products of sizes.
 
 use crate::common::bits;
+use hamiltonian::Lattice;
 use hamiltonian::prelude::*;
 
 hamiltonian! {
@@ -155,4 +156,88 @@ fn errors_name_the_product() {
         flat.to_string()
             .starts_with("H(q[n*m]; p[n*m]) = sum(i in 0..n*m) { p[i]^2/(2*w[i])")
     );
+}
+
+hamiltonian! {
+    /// A product in an index alone.
+    pub struct Last { n: usize, m: usize, k: usize }
+    H(q[k]; p[k]) = norm_squared(p)/2 + q[n*m - 1]^2
+}
+
+hamiltonian! {
+    /// Products after `%` and before it.
+    pub struct Round { n: usize, m: usize, k: usize }
+    H(q[k]; p[k]) = sum(i in 0..k) { p[i]^2/2 + q[(i + 1) % (n*m)]^2 + q[(i + n*m) % k]^2 + q[(i - 3*n) % k]^2 }
+}
+
+hamiltonian! {
+    /// A range to a product of five sizes.
+    pub struct Five { a: usize, b: usize, c: usize, d: usize, e: usize }
+    H(q; p) = p^2/2 + sum(i in 0..a*b*c*d*e) { q^2 }
+}
+
+hamiltonian! {
+    /// Multiples of a size and of a product, and sums.
+    pub struct Multiples { n: usize, m: usize }
+    H(q; p) = p^2/2 + sum(i in 0..2*n*m) { q^2 } + sum(i in 0..3*m) { q^4 } + sum(i in 1..m + 2) { q^6 }
+}
+
+hamiltonian! {
+    /// A range that begins at a loop variable.
+    pub struct Nested { n: usize, m: usize }
+    H(q; p) = p^2/2 + sum(i in n..n + 2, j in i..i + m) { q^2 }
+}
+
+hamiltonian! {
+    /// Three sizes, one of which may be 0.
+    pub struct Three { n: usize, m: usize, k: usize }
+    H(q[n*m*k]; p[n*m*k]) = sum(i in 0..n*m*k) { p[i]^2/2 + q[i]^2/2 }
+}
+
+hamiltonian! {
+    /// The same with an extent for each size.
+    pub struct Axes { n: usize, m: usize, k: usize }
+    H(q[n][m][k]; p[n][m][k]) = sum(a in 0..n, b in 0..m, c in 0..k) { p[a][b][c]^2/2 + q[a][b][c]^2/2 }
+}
+
+#[test]
+fn products_beyond_usize_are_refused_wherever_they_stand() {
+    fn refused<S>(made: Result<S, Error>, product: &str) {
+        let Err(Error::Memory { name }) = made else {
+            panic!("`{product}`: {:?}", made.err());
+        };
+        assert_eq!(name, product);
+    }
+    let half = 1 << (usize::BITS / 2);
+    let top = 1 << (usize::BITS - 1);
+    refused(Last::new(top + 1, 2, 3), "n*m");
+    refused(Last::new(half, half, 3), "n*m");
+    refused(Round::new(top + 1, 2, 3), "n*m");
+    refused(Round::new(half, half, 3), "n*m");
+    refused(Round::new(usize::MAX / 5, 0, 3), "3*n");
+    refused(Five::new(half, 1, half, 1, 1), "a*b*c*d*e");
+    refused(Multiples::new(top, 1), "2*n*m");
+    refused(Multiples::new(0, top), "3*m");
+    refused(Multiples::new(0, usize::MAX), "3*m");
+    refused(Nested::new(top / 2, top / 2), "n + m + 1");
+    refused(Three::new(half, half, 1), "n*m*k");
+}
+
+#[test]
+fn products_that_are_0_are_0() {
+    let half = 1 << (usize::BITS / 2);
+    let start = State::new([2.0], [0.0]);
+    let five = Five::new(half, half, half, 0, 3).unwrap();
+    assert_eq!(five.energy(&start), 0.0);
+    let none = Multiples::new(1 << (usize::BITS - 1), 0).unwrap();
+    assert_eq!(none.energy(&start), 64.0);
+    for (n, m, k) in [(half, half, 0), (half, 0, half), (0, half, half)] {
+        let empty = Three::new(n, m, k).unwrap();
+        let start = State::new(Vec::<f64>::new(), Vec::<f64>::new());
+        assert_eq!(empty.energy(&start), 0.0);
+        let mut run = Integrator::new(&empty, StormerVerlet::default(), start, 0.1).unwrap();
+        run.advance(3).unwrap();
+        // A sum over three loops would run the outer ones.
+        assert!(Axes::new(n, m, k).is_ok());
+    }
 }

@@ -246,6 +246,19 @@ fn main() { println!(\"{}\", Tail::<2> {}.gradient(&State::new([0.0; 2], [0.0; 2
         error: Some(("4:50", "`i in N - 3..N` begins below 0 for these sizes")),
     },
     Case {
+        name: "twice",
+        source: "
+hamiltonian! {
+    pub struct Twice<const N: usize> {}
+    H(q; p) = p^2/2 + sum(i in 0..2*N) { q^2 }
+}
+fn main() { println!(\"{}\", Twice::<{ 1 << (usize::BITS - 1) }> {}.energy(&State::new([0.0], [0.0]))) }",
+        error: Some((
+            "4:35",
+            "`2*N` does not fit into memory: the sizes are too large",
+        )),
+    },
+    Case {
         name: "around_first",
         source: "
 hamiltonian! {

@@ -65,9 +65,9 @@ pub enum Error {
         /// The number of elements given.
         found: usize,
     },
-    /// An array of the sizes given does not fit into memory.
+    /// An array of the sizes given does not fit into memory, or a product of sizes is larger than an `isize`.
     Memory {
-        /// The name of the coordinate or parameter.
+        /// The name of the coordinate or parameter, or the product.
         name: &'static str,
     },
     /// An index of the definition that leaves its range for the sizes given.

@@ -200,15 +200,6 @@ pub fn fits(name: &'static str, extents: &[usize]) -> Result<(), Error> {
     }
 }
 
-/// Checks that a product of sizes is a number.
-///
-/// # Errors
-/// [`Error::Memory`] with the product.
-pub fn check_product(name: &'static str, sizes: &[usize]) -> Result<(), Error> {
-    let product = sizes.iter().try_fold(1usize, |n, m| n.checked_mul(*m));
-    product.map_or(Err(Error::Memory { name }), |_| Ok(()))
-}
-
 /// The name of an element, given its number in the order of the declaration: `u[1][2]`.
 pub(crate) fn element(name: &str, extents: &[usize], number: usize) -> String {
     let mut text = String::from(name);

@@ -33,14 +33,14 @@ pub use crate::kernel::{
 };
 use crate::lattice::write_indices;
 pub use crate::lattice::{
-    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, check_product, fits, lattice,
+    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
 };
 pub use crate::loops::{
     Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, worth, wrapped,
 };
 pub use crate::pairs::{Row, TILED, Triangle, pairs};
 pub use crate::push::Coupled;
-pub use crate::reach::Reach;
+pub use crate::reach::{Reach, product};
 pub use crate::slabs::rows;
 pub use crate::state::{Gradient, Plain, Point, State};
 pub use crate::system::gather::{Gather, InPack, Kept, in_pack};

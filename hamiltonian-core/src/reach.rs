@@ -45,6 +45,30 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
         self.escape(extent).is_none()
     }
 
+    /// Returns true if the first value of a range is not negative.
+    #[must_use]
+    pub const fn begins_at_0(&self) -> bool {
+        self.is_within(usize::MAX)
+    }
+
+    /// Returns true if a sum of products of sizes is less than the largest `isize`: no array is longer, and `usize` has
+    /// room for what is added to it.
+    #[must_use]
+    pub const fn fits(&self) -> bool {
+        self.is_within(isize::MAX.unsigned_abs())
+    }
+
+    /// Returns an error if a sum of products of sizes is too large.
+    ///
+    /// # Errors
+    /// [`Error::Memory`]
+    pub const fn check_memory(&self, sum: &'static str) -> Result<(), Error> {
+        match self.fits() {
+            true => Ok(()),
+            false => Err(Error::Memory { name: sum }),
+        }
+    }
+
     /// Returns an error if `index` leaves `0..extent`.
     ///
     /// # Errors
@@ -200,6 +224,17 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
             [first, last]
         }
     }
+}
+
+/// The product of sizes, or the largest `usize` where that is less.
+#[must_use]
+pub const fn product(sizes: &[usize]) -> usize {
+    let (mut product, mut at) = (1_usize, 0);
+    while at < sizes.len() {
+        product = product.saturating_mul(sizes[at]);
+        at += 1;
+    }
+    product
 }
 
 const fn joined(a: Option<[i128; 2]>, b: Option<[i128; 2]>) -> Option<[i128; 2]> {

@@ -12,6 +12,7 @@ mod declare;
 mod expr;
 mod force;
 mod lookup;
+mod memory;
 mod range;
 mod reach;
 mod signature;
@@ -256,6 +257,7 @@ impl<'a> Checker<'a> {
             self.report.error(span, message, help);
             return None;
         }
+        self.fits_at(span, &form);
         Some(extent)
     }
 

@@ -17,7 +17,8 @@
 //! - Loops are not shared between sums, so a loop variable stands for one loop only.
 //! - A [`Domain`] is an index into [`Checked::loops`], a [`Size`] one into [`Checked::sizes`].
 //! - Where the loops around it run, an index is in range for all sizes, or it has a [`Reach`]: then
-//!   the sizes decide, and it is checked once they are known. No index is provably out of range.
+//!   the sizes decide, and it is checked once they are known. No index is provably out of range. The
+//!   same holds for products of sizes, which fit a `usize`.
 //! - There is exactly one definition, and at least one group.
 
 use crate::ast::{AXES, BinaryOp, Function, Header, UnaryOp};
@@ -213,10 +214,10 @@ pub struct Loop {
     pub upper: Affine,
 }
 
-/// An index, or the first value of a range, that is in range for some sizes only.
+/// A form that is in range for some sizes only: an index, the first value of a range, or a sum of products of sizes.
 #[derive(Debug, Clone)]
 pub struct Reach {
-    /// The index or the range as it is written: `q[i + 1]`, `i in n - 3..n`.
+    /// The form as it is written: `q[i + 1]`, `i in n - 3..n`, `2*n*m`.
     pub shown: String,
     /// Its place.
     pub span: Span,
@@ -224,8 +225,19 @@ pub struct Reach {
     pub loops: Vec<(Domain, [Affine; 2])>,
     /// The form that must be ≥ 0 in all iterations.
     pub form: Affine,
-    /// The upper bound of the form, excluded.
-    pub extent: Option<Extent>,
+    /// The values that the form may not reach.
+    pub limit: Limit,
+}
+
+/// The upper bound of a [`Reach`], excluded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// The extent that an index goes into.
+    Extent(Extent),
+    /// None: the form is the first value of a range.
+    Nothing,
+    /// The largest `isize`: emitted code computes the form in `usize`.
+    Memory,
 }
 
 /// An extent.

@@ -10,7 +10,7 @@
 use super::Checker;
 use super::expr::Frame;
 use crate::ast::ExprId;
-use crate::checked::{Extent, Kind, Loop, NodeId, Reach, Variable};
+use crate::checked::{Extent, Kind, Limit, Loop, NodeId, Reach, Variable};
 use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
 use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Ident;
@@ -26,6 +26,7 @@ impl Checker<'_> {
     ) -> Option<Index> {
         let affine = self.affine(raw.0, frame)?;
         let [least, greatest] = self.ends(raw.0, &affine)?;
+        self.fits(raw.0, &affine)?;
         let modulo = match raw.1 {
             None => None,
             Some(right) => Some(self.modulus(right, frame)?),
@@ -110,7 +111,7 @@ impl Checker<'_> {
             span: self.ast.nodes[raw.0 as usize].spans.start,
             loops: self.with_bounds(self.own_loops(&index.affine)),
             form,
-            extent: Some(extent),
+            limit: Limit::Extent(extent),
         });
     }
 
@@ -126,7 +127,7 @@ impl Checker<'_> {
         // The same index is often written many times; instances of a function have loops of their
         // own.
         let is_same = |other: &Reach| {
-            (&other.loops, &other.form, other.extent) == (&reach.loops, &reach.form, reach.extent)
+            (&other.loops, &other.form, other.limit) == (&reach.loops, &reach.form, reach.limit)
                 && other.shown == reach.shown
         };
         if !self.out.reaches.iter().any(is_same) {
@@ -185,6 +186,8 @@ impl Checker<'_> {
     ) -> Option<()> {
         let [least, _] = self.ends(bounds.0, forms[0])?;
         self.ends(bounds.1, forms[1])?;
+        self.fits(bounds.0, forms[0])?;
+        self.fits(bounds.1, forms[1])?;
         let width = forms[1].checked_plus(-1, forms[0]);
         let width = self.fitting(raw, width)?;
         if self.runs_forwards(raw, bounds, forms, &width) {
@@ -247,7 +250,7 @@ impl Checker<'_> {
             span: self.ast.nodes[raw.0 as usize].spans.start,
             loops: self.with_bounds(own),
             form: lower.clone(),
-            extent: None,
+            limit: Limit::Nothing,
         });
     }
 
@@ -262,6 +265,7 @@ impl Checker<'_> {
                 "write `% N` with a size or a number",
             );
         }
+        self.fits(raw, &extent?.affine())?;
         extent
     }
 
@@ -272,7 +276,7 @@ impl Checker<'_> {
     }
 
     /// Refuses a form that needs coefficients of more than 64 bits.
-    fn fitting(&mut self, raw: ExprId, form: Option<Affine>) -> Option<Affine> {
+    pub(super) fn fitting(&mut self, raw: ExprId, form: Option<Affine>) -> Option<Affine> {
         if form.is_none() {
             let message = "values of this index or range need more than 64 bits";
             self.error_over(raw, message, "write smaller factors or shorter ranges");

@@ -182,7 +182,8 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         return TokenStream::new();
     }
     let groups = context.groups.iter().filter_map(|g| context.room(g));
-    let room = reach::products(context) + &groups.collect::<String>();
+    let [products, questions] = reach::constructed(context);
+    let room = products + &groups.collect::<String>();
     let mut allow = allowances(&names);
     if names.len() > 7 {
         // The number of parameters of a system is not a matter of style.
@@ -195,7 +196,6 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
     let new = format_ident!("new", span = definition.type_name(item).span());
     let sets = defaults_set(context, item, &names).map(|text| quote! { #[doc = #text] });
     let method = if context.has_run_time_sizes() {
-        let questions = reach::constructed(context);
         let more = (!questions.is_empty()).then(|| {
             quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
         });

@@ -13,6 +13,15 @@ pub struct Indices<'a> {
     pub sizes: &'a [String],
 }
 
+/// A product of sizes. It fits, but it may be 0 where that of some of them does not fit.
+fn product(names: &[&str]) -> String {
+    let [first, others @ ..] = names else {
+        return "1usize".to_owned();
+    };
+    let times = others.iter().map(|name| format!(".wrapping_mul({name})"));
+    (*first).to_owned() + &times.collect::<String>()
+}
+
 /// The name of a loop variable.
 pub fn variable(domain: Domain) -> String {
     format!("_i{}", domain.0)
@@ -48,7 +57,7 @@ impl Indices<'_> {
         }
         for (sizes, factor) in &affine.products {
             let names: Vec<&str> = sizes.iter().map(|size| self.size(*size)).collect();
-            push(*factor, names.join(" * "));
+            push(*factor, product(&names));
         }
         if affine.constant != 0 {
             push(

@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::{lex, located};
-use hamiltonian_language::checked::{Extent, Reach, Type};
+use hamiltonian_language::checked::{Extent, Limit, Reach, Type};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 use hamiltonian_symbolic::sort::Arrange;
 use proc_macro2::TokenStream;
@@ -28,7 +28,10 @@ fn sizes(reach: &Reach) -> Vec<Vec<Size>> {
 
 /// Returns true if a size that is set at run time has a say.
 fn is_run_time(reach: &Reach, context: Context) -> bool {
-    let extent = reach.extent.map_or(Affine::default(), Extent::affine);
+    let extent = match reach.limit {
+        Limit::Extent(extent) => extent.affine(),
+        Limit::Nothing | Limit::Memory => Affine::default(),
+    };
     let mut sizes = sizes(reach).into_iter().flatten().chain(extent.all_sizes());
     sizes.any(|size| context.is_run_time[usize::from(size.0)])
 }
@@ -55,7 +58,11 @@ fn value(reach: &Reach, context: Context) -> String {
     let loops: Vec<String> = reach.loops.iter().enumerate().map(range).collect();
     let name = |sizes: &Vec<Size>| {
         let names = sizes.iter().map(|size| context.indices.size(*size));
-        names.collect::<Vec<_>>().join(" * ")
+        let names: Vec<&str> = names.collect();
+        match *names {
+            [name] => name.to_owned(),
+            _ => format!("__h::product(&[{}])", names.join(", ")),
+        }
     };
     let names: Vec<String> = sizes.iter().map(name).collect();
     format!(
@@ -93,56 +100,36 @@ pub fn declared(name: &str, ty: Type, context: Context) -> String {
     name.to_owned() + &shown.collect::<String>()
 }
 
-/// The checks that products of sizes, in extents and ranges, fit `usize`.
-pub fn products(context: Context) -> String {
-    let checked = context.definition.checked;
-    let parameters = checked.parameters.iter().map(|parameter| parameter.ty);
-    let types = parameters.chain(checked.groups.iter().map(|group| group.ty));
-    let mut extents: Vec<Extent> = types.flat_map(Type::extents).collect();
-    for range in &checked.loops {
-        let products = [&range.lower, &range.upper].map(|form| form.products.iter());
-        extents.extend(products.into_iter().flatten().filter_map(|term| {
-            Extent::of(&Affine {
-                products: vec![(term.0.clone(), 1)],
-                ..Affine::default()
-            })
-        }));
-    }
-    extents.retain(|extent| matches!(extent, Extent::Product(..)));
-    extents.arrange();
-    extents.dedup();
-    let check = |extent: &Extent| {
-        let factors = bound(*extent, context).replace(" * ", ", ");
-        let written = written(*extent, context);
-        format!("__h::check_product({written:?}, &[{factors}])?;\n")
-    };
-    extents.iter().map(check).collect()
-}
-
 /// The questions asked when the code is compiled for certain sizes: a constant for each, which
 /// rustc shows at the index if it fails.
 pub fn compiled(context: Context) -> TokenStream {
     let mut constants = TokenStream::new();
     for (number, reach) in questions(context) {
         let (value, shown) = (value(reach, context), &reach.shown);
-        let (bound, message) = match reach.extent {
-            Some(extent) => {
+        let (condition, message) = match reach.limit {
+            Limit::Extent(extent) => {
                 let last = match extent {
                     Extent::Literal(value) => value.saturating_sub(1).to_string(),
                     _ => format!("{} - 1", written(extent, context)),
                 };
-                let message = format!(
-                    "`{shown}` is out of range for these sizes: indices there run from 0 to {last}"
-                );
-                (bound(extent, context), message)
+                (
+                    format!("is_within({})", bound(extent, context)),
+                    format!(
+                        "`{shown}` is out of range for these sizes: indices there run from 0 to {last}"
+                    ),
+                )
             }
-            None => (
-                "__h::core::primitive::usize::MAX".to_owned(),
+            Limit::Nothing => (
+                "begins_at_0()".to_owned(),
                 format!("`{shown}` begins below 0 for these sizes"),
+            ),
+            Limit::Memory => (
+                "fits()".to_owned(),
+                format!("`{shown}` does not fit into memory: the sizes are too large"),
             ),
         };
         let text = format!(
-            "const __REACH{number}: () = __h::core::assert!({value}.is_within({bound}), {message:?});"
+            "const __REACH{number}: () = __h::core::assert!({value}.{condition}, {message:?});"
         );
         constants.extend(located(lex(&text), reach.span, usize::MAX));
     }
@@ -167,17 +154,19 @@ fn questions(context: Context<'_>) -> impl Iterator<Item = (usize, &Reach)> {
     all.filter(move |(_, reach)| !is_run_time(reach, context))
 }
 
-/// The questions asked when a system is made.
-pub fn constructed(context: Context) -> String {
-    let mut out = String::new();
+/// The questions asked when a system is made: whether products of sizes fit into memory, and, once they do, the others.
+pub fn constructed(context: Context) -> [String; 2] {
+    let mut out = [const { String::new() }; 2];
     let reaches = context.definition.checked.reaches.iter();
     for reach in reaches.filter(|reach| is_run_time(reach, context)) {
         let (value, shown) = (value(reach, context), &reach.shown);
-        let check = match reach.extent {
-            Some(extent) => format!("check({shown:?}, {})", bound(extent, context)),
-            None => format!("check_range({shown:?})"),
+        let check = match reach.limit {
+            Limit::Extent(extent) => format!("check({shown:?}, {})", bound(extent, context)),
+            Limit::Nothing => format!("check_range({shown:?})"),
+            Limit::Memory => format!("check_memory({shown:?})"),
         };
-        let _ = writeln!(out, "{value}.{check}?;");
+        let later = usize::from(reach.limit != Limit::Memory);
+        let _ = writeln!(out[later], "{value}.{check}?;");
     }
     out
 }

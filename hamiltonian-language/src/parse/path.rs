@@ -32,7 +32,7 @@ impl Parser<'_> {
         Ok(path)
     }
 
-    /// `a::b::<T>`, `::a::b` or `<T as Trait>::f`. Inside generics, at a depth above 0, `::` before
+    /// `a::b::<T>`, `a::b::<true>`, `::a::b` or `<T as Trait>::f`. Inside generics, at a depth above 0, `::` before
     /// generics may be left out. Returns false at the first token that does not fit.
     fn eat_path(&mut self, depth: u32) -> bool {
         if depth > MAX_DEPTH {
@@ -54,7 +54,7 @@ impl Parser<'_> {
             }
             let mut follows = self.eat_colons();
             if (follows || depth > 0) && self.eat('<') {
-                let argument = self.at_punct('>') || self.eat_type(depth + 1);
+                let argument = self.at_punct('>') || self.eat_literal() || self.eat_type(depth + 1);
                 if !(argument && self.eat('>')) {
                     return false;
                 }
@@ -66,9 +66,19 @@ impl Parser<'_> {
         }
     }
 
-    /// A path or `_`.
+    /// `_`, a path, or `dyn` and the path of a trait.
     fn eat_type(&mut self, depth: u32) -> bool {
+        if self.eat_word(|word| matches!(word, "dyn" | "impl")) {
+            return !self.at_punct('<') && self.eat_path(depth);
+        }
         self.eat_word(|word| word == "_") || self.eat_path(depth)
+    }
+
+    /// A number, a text, `true` or `false`.
+    fn eat_literal(&mut self) -> bool {
+        let found = self.kind() == Some(TokenKind::Literal);
+        self.position += usize::from(found);
+        found || self.eat_word(|word| matches!(word, "true" | "false"))
     }
 
     /// Moves past `::`, if it comes next.

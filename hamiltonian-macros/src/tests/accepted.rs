@@ -234,9 +234,11 @@ fn time_factors_and_charts_are_taken_apart() {
 
 #[test]
 fn paths_of_functions_are_paths_to_syn() {
-    const WORDS: [&str; 7] = ["a", "_", "as", "match", "::", "<", ">"];
+    const WORDS: [&str; 10] = ["a", "_", "as", "match", "::", "<", ">", "dyn", "true", "1"];
     let mut accepted = 0;
-    let mut sequences = ["", "a::<a", "<a as a"].map(String::from).to_vec();
+    let mut sequences = ["", "a::<", "a::<impl", "<dyn", "<a as a"]
+        .map(String::from)
+        .to_vec();
     for _ in 0..4 {
         sequences = sequences
             .iter()
@@ -249,7 +251,7 @@ fn paths_of_functions_are_paths_to_syn() {
             accepted += usize::from(by_syn);
         }
     }
-    assert_eq!(accepted, 13);
+    assert_eq!(accepted, 27);
     // Depth that would overflow the stack is refused.
     let deep = "a::<".repeat(100_000);
     let (_, _, report) = read(&format!("fn f(x) = {deep}; H = p^2/2 + f(q)"));

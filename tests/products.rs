@@ -146,6 +146,13 @@ fn errors_name_the_product() {
         refused(large, 8, 1, 1),
         "`n*m` does not fit into memory: the sizes are too large"
     );
+    assert_eq!(
+        Round::new(2, 3, 5)
+            .err()
+            .map(|error| error.to_string())
+            .unwrap(),
+        "`q[(i + 1) % (n*m)]` reaches 5, but the extent is 5: the sizes do not fit"
+    );
     let flat = Flat::new(2, 3, vec![1.0; 6], vec![1.0; 4]).unwrap();
     let short = State::new(vec![1.0; 5], vec![1.0; 5]);
     assert_eq!(

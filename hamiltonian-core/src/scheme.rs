@@ -145,13 +145,17 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
 ///
 /// The paper's (25), (26) and (33) are no such schemes: a value that they carry lags behind by a
 /// time that depends on the step, and a composition of them loses its order (Yoshida's of (33) has
-/// slope 0.8 instead of 4).
+/// slope 0.8 instead of 4). A scheme whose observed state is a mean,
+/// [`CheapProcessed`](crate::schemes::CheapProcessed), is none either: the inverse of a mean is no composition of
+/// flows.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no one-step scheme",
     label = "steps of different sizes cannot be composed of it",
     note = "the paper's (25), (26) and (33) carry a second point that lags behind by a time which \
             depends on the step: a composition of them loses its order; compose `Strang`, \
-            `StormerVerlet`, `ImplicitMidpoint` or `Pihajoki`"
+            `StormerVerlet`, `ImplicitMidpoint` or `Pihajoki`",
+    note = "the observed state of a `CheapProcessed` scheme is a mean, whose inverse is no composition of flows: \
+            compose `Processed4` instead"
 )]
 pub trait OneStep: Listed + PartialEq {
     /// The type of its adjoint.

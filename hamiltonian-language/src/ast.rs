@@ -131,12 +131,17 @@ impl Size {
             Size::Product(factors) => factors.iter().flat_map(Size::names).collect(),
         }
     }
-    /// The place of the number or the name.
-    pub fn span(&self) -> Span {
+    /// The place of the number, the name or the product.
+    pub fn spans(&self) -> Spans {
         match self {
-            Size::Literal(_, span) => *span,
-            Size::Name(name) => name.span(),
-            Size::Product(factors) => factors[0].span(),
+            Size::Literal(_, span) => (*span).into(),
+            Size::Name(name) => name.span().into(),
+            Size::Product(factors) => {
+                let [first, .., last] = &factors[..] else {
+                    unreachable!("a product has two factors or more")
+                };
+                first.spans().to(last.spans())
+            }
         }
     }
 }

@@ -21,7 +21,7 @@ mod statement;
 use crate::ast::{Ast, Expression, Size, Symbol};
 use crate::checked::{Checked, Extent, FunctionId, GroupId, NodeId, ParameterId, Type, Variable};
 use crate::names::listed;
-use crate::report::Report;
+use crate::report::{Report, Spans};
 use hamiltonian_symbolic::index::{self, Affine, Domain, LOOPS};
 use hamiltonian_symbolic::model::REPLACING;
 use proc_macro2::{Ident, Span};
@@ -120,6 +120,9 @@ struct Checker<'a> {
     /// Nodes made by calls of `let` functions.
     instantiated: usize,
 }
+
+/// A limit of extents.
+const MANY_SIZES: &str = "this product has more than four sizes";
 
 impl<'a> Checker<'a> {
     fn new(ast: &'a Ast, report: &'a mut Report) -> Self {
@@ -233,18 +236,21 @@ impl<'a> Checker<'a> {
     }
 
     /// The extent that a product of sizes is. It is in no type, so one of them is set at run time.
-    fn product(&mut self, span: Span, factors: &[Size]) -> Option<Extent> {
+    fn product(&mut self, spans: Spans, factors: &[Size]) -> Option<Extent> {
         // All unknown sizes are reported.
         let extents: Vec<Option<Extent>> = factors.iter().map(|size| self.extent(size)).collect();
         let mut extents = extents.into_iter().collect::<Option<Vec<_>>>()?.into_iter();
         let form = extents.try_fold(Affine::constant(1), |product, extent| {
             product.checked_times(&extent.affine())
         });
-        let Some((form, extent)) = form.and_then(|form| Some((form.clone(), Extent::of(&form)?)))
-        else {
-            let message = "this product needs more than 64 bits, or has more than four sizes";
-            self.report
-                .error(span, message, "write several extents: `[n][m]`");
+        let Some(form) = form else {
+            let message = "the number in this product needs more than 64 bits";
+            self.report.error(spans, message, "write smaller factors");
+            return None;
+        };
+        let Some(extent) = Extent::of(&form) else {
+            let help = "write several extents: `[n][m]`";
+            self.report.error(spans, MANY_SIZES, help);
             return None;
         };
         let mut sizes = form.all_sizes();
@@ -254,10 +260,10 @@ impl<'a> Checker<'a> {
                 self.affine_shown(&form)
             );
             let help = "write several extents, `[N][M]`, or set a size at run time, `n: usize`: types of Rust have no products";
-            self.report.error(span, message, help);
+            self.report.error(spans, message, help);
             return None;
         }
-        self.fits_at(span, &form);
+        self.fits_at(spans.start, &form);
         Some(extent)
     }
 
@@ -266,7 +272,7 @@ impl<'a> Checker<'a> {
         let name = match size {
             Size::Literal(value, _) => return Some(Extent::Literal(*value)),
             Size::Name(name) => name,
-            Size::Product(factors) => return self.product(size.span(), factors),
+            Size::Product(factors) => return self.product(size.spans(), factors),
         };
         let text = name.to_string();
         if let Some(index) = self.out.sizes.iter().position(|size| size.name == *name) {

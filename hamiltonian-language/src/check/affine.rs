@@ -6,8 +6,11 @@
 use super::Checker;
 use super::expr::Frame;
 use crate::ast::{BinaryOp, ExprId, ExprKind};
-use crate::checked::Kind;
+use crate::checked::{Kind, NodeId};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
+
+/// Indices of all forms.
+const INDICES: &str = "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`";
 
 impl Checker<'_> {
     /// An affine form over sizes and loops as it would be written.
@@ -42,8 +45,18 @@ impl Checker<'_> {
         }
     }
 
-    /// The affine form of a node, or an error at the innermost node that has none.
-    pub(super) fn affine(&mut self, raw: ExprId, frame: &Frame) -> Option<Affine> {
+    /// The same as an operand of `%`.
+    pub(super) fn operand_shown(&self, form: &Affine) -> String {
+        let text = self.affine_shown(form);
+        match text.contains([' ', '*']) {
+            true => format!("({text})"),
+            false => text,
+        }
+    }
+
+    /// The affine form of a node, or an error at the innermost node that has none. `help` is for a product of a loop
+    /// variable and a size.
+    pub(super) fn affine(&mut self, raw: ExprId, frame: &Frame, help: &str) -> Option<Affine> {
         let node = frame.value(raw)?;
         if let Some(form) = &self.affines[node.0 as usize] {
             return Some(form.clone());
@@ -73,6 +86,7 @@ impl Checker<'_> {
         let kind = frame
             .value(culprit)
             .map(|node| &self.out.nodes[node.0 as usize].kind);
+        let form = |node: &NodeId| self.affines[node.0 as usize].as_ref();
         let (message, help) = match kind {
             Some(Kind::Capture(_)) => (
                 format!("`{name}` is a captured value, not a size"),
@@ -86,17 +100,23 @@ impl Checker<'_> {
                 "this number is too large for an index or a range".into(),
                 format!("write one up to {}", i64::MAX),
             ),
-            Some(Kind::Binary(BinaryOp::Mul, a, b))
-                if [a, b].map(|side| self.affines[side.0 as usize].is_some()) == [true; 2] =>
+            Some(Kind::Binary(op @ (BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul), a, b))
+                if [a, b].iter().all(|side| form(side).is_some()) =>
             {
-                (
-                    "a loop variable in an index or a range is multiplied by numbers alone".into(),
-                    "write an extent for each index: `w[n][m]` and `w[i][j]` instead of `w[n*m]` and `w[i*m + j]`".into(),
-                )
+                let forms = [a, b].map(form).into_iter().flatten();
+                let has_number = forms.clone().any(|form| form.as_constant().is_some());
+                let help = match forms.filter(|form| !form.loops.is_empty()).count() {
+                    1 if *op == BinaryOp::Mul && !has_number => help,
+                    2 if *op == BinaryOp::Mul => INDICES,
+                    _ => return self.fitting(culprit, None),
+                };
+                let message =
+                    "a loop variable in an index or a range is multiplied by numbers alone";
+                (message.into(), help.into())
             }
             _ => (
                 "indices and ranges are sums of whole multiples of loop variables and sizes".into(),
-                "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`".into(),
+                INDICES.into(),
             ),
         };
         self.error_over(culprit, message, help);

@@ -231,7 +231,7 @@ impl Checker<'_> {
                 "an array of {numbers} numbers does not fit on the stack, where at most {LARGEST} may stand"
             );
             let help = "set the size at run time, which keeps the numbers on the heap: `pub struct Name { n: usize }` and `[n]`";
-            self.report.error(rows.span(), message, help);
+            self.report.error(rows.spans(), message, help);
             return None;
         }
         // All unknown sizes are reported.

@@ -10,6 +10,10 @@ use crate::ast::{ExprId, ScopeId, Symbol};
 use crate::checked::Loop;
 use hamiltonian_symbolic::index::Domain;
 
+/// What to write for a range to a product.
+const LOOPS: &str =
+    "write a loop for each factor: `sum(a in 0..m, b in 0..i)` instead of `sum(k in 0..m*i)`";
+
 impl Checker<'_> {
     /// Begins a loop, `i in lower..upper`, and binds its variable.
     pub(super) fn bind(
@@ -22,10 +26,10 @@ impl Checker<'_> {
         let name = &self.ast.scopes[scope.0 as usize].name;
         let symbol = self.ast.scopes[scope.0 as usize].symbol;
         self.loop_name_is_new(raw, scope, symbol, frame);
-        let bounds_known = (self.affine(bounds.0, frame), self.affine(bounds.1, frame));
+        let bounds_known = [bounds.0, bounds.1].map(|end| self.affine(end, frame, LOOPS));
         // If the range is erroneous there is no loop, but the name is known.
         self.scope_loops[scope.0 as usize] = None;
-        let (Some(lower), Some(upper)) = bounds_known else {
+        let [Some(lower), Some(upper)] = bounds_known else {
             return;
         };
         let range = self.checked_range(raw, &name.to_string(), bounds, [&lower, &upper]);

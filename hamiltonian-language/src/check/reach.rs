@@ -8,12 +8,17 @@
 //! even if a loop inside them is empty.
 
 use super::Checker;
+use super::MANY_SIZES;
 use super::expr::Frame;
 use crate::ast::ExprId;
 use crate::checked::{Extent, Kind, Limit, Loop, NodeId, Reach, Variable};
 use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
 use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Ident;
+
+/// What to write for an index that is not affine: it counts rows.
+const EXTENTS: &str =
+    "write an extent for each index: `w[n][m]` and `w[i][j]` instead of `w[n*m]` and `w[i*m + j]`";
 
 impl Checker<'_> {
     /// `base[index % modulo]`, checked against the extent it goes into.
@@ -24,7 +29,7 @@ impl Checker<'_> {
         frame: &Frame,
         extent: Extent,
     ) -> Option<Index> {
-        let affine = self.affine(raw.0, frame)?;
+        let affine = self.affine(raw.0, frame, EXTENTS)?;
         let [least, greatest] = self.ends(raw.0, &affine)?;
         self.fits(raw.0, &affine)?;
         let modulo = match raw.1 {
@@ -33,6 +38,7 @@ impl Checker<'_> {
         };
         let size = extent.affine();
         let shown = self.extent_shown(extent);
+        let divisor = self.operand_shown(&size);
         if let (Some(modulo), Some(right)) = (modulo, raw.1) {
             let room = size.checked_plus(-1, &modulo.affine())?;
             let last = modulo.affine().checked_plus(-1, &Affine::constant(1))?;
@@ -41,7 +47,7 @@ impl Checker<'_> {
                 self.error_over(
                     right,
                     format!("this index reaches {last}, but the extent is {shown}"),
-                    format!("write `% {shown}`"),
+                    format!("write `% {divisor}`"),
                 );
                 return None;
             }
@@ -69,7 +75,7 @@ impl Checker<'_> {
         };
         let help = if !affine.loops.is_empty() {
             format!(
-                "indices run from 0 to {last}: change the range of the loop, or go round by `% {shown}`"
+                "indices run from 0 to {last}: change the range of the loop, or go round by `% {divisor}`"
             )
         } else {
             format!("indices run from 0 to {last}")
@@ -141,11 +147,10 @@ impl Checker<'_> {
         match index
             .modulo
             .as_ref()
-            .map(|modulo| self.affine_shown(modulo))
+            .map(|modulo| self.operand_shown(modulo))
         {
             None => written,
-            Some(modulo) if written.contains([' ', '*']) => format!("({written}) % {modulo}"),
-            Some(modulo) => format!("{written} % {modulo}"),
+            Some(modulo) => format!("{} % {modulo}", self.operand_shown(&index.affine)),
         }
     }
 
@@ -258,12 +263,25 @@ impl Checker<'_> {
     fn modulus(&mut self, raw: ExprId, frame: &Frame) -> Option<Extent> {
         let form = self.affines[frame.value(raw)?.0 as usize].as_ref();
         let extent = form.and_then(Extent::of);
+        let is_long = form.is_some_and(|form| {
+            matches!(form.products[..], [(_, 1..)])
+                && form.constant == 0
+                && form.sizes.is_empty()
+                && form.loops.is_empty()
+        });
         if extent.is_none() {
-            self.error(
-                raw,
-                "the right side of `%` is not a size",
-                "write `% N` with a size or a number",
-            );
+            let (message, help) = if is_long {
+                (
+                    MANY_SIZES,
+                    "declare a size for the product, such as `k: usize`",
+                )
+            } else {
+                (
+                    "the right side of `%` is not a size",
+                    "write `% N` with a size or a number",
+                )
+            };
+            self.error_over(raw, message, help);
         }
         self.fits(raw, &extent?.affine())?;
         extent

@@ -330,7 +330,7 @@ impl Checker<'_> {
             let message = format!("an array of {numbers} numbers may not fit into memory");
             let help = "set the sizes at run time, where `new` tells whether they fit: \
                         `pub struct Name { n: usize, m: usize }` and `[n][m]`";
-            self.report.error(sizes[0].span(), message, help);
+            self.report.error(sizes[0].spans(), message, help);
             return None;
         }
         Some(ty)

@@ -375,7 +375,7 @@ impl Parser<'_> {
                     _ => self.abort(
                         token.span,
                         format!("`{}` is not a size", token.text),
-                        "write a whole number ≥ 1",
+                        "write a whole number from 1 to 4294967295",
                     ),
                 }
             }

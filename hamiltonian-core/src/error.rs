@@ -1,7 +1,7 @@
 //! Errors of a run.
 //!
 //! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
-//! `f64` whatever the scalar of the run, so that the error is one type. The messages stand in
+//! `f64` whatever the scalar of the run, so that the error is one type. The messages are in
 //! `message`.
 
 mod checkpoint;

@@ -86,7 +86,7 @@ fn an_ensemble_holds_what_members_carry() {
     };
     // The bytes that a member adds.
     let adds = |held: &dyn Fn(usize) -> isize| {
-        // What a thread allocates once, when it first waits or prints, is not a member's.
+        // A thread's own allocations, when it first waits or prints, are not a member's.
         held(MANY);
         let more = held(2 * MANY) - held(MANY);
         more as f64 / MANY as f64

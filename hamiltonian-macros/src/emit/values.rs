@@ -51,7 +51,7 @@ impl Values {
     }
 
     /// Binds its values that are wanted, which are no longer wanted then, out of the two arrays. A few that are used once
-    /// stand where they are used. Whether there are any.
+    /// stand where they are used. Returns true if there are any.
     pub fn bind(
         &self,
         out: &mut String,

@@ -16,13 +16,13 @@ use hamiltonian_lanes::Real;
 pub enum Form {
     /// dq∧dp of the state itself: the scheme is symplectic.
     OnePoint,
-    /// dq∧dp + dq̃∧dp̃ of two copies of the state that the scheme carries, and not dq∧dp of the one
-    /// that is seen.
+    /// dq∧dp + dq̃∧dp̃ of two copies of the state that the scheme carries, and not dq∧dp of the
+    /// observed one.
     TwoCopies,
     /// dq_a∧dp_b + dq_b∧dp_a of two points a and b that the scheme carries, and not dq∧dp of
-    /// the one that is seen.
+    /// the observed one.
     TwoPoint,
-    /// dq∧dp of the point that the scheme carries, and not of the one that is seen.
+    /// dq∧dp of the point that the scheme carries, and not of the observed one.
     CarriedPoint,
     /// dq∧dp of the state up to O(h^(2p+2)) a step for order p: the scheme is pseudo-symplectic.
     Nearly,

@@ -5,13 +5,14 @@ use crate::common::systems::*;
 use crate::common::{difference, start};
 use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::{
     author::{Durations, Splitting, Weight},
     inside::{Kernel4, Kernel6},
 };
 use hamiltonian_core::{
     DoubleDouble, Exact, Real, Scheme, Split,
-    schemes::author::{Entry, Listed, OneStep},
+    schemes::author::{Entry, Group, Listed, OneStep},
 };
 
 /// A processor that does nothing.
@@ -58,7 +59,7 @@ fn three_pieces_have_the_order_of_two() {
     is(6.0, slope(&Hand(Polar::<4>), Processed6::default(), q, p));
 }
 
-/// What is carried is the kernel's point, so the bits do not depend on who looks, and how often.
+/// A run carries the kernel's point, so its bits do not depend on the observers.
 #[test]
 fn observers_change_no_bit() {
     let system = Hand(Pumped);
@@ -109,6 +110,68 @@ fn a_cheap_post_processor_is_off_by_its_order_and_no_bit_is_carried() {
     holds(&Hand(Polar::<3>), &[0.4, 0.7], &[0.2, 0.15]);
     holds(&Hand(Polar::<4>), &[0.4, 0.7], &[0.2, 0.15]);
     holds(&Hand(Pumped), &[0.9], &[0.4]);
+}
+
+/// V = r²/4 with r = x² + y², or r = (x − y)².
+#[derive(Debug, Clone)]
+struct Quartic {
+    pair: bool,
+}
+
+impl Formula<2> for Quartic {
+    const NAME: &'static str = "Quartic";
+    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
+        let apart = *x - *y;
+        let r = match self.pair {
+            true => apart * apart,
+            false => *x * *x + *y * *y,
+        };
+        number::<T>(0.5) * (*px * *px + *py * *py) + number::<T>(0.25) * r * r
+    }
+    fn gradient<T: Real>(&self, t: T, q: &[T; 2], p: &[T; 2]) -> ([T; 2], [T; 2]) {
+        (self.force(t, q), self.velocity(t, p))
+    }
+}
+
+impl Halves<2> for Quartic {
+    fn force<T: Real>(&self, _: T, [x, y]: &[T; 2]) -> [T; 2] {
+        let apart = *x - *y;
+        let (cube, r) = (apart * apart * apart, *x * *x + *y * *y);
+        match self.pair {
+            true => [cube, -cube],
+            false => [r * *x, r * *y],
+        }
+    }
+    fn velocity<T: Real>(&self, _: T, p: &[T; 2]) -> [T; 2] {
+        *p
+    }
+}
+
+/// Compositions of flows preserve both; the mean of two points preserves linear functions alone.
+#[test]
+fn means_preserve_linear_invariants_and_no_quadratic_ones() {
+    fn change<S: Scheme<f64, Hand<Quartic, 2>>>(scheme: S, pair: bool, h: f64) -> f64 {
+        let system = Hand(Quartic { pair });
+        let value = |state: &State<SVector<f64, 2>>| {
+            let ([x, y], [px, py]) = ([state.q[0], state.q[1]], [state.p[0], state.p[1]]);
+            if pair { px + py } else { x * py - y * px }
+        };
+        let begin = start(&system, &[1.1, 0.3], &[-0.2, 0.7]);
+        let (first, mut most) = (value(&begin), 0.0_f64);
+        let mut run = Integrator::new(&system, scheme, begin, h).unwrap();
+        for _ in 0..200 {
+            most = most.max((value(run.advance(1).unwrap()) - first).abs());
+        }
+        most
+    }
+    let (cheap, processed) = (CheapProcessed4::default(), Processed4::default());
+    let [far, middle, near] = [0.2, 0.1, 0.05].map(|h| change(cheap, false, h));
+    println!("{far:e} {middle:e} {near:e}");
+    is(6.0, (far / middle).log2());
+    is(6.0, (middle / near).log2());
+    assert!(change(processed, false, 0.2) <= 1e-14);
+    assert!(change(cheap, true, 0.2) <= 1e-14);
 }
 
 /// Processors of different steps do not cancel: each stage closes and the next one opens.

@@ -107,8 +107,8 @@ fn every_scheme_has_its_order() {
     assert!(orders.missed.is_empty(), "{:#?}", orders.missed);
 }
 
-/// The form each scheme says it preserves, over three steps; the forms of two points are measured on what
-/// is carried at the root of the workspace.
+/// The form each scheme says it preserves, over three steps; the forms of two points are measured on the
+/// carried values, at the root of the workspace.
 struct Forms {
     missed: Vec<String>,
 }
@@ -125,9 +125,7 @@ impl<S: Sample<Dual<f64>>> Visitor<Dual<f64>, S> for Forms {
         );
         let right = match entry.preserves {
             Form::OnePoint => defect <= 3e-13,
-            // To higher order than shows here.
-            Form::CarriedPoint => true,
-            // Of the visible state of two points too.
+            // Of the observed state, whatever is carried.
             _ => defect > 1e-11,
         };
         if !right {

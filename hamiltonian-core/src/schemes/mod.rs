@@ -15,7 +15,7 @@
 //! | [`Saba2`] … [`Saba4`] | | (4, 2) … (8, 2) | `Split`, small second piece | dq∧dp | 2 … 4 stages |
 //! | [`Aba104`], [`Aba864`], [`Aba1064`] | | as named | `Split`, small second piece | dq∧dp | 7, 7, 8 stages |
 //! | [`Processed4`], [`Processed6`], [`BlanesCasasMurua8`] | | 4, 6, 8 | `Split` | dq∧dp | 5, 8, 13 stages; a processor of 12, 24, 20 stages for each observed state |
-//! | [`CheapProcessed4`] | | 4 | `Split` | dq∧dp of the carried value | 5 stages; 2 × 2½ stages for each observed state |
+//! | [`CheapProcessed4`] | | 4 | `Split` | dq∧dp of the carried value, not of the observed state | 5 stages; 2 × 2½ stages for each observed state |
 //! | [`WisdomHolman3`] … [`WisdomHolman17`] | | (4, 2) … (18, 2) | `Split`, small second piece | dq∧dp | 1 stage; a processor of 2 … 16 stages for each observed state |
 //! | [`Compensated`] | | that of its scheme | `Separable`, no forces | dq∧dp | that of its scheme, and low words |
 //! | [`Pihajoki`] | (29), (30) | 2 | no forces | dq∧dp + dq̃∧dp̃ of the copies | 2 gradients |

@@ -316,8 +316,9 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         return None;
     }
     let mut all = Flow::default();
-    for part in parts {
-        let next = flow(space, part, s)?;
+    // One composition rounds in another way than another.
+    for at in space.in_order(&parts) {
+        let next = flow(space, parts[at], s)?;
         all = all.noted(&next.rows);
         all.motion = all.motion.then(space.dag(), &next.motion);
     }

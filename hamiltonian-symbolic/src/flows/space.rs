@@ -16,12 +16,13 @@ use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Sid
 use crate::diff;
 use crate::flows::limits::{COMPONENTS, Limit, NODES, PAIRS, POINTS, PRODUCTS, QUESTION, TESTS};
 use crate::index::Index;
-use crate::loops::{Sample, Values};
+use crate::loops::{Sample, Values, next_random};
 use crate::model::{Flow, Model, Motion};
 use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness};
 use crate::rational::Rational;
 use crate::set::{Member, Set};
 use crate::sort::Arrange;
+use labels::Labels;
 use tape::Tape;
 
 /// A variable by its number: 2i is coordinate i, 2i + 1 its momentum.
@@ -93,6 +94,11 @@ pub(crate) struct Space {
     pub(crate) model: Model,
     /// Coordinates with their momenta, in the order of their labels.
     pub(crate) pairs: Vec<(Node, Node)>,
+    /// The labels of leaves.
+    labels: Labels,
+    /// The values of parameters at points. They follow from the labels, so that a choice by numbers depends on
+    /// neither names nor the order of declarations.
+    parameters: Map<Node, Ball>,
     /// The variables of every node so far.
     sets: Vec<Variables>,
     derivatives: Map<Node, Map<Node, Node>>,
@@ -157,7 +163,14 @@ impl Space {
             };
             pairs.push((leaf(Side::Q), leaf(Side::P)));
         }
-        labels::sort(&model.dag, roots, &mut pairs);
+        let labels = Labels::new(&model.dag, roots, &mut pairs);
+        let parameters = labels.parameters(&model.dag).into_iter();
+        let parameters = parameters.map(|(leaf, mut label)| {
+            // A multiple of 1/64 between 3/4 and 5/4: parameters differ, and none dominates.
+            let size = 48 + next_random(&mut label) % 32;
+            (leaf, Ball::exact(size as f64 / 64.0))
+        });
+        let parameters = parameters.collect();
         let last = model.dag.len() + NODES;
         let components = model.components();
         Ok(Space {
@@ -166,6 +179,8 @@ impl Space {
             last,
             model,
             pairs,
+            labels,
+            parameters,
             sets: Vec::new(),
             derivatives: Map::default(),
             zeros: Map::default(),
@@ -209,6 +224,17 @@ impl Space {
     /// The arena.
     pub(crate) fn dag(&mut self) -> &mut Dag {
         &mut self.model.dag
+    }
+    /// The places of expressions in an order that follows from H alone.
+    pub(crate) fn in_order(&self, nodes: &[Node]) -> Vec<usize> {
+        let labels = self.labels.of(&self.model.dag, nodes);
+        let mut places: Vec<usize> = (0..nodes.len()).collect();
+        places.arrange_by_key(|at| labels[*at]);
+        places
+    }
+    /// The label of an expression, whatever constant is added to it.
+    pub(crate) fn label(&self, node: Node) -> u64 {
+        self.labels.whole(&self.model.dag, node)
     }
     /// The node of a variable.
     pub(crate) fn variable(&self, variable: Variable) -> Node {
@@ -487,9 +513,13 @@ impl Space {
             model,
             sets,
             values: [values, _],
+            parameters,
             ..
         } = self;
-        let given = |node| values.at(model, node).value;
+        let given = |node: Node| match parameters.get(&node) {
+            Some(given) => given.value,
+            None => values.at(model, node).value,
+        };
         Tape::of(&model.dag, roots, |node| sets[node.0 as usize], given)
     }
     /// The value at a point; parameters and time have the values of a sample point.
@@ -499,14 +529,12 @@ impl Space {
         if self.points.len() > POINTS {
             self.points = Map::default();
         }
-        let (model, pairs) = (&self.model, &self.pairs);
+        let (model, pairs, parameters) = (&self.model, &self.pairs, &self.parameters);
         let values = self.points.entry(key).or_insert_with(|| {
             let leaves = pairs.iter().flat_map(|(q, p)| [*q, *p]);
-            Values::with(
-                &model.dag,
-                Sample::default(),
-                leaves.zip(point.iter().copied()),
-            )
+            let parameters = parameters.iter().map(|(leaf, value)| (*leaf, *value));
+            let given = leaves.zip(point.iter().copied()).chain(parameters);
+            Values::with(&model.dag, Sample::default(), given)
         });
         values.at(model, node)
     }

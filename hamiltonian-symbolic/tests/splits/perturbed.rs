@@ -20,6 +20,8 @@ struct System {
     momenta: Vec<String>,
     time: String,
     parameters: Vec<String>,
+    /// The values of the parameters.
+    values: Vec<f64>,
     sizes: String,
     terms: Vec<String>,
     order: Vec<usize>,
@@ -40,10 +42,14 @@ impl System {
             part.split(',').map(|name| name.trim().to_owned()).collect()
         };
         let (coordinates, momenta): (Vec<String>, Vec<String>) = (names(), names());
+        let parameters: Vec<String> = parameters.split_whitespace().map(str::to_owned).collect();
         System {
             order: (0..coordinates.len()).collect(),
+            values: (0..parameters.len())
+                .map(|at| 0.4 + 0.3 * at as f64)
+                .collect(),
             time: parts.next().unwrap_or("").to_owned(),
-            parameters: parameters.split_whitespace().map(str::to_owned).collect(),
+            parameters,
             // Arrays have a size of their own.
             sizes: if signature.contains("[n]") { "n" } else { "" }.to_owned(),
             terms: terms(h),
@@ -135,7 +141,24 @@ impl System {
     fn with_parameter(&self) -> System {
         let mut other = self.clone();
         other.parameters.insert(0, "unused".to_owned());
+        other.values.insert(0, 0.1);
         other
+    }
+    /// With its parameters declared in another order.
+    fn with_parameters(&self, random: &mut Random) -> System {
+        let mut both: Vec<(String, f64)> = self
+            .parameters
+            .iter()
+            .cloned()
+            .zip(self.values.iter().copied())
+            .collect();
+        shuffle(&mut both, random);
+        let (parameters, values) = both.into_iter().unzip();
+        System {
+            parameters,
+            values,
+            ..self.clone()
+        }
     }
     fn with_constant(&self) -> System {
         let mut other = self.clone();
@@ -169,15 +192,9 @@ impl System {
     fn pieces(&self) -> Result<Vec<Vec<f64>>, String> {
         let mut model = self.model();
         let pieces = find(&mut model).map_err(|refusal| refusal.text)?.pieces;
-        let unused = self
-            .parameters
-            .iter()
-            .filter(|name| *name == "unused")
-            .count();
-        let number = |at: usize| vec![vec![0.4 + 0.3 * (at as f64 - unused as f64)]];
         let world = World {
             sizes: Vec::new(),
-            parameters: (0..self.parameters.len()).map(number).collect(),
+            parameters: self.values.iter().map(|value| vec![vec![*value]]).collect(),
             t: 0.3,
         };
         let n = self.order.len();
@@ -329,6 +346,38 @@ const EXAMPLES: &[(&str, &str, &str)] = &[
     ("S; P", "", "S*P*(1 - S) - P^2"),
 ];
 
+/// Systems whose best splittings are close to each other, found by random rewriting.
+const CLOSE: &[(&str, &str, &str)] = &[
+    (
+        "z, w; p_z, p_w",
+        "a",
+        "(1 + sin(w))*p_z^2 + p_w^2/2 + a*w^3 + 3*(z^2 + 1)*(p_z^2 + 1)",
+    ),
+    ("q; p", "k", "k*(q^2 + 1)*(p^2 + 1) + q*p/7 + p^2*q^2/6"),
+    ("q; p", "", "q*p/7 + 4*(q^2 + 1)*(p^2 + 1)/3 + p^2*q^2/6"),
+    ("q; p", "a", "a*q^3 + 8*(q^2 + 1)*(p^2 + 1)/3"),
+    (
+        "x; p",
+        "",
+        "sin(x)*p/8 + 61*x*p/35 + 8*x^2*p^2/7 + 15*p^2/4",
+    ),
+    (
+        "x, z, w; p_x, p_z, p_w",
+        "",
+        "(z*p_w - w*p_z) + 7*w*p_x/5 + 4*x^2*p_x^2/7 + 2*cos(w - x) + 8*cos(x - z) + w*p_w/6",
+    ),
+    (
+        "x, y, u, v; p_x, p_y, p_u, p_v",
+        "a b c",
+        "(y*p_x - x*p_y) + (5*p_x^2/2)/a + (3*x^4/13)/c + 5*p_y^2/2 + 2*x^2*p_x^2/7 + c*(6*cos(y - x)) + (y^2 + 1)*(p_y^2 + 1)/3 + (u^2 + 1)*(p_u^2 + 1)*b/2 + (v^2 + a)*(p_v^2 + 1)/3 + v*p_v",
+    ),
+    (
+        "x, z; p_x, p_z",
+        "a",
+        "7*(x^2 + 1)*(p_x^2 + 1)/3 + a*(2*(z^2 + 1)*(p_z^2 + 1)/3)",
+    ),
+];
+
 /// All systems of one component each.
 fn systems() -> Vec<System> {
     let found = FOUND
@@ -342,6 +391,7 @@ fn systems() -> Vec<System> {
         .map(|one| (one.signature, one.parameters, one.h));
     let all = found
         .chain(MORE.iter().copied())
+        .chain(CLOSE.iter().copied())
         .chain(EXAMPLES.iter().copied());
     all.chain(cases)
         .chain(refused)
@@ -357,6 +407,7 @@ fn others(system: &System, random: &mut Random) -> Vec<(&'static str, System)> {
         ("coordinates", system.with_coordinates(random)),
         ("both reversed", system.reversed()),
         ("parameter", system.with_parameter()),
+        ("parameters", system.with_parameters(random)),
         ("constant", system.with_constant()),
         ("parameter added", system.with_parameter_added()),
         ("another", system.with_another()),
@@ -367,6 +418,7 @@ fn others(system: &System, random: &mut Random) -> Vec<(&'static str, System)> {
                 .with_terms(random)
                 .with_coordinates(random)
                 .with_parameter()
+                .with_parameters(random)
                 .with_constant()
                 .with_another(),
         ),
@@ -379,14 +431,12 @@ fn others(system: &System, random: &mut Random) -> Vec<(&'static str, System)> {
     all
 }
 
-#[test]
-fn the_same_systems_have_the_same_pieces() {
-    let mut random = Random(19);
+/// The ways to write some systems that have other pieces, and the number of all ways.
+fn with_other_pieces(systems: &[System], random: &mut Random) -> (Vec<String>, usize) {
     let (mut faults, mut count) = (Vec::new(), 0);
-    let systems = systems();
-    for system in &systems {
+    for system in systems {
         let pieces = system.pieces();
-        for (what, other) in others(system, &mut random) {
+        for (what, other) in others(system, random) {
             count += 1;
             let is_same = |own: &Vec<Vec<f64>>, pieces: &Vec<Vec<f64>>| {
                 own.len() == pieces.len()
@@ -404,8 +454,63 @@ fn the_same_systems_have_the_same_pieces() {
             }
         }
     }
+    (faults, count)
+}
+
+#[test]
+fn the_same_systems_have_the_same_pieces() {
+    let mut random = Random(19);
+    let systems = systems();
+    let (faults, count) = with_other_pieces(&systems, &mut random);
     println!("{count} ways to write {} systems", systems.len());
     assert!(systems.len() >= 50);
+    assert!(
+        faults.is_empty(),
+        "{} of {count}: {faults:#?}",
+        faults.len()
+    );
+}
+
+/// Terms of random systems: `k` is a number, `x` and `y` are coordinates, `px` and `py` their momenta.
+const TERMS: [&str; 14] = [
+    "k*x^2*px^2/7",
+    "k*(x^2 + 1)*(px^2 + 1)/3",
+    "k*x*py/5",
+    "k*px^2/2",
+    "k*x^2*y^2/11",
+    "sin(x)*py/k",
+    "k*cos(x - y)",
+    "k*px*py/4",
+    "(x*py - y*px)/k",
+    "px^2*y^2/k",
+    "x*px/k",
+    "a*x^3",
+    "b*(k + sin(y))*px^2",
+    "px^2/(2*a*(1 + y^2))",
+];
+
+/// A sum of some terms over three degrees of freedom.
+fn random_system(random: &mut Random) -> System {
+    let mut h = String::from("q0^2/9 + p0^2/3");
+    for _ in 0..2 + random.below(5) {
+        let (x, k) = (random.below(3), 1 + random.below(9));
+        let y = (x + 1 + random.below(2)) % 3;
+        let names = [("x", "q", x), ("y", "q", y), ("px", "p", x), ("py", "p", y)];
+        let names = names.map(|(old, new, at)| (old.to_owned(), format!("{new}{at}")));
+        let mut names = names.to_vec();
+        names.push(("k".to_owned(), k.to_string()));
+        h += &format!(" + {}", replaced(TERMS[random.below(TERMS.len())], &names));
+    }
+    System::read("q0, q1, q2; p0, p1, p2", "a b", &h)
+}
+
+#[test]
+fn random_systems_have_the_same_pieces() {
+    let mut random = Random(21);
+    let systems: Vec<System> = (0..common::cases(25, 400))
+        .map(|_| random_system(&mut random))
+        .collect();
+    let (faults, count) = with_other_pieces(&systems, &mut random);
     assert!(
         faults.is_empty(),
         "{} of {count}: {faults:#?}",

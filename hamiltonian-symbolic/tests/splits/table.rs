@@ -23,8 +23,8 @@ pub const FOUND: &[Found] = &[
         h: "((pf - pp*cos(th))*sin(ps)/sin(th) + pt*cos(ps))^2/(2*A) + ((pf - pp*cos(th))*cos(ps)/sin(th) - pt*sin(ps))^2/(2*B) + pp^2/(2*C) + m*sin(th)*sin(ps)",
         pieces: &[
             "((pf - pp*cos(th))*sin(ps)/sin(th) + pt*cos(ps))^2/(2*A) + m*sin(th)*sin(ps)",
-            "pp^2/(2*C)",
             "((pf - pp*cos(th))*cos(ps)/sin(th) - pt*sin(ps))^2/(2*B)",
+            "pp^2/(2*C)",
         ],
     },
     Found {
@@ -33,8 +33,8 @@ pub const FOUND: &[Found] = &[
         h: "((pf - pp*cos(th))*sin(ps) + pt*sin(th)*cos(ps))^2/(2*A*sin(th)^2) + ((pf - pp*cos(th))*cos(ps) - pt*sin(th)*sin(ps))^2/(2*B*sin(th)^2) + pp^2/(2*C) + m*cos(th)",
         pieces: &[
             "((pf - pp*cos(th))*sin(ps) + pt*sin(th)*cos(ps))^2/(2*A*sin(th)^2)",
-            "pp^2/(2*C) + m*cos(th)",
             "((pf - pp*cos(th))*cos(ps) - pt*sin(th)*sin(ps))^2/(2*B*sin(th)^2)",
+            "pp^2/(2*C) + m*cos(th)",
         ],
     },
     Found {
@@ -58,9 +58,9 @@ pub const FOUND: &[Found] = &[
         parameters: "E L B",
         h: "(1 - 2/r)*pr^2/2 + pt^2/(2*r^2) - E^2/(2*(1 - 2/r)) + (L - B*r^2*sin(th)^2/2)^2/(2*r^2*sin(th)^2)",
         pieces: &[
+            "pr^2/2 + pt^2/(2*r^2)",
             "-E^2/(2*(1 - 2/r)) + (L - 0.5*B*r^2*sin(th)^2)^2/(2*r^2*sin(th)^2)",
             "-pr^2/r",
-            "pr^2/2 + pt^2/(2*r^2)",
         ],
     },
     Found {
@@ -116,9 +116,9 @@ pub const FOUND: &[Found] = &[
         parameters: "A B C",
         h: "(G^2 - L^2)*(sin(l)^2/A + cos(l)^2/B)/2 + L^2/(2*C)",
         pieces: &[
+            "(G^2 - L^2)*cos(l)^2/(2*B)",
             "(G^2 - L^2)*sin(l)^2/(2*A)",
             "L^2/(2*C)",
-            "(G^2 - L^2)*cos(l)^2/(2*B)",
         ],
     },
     Found {
@@ -135,8 +135,8 @@ pub const FOUND: &[Found] = &[
         parameters: "a E L",
         h: "(r^2 - 2*r + a^2)*pr^2/2 + pt^2/2 + (a*E*sin(th) - L/sin(th))^2/2 - ((r^2 + a^2)*E - a*L)^2/(2*(r^2 - 2*r + a^2)) + (r^2 + a^2*cos(th)^2)/2",
         pieces: &[
-            "0.5*(r^2 - 2*r + a^2)*pr^2 + pt^2/2",
             "(a*E*sin(th) - L/sin(th))^2/2 - ((r^2 + a^2)*E - a*L)^2/(2*(r^2 - 2*r + a^2)) + r^2/2 + 0.5*a^2*cos(th)^2",
+            "0.5*(r^2 - 2*r + a^2)*pr^2 + pt^2/2",
         ],
     },
     Found {

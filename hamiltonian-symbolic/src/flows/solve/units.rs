@@ -260,13 +260,15 @@ fn out(space: &mut Space, node: Node) -> Option<Vec<Node>> {
     (loss(space, &parts, node) <= LOSS).then_some(parts)
 }
 
-/// Σ|parts|/|whole|, the median of some points near and far: a whole that vanishes somewhere loses digits there
-/// in any form.
+/// Σ|parts|/|whole|, the median of some points near and far, with momenta of either sign: a whole that vanishes
+/// somewhere loses digits there in any form.
 fn loss(space: &mut Space, parts: &[Node], whole: Node) -> f64 {
     let set = space.set(whole);
+    let momenta = set.members().filter(|one| !one.is_coordinate()).collect();
     let mut losses = Vec::new();
-    for step in [0.0, 1.0, 2.0, 4.0, 8.0] {
-        let point = space.point_off(&[(set, step)]);
+    let steps = [0.0, 1.0, 2.0, 4.0, 8.0].into_iter();
+    for (step, back) in steps.flat_map(|step| [(step, 0.0), (step, -32.0)]) {
+        let point = space.point_off(&[(set, step), (momenta, back)]);
         let mut sum = 0.0;
         for part in parts {
             sum += space.value_at(*part, &point).value.abs();

@@ -1,28 +1,85 @@
-//! An order of the pairs that follows from H alone, so that a search does not depend on the order in
-//! which coordinates are listed.
+//! Labels that follow from H alone, so that a search depends neither on the order in which coordinates and
+//! parameters are listed nor on the order of terms.
 //!
-//! Input: expressions and the pairs that stand in them. Output: the pairs sorted by labels. Invariant:
-//! a label is made from the places where a variable stands, by refinement of colours (Weisfeiler and
-//! Leman 1968): neither names nor numbers of variables and parameters enter it, nor the order of
-//! operands, nor a number that is added to H. Pairs of one label keep their order.
+//! Input: expressions and the pairs that stand in them. Output: the pairs sorted by labels, and the labels of
+//! parameters and of further expressions. Invariant: the label of a leaf is made from the places where it stands,
+//! by refinement of colours (Weisfeiler and Leman 1968). Neither names nor numbers of variables and parameters
+//! enter it, nor the order of operands, nor a constant that is added to H. Pairs of one label keep their order.
 
-use crate::dag::{Array, Dag, Kind, Map, Mixer, Node, Side};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Mixer, Node, Side};
+use crate::rational::Rational;
 use crate::sort::Arrange;
 use std::hash::{Hash, Hasher};
 
 /// The most rounds: two variables that differ after none of these are taken for alike.
 const ROUNDS: usize = 4;
 
-/// Sorts pairs by their labels.
-pub(super) fn sort(dag: &Dag, roots: &[Node], pairs: &mut [(Node, Node)]) {
-    if pairs.len() < 2 {
-        return;
+/// The labels of leaves.
+pub(super) struct Labels(Map<Node, u64>);
+
+impl Labels {
+    /// The labels of the leaves of some expressions. The pairs are sorted by theirs.
+    pub(super) fn new(dag: &Dag, roots: &[Node], pairs: &mut [(Node, Node)]) -> Labels {
+        let terms = terms(dag, roots);
+        let tops: Vec<Node> = terms.keys().copied().collect();
+        let nodes = dag.reachable(&tops);
+        let is_parameter = |node: &&Node| is_parameter(dag, **node);
+        let parameters: Vec<Node> = nodes.iter().filter(is_parameter).copied().collect();
+        let mut colours = Map::default();
+        if pairs.len() > 1 || !parameters.is_empty() {
+            colours = refined(dag, &terms, &nodes, pairs);
+        }
+        let label = |node: &Node| colours.get(node).copied().unwrap_or_default();
+        pairs.arrange_by_key(|(q, p)| (label(q), label(p)));
+        let mut labels: Map<Node, u64> = Map::default();
+        for parameter in &parameters {
+            labels.insert(*parameter, label(parameter));
+        }
+        // Pairs of one label differ from here on.
+        for (at, (q, p)) in pairs.iter().enumerate() {
+            labels.insert(*q, at as u64);
+            labels.insert(*p, at as u64);
+        }
+        Labels(labels)
     }
-    let nodes = dag.reachable(roots);
+    /// The parameters among the leaves, each with its label.
+    pub(super) fn parameters(&self, dag: &Dag) -> Vec<(Node, u64)> {
+        let all = self.0.iter().map(|(node, label)| (*node, *label));
+        all.filter(|(node, _)| is_parameter(dag, *node)).collect()
+    }
+    /// The label of an expression, whatever constant is added to it.
+    pub(super) fn whole(&self, dag: &Dag, root: Node) -> u64 {
+        let terms = terms(dag, &[root]);
+        let tops: Vec<Node> = terms.keys().copied().collect();
+        let labels = self.of(dag, &tops);
+        let terms = terms.values().zip(&labels);
+        together(terms.map(|(k, label)| mixed(&(k, label))))
+    }
+    /// The labels of expressions over the leaves.
+    pub(super) fn of(&self, dag: &Dag, roots: &[Node]) -> Vec<u64> {
+        let colours = below(dag, &dag.reachable(roots), &self.0);
+        roots.iter().map(|root| colours[root]).collect()
+    }
+}
+
+fn is_parameter(dag: &Dag, node: Node) -> bool {
+    matches!(
+        dag.kind(node),
+        Kind::Scalar(_) | Kind::Element(Array::Parameter(_), ..)
+    )
+}
+
+/// The colours of all nodes.
+fn refined(
+    dag: &Dag,
+    terms: &Map<Node, Rational>,
+    nodes: &[Node],
+    pairs: &[(Node, Node)],
+) -> Map<Node, u64> {
     let mut colours: Map<Node, u64> = Map::default();
-    for _ in 0..ROUNDS.min(pairs.len()) {
-        let below = below(dag, roots, &nodes, &colours);
-        let mut above = above(dag, roots, &nodes, &below);
+    for _ in 0..ROUNDS.min(pairs.len().max(2)) {
+        let below = below(dag, nodes, &colours);
+        let mut above = above(dag, terms, nodes, &below);
         // Conjugate variables share what is known of them.
         for (q, p) in pairs.iter() {
             let of = |node: &Node| above.get(node).copied().unwrap_or_default();
@@ -32,8 +89,30 @@ pub(super) fn sort(dag: &Dag, roots: &[Node], pairs: &mut [(Node, Node)]) {
         }
         colours = above;
     }
-    let label = |node: &Node| colours.get(node).copied().unwrap_or_default();
-    pairs.arrange_by_key(|(q, p)| (label(q), label(p)));
+    colours
+}
+
+/// The terms of some sums, and of sums in them. A constant has no effect on what else its parameters stand for.
+fn terms(dag: &Dag, roots: &[Node]) -> Map<Node, Rational> {
+    let point = Dependence(Dependence::Q.0 | Dependence::P.0);
+    let mut found: Map<Node, Rational> = Map::default();
+    let mut left: Vec<(Rational, Node)> = roots.iter().map(|root| (Rational::ONE, *root)).collect();
+    while let Some((k, node)) = left.pop() {
+        match dag.kind(node) {
+            Kind::Sum(_, terms) => {
+                left.extend(terms.iter().map(|(own, term)| (own.mul(&k), *term)))
+            }
+            Kind::Product(own, factors) if matches!(factors.as_slice(), [(_, 1)]) => {
+                left.push((own.mul(&k), factors[0].0));
+            }
+            _ if dag.dependence(node).on(point) => {
+                let known = found.entry(node).or_insert(Rational::ZERO);
+                *known = known.add(&k);
+            }
+            _ => {}
+        }
+    }
+    found
 }
 
 fn mixed(value: &impl Hash) -> u64 {
@@ -50,7 +129,7 @@ fn together(values: impl Iterator<Item = u64>) -> u64 {
 }
 
 /// The colour of each node by what stands below it.
-fn below(dag: &Dag, roots: &[Node], nodes: &[Node], leaves: &Map<Node, u64>) -> Map<Node, u64> {
+fn below(dag: &Dag, nodes: &[Node], leaves: &Map<Node, u64>) -> Map<Node, u64> {
     let mut colours: Map<Node, u64> = Map::default();
     for &node in nodes {
         let of = |child: &Node| colours.get(child).copied().unwrap_or_default();
@@ -60,9 +139,7 @@ fn below(dag: &Dag, roots: &[Node], nodes: &[Node], leaves: &Map<Node, u64>) -> 
         match kind {
             Kind::Constant(value) => value.hash(&mut own),
             Kind::Sum(c, terms) => {
-                if !roots.contains(&node) {
-                    c.hash(&mut own);
-                }
+                c.hash(&mut own);
                 let terms = terms.iter().map(|(k, term)| mixed(&(k, of(term))));
                 together(terms).hash(&mut own);
             }
@@ -89,10 +166,15 @@ fn below(dag: &Dag, roots: &[Node], nodes: &[Node], leaves: &Map<Node, u64>) -> 
 }
 
 /// The colour of each node by what it stands in, and where.
-fn above(dag: &Dag, roots: &[Node], nodes: &[Node], below: &Map<Node, u64>) -> Map<Node, u64> {
+fn above(
+    dag: &Dag,
+    terms: &Map<Node, Rational>,
+    nodes: &[Node],
+    below: &Map<Node, u64>,
+) -> Map<Node, u64> {
     let mut colours: Map<Node, u64> = Map::default();
-    for root in roots {
-        colours.insert(*root, 1);
+    for (term, k) in terms.iter() {
+        colours.insert(*term, mixed(k));
     }
     for &node in nodes.iter().rev() {
         let own = (

@@ -44,7 +44,10 @@ pub(crate) struct Block {
 
 struct Search<'a> {
     space: &'a mut Space,
+    /// The units, in an order that follows from H alone,
     units: &'a [Unit],
+    /// and their places in the order in which they are written.
+    places: &'a [usize],
     tried: Map<Mask, Option<Flow>>,
     blocks: Vec<Block>,
     /// The limit past which blocks were left out.
@@ -52,12 +55,13 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The sum of some units, in the order in which they are written.
     fn sum(&mut self, mask: Mask) -> Node {
-        let nodes: Vec<Node> = self.of(mask).map(|unit| unit.node).collect();
+        let mut numbers: Vec<At> = mask.members().collect();
+        numbers.arrange_by_key(|At(at)| self.places[*at]);
+        let nodes = numbers.iter().map(|At(at)| self.units[*at].node);
+        let nodes: Vec<Node> = nodes.collect();
         self.space.dag().add(&nodes)
-    }
-    fn of(&self, mask: Mask) -> impl Iterator<Item = &Unit> {
-        mask.members().map(|At(at)| &self.units[at])
     }
     fn block(&mut self, mask: Mask) -> Option<Block> {
         let node = self.sum(mask);
@@ -102,9 +106,13 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         space.meets(Limit::Terms, first);
         return Err(first);
     }
+    let nodes: Vec<Node> = units.units.iter().map(|unit| unit.node).collect();
+    let places = space.in_order(&nodes);
+    let ordered: Vec<Unit> = places.iter().map(|at| units.units[*at]).collect();
     let mut search = Search {
         space,
-        units: &units.units,
+        units: &ordered,
+        places: &places,
         tried: Map::default(),
         blocks: Vec::new(),
         limit: None,
@@ -117,9 +125,10 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
     coupled_blocks(&mut search, coupled, all.without(coupled));
     let covers = covers(&search.blocks, coupled);
     if covers.is_empty() {
-        let bad = units.units.iter().enumerate().find(|(at, unit)| {
+        let bad = ordered.iter().enumerate().filter(|(at, unit)| {
             unit.is_coupled && !search.blocks.iter().any(|block| block.units.has(At(*at)))
         });
+        let bad = bad.min_by_key(|(at, _)| places[*at]);
         let bad = bad.map_or(units.units[0], |(_, unit)| *unit).source;
         if let Some(limit) = search.limit {
             space.meets(limit, bad);

@@ -50,7 +50,7 @@ pub(super) fn flows(dag: &mut Dag, flows: &[Flow]) -> Option<Flow> {
 }
 
 /// The parts of all groups as few parts, innermost with innermost; in another order where kicks would not be
-/// joined with kicks.
+/// joined with kicks. The groups come in an order that follows from H alone.
 pub(super) fn parts(model: &mut Model, h: Node, mut groups: Vec<Parts>) -> Parts {
     let choice = choice(&groups);
     // Groups with equally many parts keep their order.

@@ -19,6 +19,7 @@ use crate::flows::space::Space;
 use crate::model::{ExactFlow, Flow, Model, Piece};
 use crate::print;
 use crate::rational::Rational;
+use crate::sort::Arrange;
 use crate::transform::check_split;
 
 /// H as a sum of pieces, outermost first.
@@ -158,8 +159,11 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
                     for group in groups {
                         let mut space = Space::new(model, &[group])
                             .map_err(|limit| NoFlow::of(model, group, limit))?;
-                        found.push(searched(model, &mut space, group)?);
+                        let label = space.label(group);
+                        found.push((label, searched(model, &mut space, group)?));
                     }
+                    found.arrange_by_key(|(label, _)| *label);
+                    let found = found.into_iter().map(|(_, parts)| parts).collect();
                     join::parts(model, h, found)
                 }
             }
@@ -240,7 +244,9 @@ fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
         !space.is_off(rest)
     });
     let invariants = space.model.invariants();
-    let best = rank::best(space, h, candidates, &invariants);
+    // An orbit that ends is an error of the size of H, to which the constant would add.
+    let energy = space.dag().sub(h, constant);
+    let best = rank::best(space, energy, candidates, &invariants);
     let (chosen, reasons) = best.ok_or(refused.unwrap_or(h))?;
     let rest = rest(space, &chosen);
     if !space.is_zero(rest) {

@@ -96,7 +96,20 @@ impl Prepared {
     }
 }
 
-/// The best candidate, its pieces in order, and why it is.
+/// A candidate with its pieces in some order.
+struct Trial {
+    /// The number of the candidate.
+    candidate: usize,
+    order: Vec<usize>,
+    /// The error times the cost of a step; infinite where no orbit could be followed.
+    loss: f64,
+    error: f64,
+    /// True if the outermost piece moves momenta.
+    kicks_outside: bool,
+}
+
+/// The best candidate, its pieces in order, and why it is. Among those that tie with the least loss the first is
+/// chosen that does not kick outermost. Candidates come in an order that follows from H alone.
 pub(crate) fn best(
     space: &mut Space,
     h: Node,
@@ -107,18 +120,19 @@ pub(crate) fn best(
         let numbers = tape.prepared(0.0);
         (tape, numbers)
     });
-    let mut chosen: Option<(f64, usize, Vec<Block>, Reasons)> = None;
-    let (mut trials, mut operations) = (0, 0);
+    let (mut tried, mut least): (Vec<Trial>, f64) = (Vec::new(), f64::INFINITY);
+    let (mut trials, mut operations, mut keep) = (0, 0, false);
     // Candidates share blocks: each is made a piece once.
     let mut made: Vec<Prepared> = Vec::new();
     let mut numbers: Map<Node, Option<usize>> = Map::default();
-    for pieces in candidates {
-        let keeps = keeps(space, &pieces, invariants);
-        let others_keep = chosen
-            .as_ref()
-            .map(|(.., reasons)| reasons.keeps_invariants);
-        if others_keep == Some(true) && !keeps {
+    for (candidate, pieces) in candidates.iter().enumerate() {
+        let keeps = keeps(space, pieces, invariants);
+        if keep && !keeps {
             continue;
+        }
+        if keeps && !keep {
+            (keep, least) = (true, f64::INFINITY);
+            tried.clear();
         }
         let number = |block: &Block| match numbers.get(&block.node) {
             Some(known) => *known,
@@ -132,54 +146,43 @@ pub(crate) fn best(
             }
         };
         let own: Option<Vec<usize>> = pieces.iter().map(number).collect();
-        for order in orders(space, &pieces) {
-            if (trials == TRIALS || operations > OPERATIONS) && chosen.is_some() {
+        for order in orders(space, pieces) {
+            if (trials == TRIALS || operations > OPERATIONS) && !tried.is_empty() {
                 break;
             }
             trials += 1;
-            let cost = if pieces.len() == 1 {
-                1
-            } else {
-                2 * pieces.len() - 2
-            };
-            let outer = space.set(pieces[order[0]].node);
-            let mirrored = usize::from(outer.sides().0);
-            // Below this it is better.
-            let most = match &chosen {
-                Some((best, other, _, reasons))
-                    if best.is_finite() && reasons.keeps_invariants == keeps =>
-                {
-                    let factor = if mirrored < *other { TIE } else { 1.0 / TIE };
-                    best * factor / cost as f64
-                }
-                _ => f64::INFINITY,
-            };
+            let cost = (2 * pieces.len() - 2).max(1) as f64;
             let error = match (&mut energy, &own) {
                 (Some(energy), Some(own)) => {
                     let order: Vec<usize> = order.iter().map(|at| own[*at]).collect();
+                    let most = least * TIE / cost;
                     error(space, energy, &mut made, &order, most, &mut operations)
                 }
                 _ => f64::NAN,
             };
-            let is_better = match &chosen {
-                Some((.., reasons)) => reasons.keeps_invariants != keeps || error < most,
-                None => true,
-            };
-            if is_better {
-                let ordered = order.iter().map(|at| pieces[*at].clone()).collect();
-                let reasons = Reasons {
-                    error,
-                    among: 0,
-                    keeps_invariants: keeps,
-                };
-                chosen = Some((error * cost as f64, mirrored, ordered, reasons));
-            }
+            // The least of a number and NaN is the number.
+            let loss = (error * cost).min(f64::INFINITY);
+            least = least.min(loss);
+            let outer = space.set(pieces[order[0]].node);
+            tried.push(Trial {
+                candidate,
+                order,
+                loss,
+                error,
+                kicks_outside: outer.sides().0,
+            });
         }
     }
-    chosen.map(|(_, _, pieces, reasons)| {
-        let among = trials;
-        (pieces, Reasons { among, ..reasons })
-    })
+    let ties = tried.iter().filter(|trial| trial.loss <= least * TIE);
+    let chosen = ties.min_by_key(|trial| trial.kicks_outside)?;
+    let pieces = &candidates[chosen.candidate];
+    let ordered = chosen.order.iter().map(|at| pieces[*at].clone()).collect();
+    let reasons = Reasons {
+        error: chosen.error,
+        among: trials,
+        keeps_invariants: keep,
+    };
+    Some((ordered, reasons))
 }
 
 /// Returns true if all pieces keep all invariants.
@@ -259,6 +262,17 @@ fn start(orbit: usize, bit: usize) -> f64 {
     }
 }
 
+/// The root of an error, so that the product over all orbits is their mean: of functions that round alike on every
+/// platform.
+fn root(error: f64, orbits: usize) -> f64 {
+    match orbits {
+        1 => error,
+        2 => error.sqrt(),
+        3 => hamiltonian_real::Real::cbrt(error),
+        _ => error.sqrt().sqrt(),
+    }
+}
+
 /// An orbit a lane.
 const ORBITS: usize = LANES;
 
@@ -309,8 +323,7 @@ fn error(
         if step % 2 == 1 {
             let orbits = (0..ORBITS).filter(|orbit| size[*orbit].is_finite());
             let is_largest = orbits.clone().all(|orbit| largest[orbit] == size[orbit]);
-            let sum: f64 = orbits.map(|orbit| largest[orbit].ln()).sum();
-            mean = (sum / count as f64).exp();
+            mean = orbits.map(|orbit| root(largest[orbit], count)).product();
             if mean > most || is_largest {
                 break;
             }

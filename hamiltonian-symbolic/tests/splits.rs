@@ -52,6 +52,31 @@ fn what_has_no_flow_is_refused_by_its_term() {
     assert!(others.is_empty(), "{others:#?}");
 }
 
+#[test]
+fn terms_that_commute_are_one_piece_however_many_there_are() {
+    for count in 3..=12 {
+        let [q, p] = ["q", "p"].map(|name| names(name, count));
+        let terms = sum_of(count, |at| format!("(q{at}^2 + 1)*(p{at}^2 + 1)/2"));
+        let product = q.replace(", ", "*");
+        let mut model = common::system(
+            &format!("{q}; {p}"),
+            "",
+            "",
+            &format!("{terms} + {product}"),
+        );
+        let found = find(&mut model).expect("there are three families");
+        assert_eq!(found.pieces.len(), 3, "{count}");
+    }
+}
+
+/// `q1, q2, …`
+fn names(name: &str, count: usize) -> String {
+    (1..=count)
+        .map(|at| format!("{name}{at}"))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
 /// Terms `c(1) + c(2) + …`
 fn sum_of(count: usize, term: impl Fn(usize) -> String) -> String {
     (1..=count).map(term).collect::<Vec<_>>().join(" + ")

@@ -12,6 +12,7 @@ use crate::flows::space::{Space, Variable, Variables};
 use crate::model::Flow;
 use crate::set::{Member, Set};
 use crate::sort::Arrange;
+use std::cmp::Reverse;
 
 /// The most ways to cover the coupled units. It limits the choice alone: if there is a way, the first is found.
 const COVERS: usize = 60;
@@ -123,7 +124,14 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         return Ok(vec![vec![whole]]);
     }
     coupled_blocks(&mut search, coupled, all.without(coupled));
-    let covers = covers(&search.blocks, coupled);
+    let mut covers = covers(&search.blocks, coupled);
+    if covers.len() == COVERS {
+        // Of too many, those of few blocks.
+        search
+            .blocks
+            .arrange_by_key(|block| Reverse(block.units.len()));
+        covers = self::covers(&search.blocks, coupled);
+    }
     if covers.is_empty() {
         let bad = ordered.iter().enumerate().filter(|(at, unit)| {
             unit.is_coupled && !search.blocks.iter().any(|block| block.units.has(At(*at)))
@@ -184,6 +192,7 @@ fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
         subsets.extend(larger);
     } else {
         search.limit = Some(Limit::Coupled);
+        subsets.push(coupled);
         for (at, a) in numbers.iter().enumerate() {
             subsets.extend(
                 numbers[at + 1..]
@@ -191,7 +200,6 @@ fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
                     .map(|b| Mask::of(*a) | Mask::of(*b)),
             );
         }
-        subsets.push(coupled);
     }
     // Alone first, so that the limit meets refinements.
     for &subset in &subsets {

@@ -317,7 +317,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         );
     }
 
-    /// What the iterations before the middle do to elements that those after it reach too.
+    /// Adds the terms of the iterations before the middle to elements that the iterations after it reach too.
     #[inline(never)]
     fn ahead<B: Body<G, R, W>, const W: usize>(&mut self, ends: &[[usize; 2]; C], middle: usize) {
         for k in middle - REACH..middle {

@@ -11,7 +11,7 @@ use hamiltonian_lanes::Real;
 /// The least number of elements of a slab: some microseconds of work, as many as it takes to hand one over.
 pub(crate) const SLAB: usize = 8192;
 
-/// Does both, on two threads where one has nothing else to do.
+/// Calls both functions, on two threads if another thread of the pool is idle.
 pub(crate) fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
     #[cfg(feature = "rayon")]
     rayon_core::join(a, b);
@@ -65,7 +65,7 @@ pub fn rows<T: Real, const C: usize>(
     }
 }
 
-/// What is done with a range of iterations and their elements.
+/// The body of a loop: it receives a range of iterations and their elements.
 type Work<'a, T, const C: usize> = dyn Fn(Range<usize>, [&mut [T]; C]) + Sync + 'a;
 
 /// Some iterations in so many slabs.

@@ -94,7 +94,7 @@ impl Display for Lane {
     }
 }
 
-/// The names that are known, where another was asked for: what they are, and the names.
+/// Declared names, for the message about an unknown one: what they name, and the names.
 pub(crate) struct Known<'a, S>(pub(crate) &'static str, pub(crate) &'a [S]);
 
 impl<S: AsRef<str>> Display for Known<'_, S> {

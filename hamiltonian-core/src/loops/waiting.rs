@@ -55,7 +55,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
         let mut k = 0;
         while k < S {
             let s = order[k];
-            // The next one below it, if they reach common elements, is of its group.
+            // The next store below it joins its group if both reach common elements.
             let mut below = k + 1;
             while below < S && stores[order[below]].column != stores[s].column {
                 below += 1;

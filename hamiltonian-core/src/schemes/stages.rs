@@ -409,7 +409,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
             linear: &mut work.linear,
         };
         *outcome = iterate(self.limit, &mut newton, &mut work.guess, &mut work.next);
-        // Lanes that were solved know nothing of those that were not.
+        // The result of a lane does not depend on other lanes: those that the fixed point solved keep its values.
         slopes.copy_where(!fixed, &work.guess);
         outcome.solved = outcome.solved | fixed;
     }

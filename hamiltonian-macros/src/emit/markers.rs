@@ -95,7 +95,7 @@ pub fn implementations(context: Context) -> String {
     out
 }
 
-/// A trait that holds, or asks for a bound that nothing satisfies, with the reason why not.
+/// An implementation of a marker trait. If the trait does not hold, a bound that nothing satisfies carries the reason.
 fn marker(
     out: &mut String,
     context: Context,

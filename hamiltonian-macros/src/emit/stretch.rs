@@ -131,7 +131,7 @@ impl Writer<'_> {
         if made.reads.is_empty() || made.computed.len() > MOST {
             return None;
         }
-        // What the arithmetic reads from outside the loop.
+        // The values from outside the loop that the arithmetic reads.
         for value in super::scan::scan(self.context, &made.computed, &[]).reads {
             made.takes(program.instruction(value), value)?;
         }

@@ -8,7 +8,8 @@
 //! on AVX-512 and 12 times on AVX2. Before anything is timed, the ends of all trajectories are
 //! compared with those of single runs: the same bits where nothing fuses.
 //!
-//! After them members of implicit schemes are timed against scalar runs.
+//! After them members are timed against scalar runs for implicit schemes, for many stages, and for steps that
+//! each have a size of their own.
 //!
 //! The loop over 100 trajectories at a time shows how much of the gain is overlap alone: there the
 //! processor works on several sines at once, in the other one each step waits for the last.
@@ -18,7 +19,7 @@ use std::time::{Duration, Instant};
 
 use hamiltonian::prelude::*;
 use hamiltonian::{
-    Ensembles, Scheme, System,
+    Ensembles, Scheme, System, Vector,
     schemes::author::{Carried, Clock, Map, Scratch, Step},
 };
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch_at_most};
@@ -244,16 +245,32 @@ fn main() {
     }
     if !json {
         println!("\nMembers of an ensemble, reproducible, against a scalar run:");
-        implicit(ImplicitMidpoint::default());
-        implicit(Gauss::<2>::default());
-        implicit(Gauss::<4>::default());
-        implicit(GaussNystrom::<4>::default());
+        members(ImplicitMidpoint::default());
+        members(Gauss::<2>::default());
+        members(Gauss::<4>::default());
+        members(GaussNystrom::<4>::default());
+        members(BlanesMoan6);
+        members(Paced {
+            scheme: BlanesMoan6,
+            density: Swing,
+        });
     }
     std::process::exit(i32::from(failed));
 }
 
+/// Steps that are smaller where the pendulum swings fast.
+#[derive(Debug, Clone, PartialEq)]
+struct Swing;
+
+impl<V: Vector> Density<V> for Swing {
+    #[inline(always)]
+    fn rate(&self, _: V::Scalar, q: &V, _: &V, dq: &V, _: &V) -> V::Scalar {
+        V::Scalar::constant(0.1, 0.0) * q.part(0)[0] * dq.part(0)[0]
+    }
+}
+
 /// Prints how many times a scalar run members of an ensemble are on one thread of this CPU.
-fn implicit<M: Ensembles<Pendulum>>(scheme: M) {
+fn members<M: Ensembles<Pendulum>>(scheme: M) {
     const STEP: f64 = 0.1;
     const STEPS: u64 = 20;
     let entry = scheme.entry();

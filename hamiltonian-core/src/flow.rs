@@ -120,21 +120,22 @@ pub struct Turn<F> {
 }
 
 impl<F> Turn<F> {
-    /// From the flow for a duration.
     #[inline(always)]
-    fn new<X: Vector>(flow: impl Fn(X::Scalar) -> F, down: X::Scalar, up: X::Scalar) -> Self
+    fn new<T, P, A>(piece: &A, prepared: &P, down: T, up: T) -> Self
     where
-        F: Flow<X>,
+        T: Real,
+        A: Piece<T, P, Flow = F>,
+        F: Flow<A::Point>,
     {
         if F::MERGES {
             Turn {
-                down: flow(down + up),
+                down: piece.flow(prepared, down + up),
                 up: None,
             }
         } else {
             Turn {
-                down: flow(down),
-                up: Some(flow(up)),
+                down: piece.flow(prepared, down),
+                up: Some(piece.flow(prepared, up)),
             }
         }
     }
@@ -218,7 +219,7 @@ macro_rules! pieces {
             }
             #[inline(always)]
             fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner {
-                Turn::new::<Self::Point>(|c| self.1.flow(prepared, c), down, up)
+                Turn::new(&self.1, prepared, down, up)
             }
         }
     };

@@ -99,6 +99,20 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
     type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;
     /// Folds the step into the flows. This does not allocate.
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map;
+    /// One step of size `h` from `t` to `end`: what [`Map::step`] of the map for this step does, with the
+    /// same bits. Schemes with variable steps call it in each step; one whose map has many flows makes them here
+    /// where it applies them.
+    #[inline(always)]
+    fn step(
+        &self,
+        prepared: &S::Prepared,
+        h: T,
+        [t, end]: [T; 2],
+        z: &mut <Self::Map as Map>::Carried,
+        work: &mut <Self::Map as Map>::Work,
+    ) {
+        self.prepare(prepared, Step::of(h)).step(t, end, z, work);
+    }
     /// Returns an error if the scheme cannot integrate this system from this state for a reason
     /// that the bounds of the implementation do not express. The provided method returns none.
     ///

@@ -217,14 +217,17 @@ where
         let scale = self.monitor.energy(t, &q.x, &p.x);
         scale * (self.system.energy(t, &q.x, &p.x) + p.y[0])
     }
+    #[inline(always)]
     fn gradient_q(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
         let mut other = p.zeros_like();
         self.energy_and_gradient(t, q, p, out, &mut other);
     }
+    #[inline(always)]
     fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
         let mut other = q.zeros_like();
         self.energy_and_gradient(t, q, p, &mut other, out);
     }
+    #[inline(always)]
     fn gradient(
         &self,
         t: T,
@@ -235,6 +238,7 @@ where
     ) {
         self.energy_and_gradient(t, q, p, dq, dp);
     }
+    #[inline(always)]
     fn energy_and_gradient(
         &self,
         t: T,
@@ -255,9 +259,11 @@ where
         dp.y[0] = scale;
         scale * shell
     }
+    #[inline(always)]
     fn time_derivative(&self, _: T, _: &Self::Vector, _: &Self::Vector) -> T {
         T::zero()
     }
+    #[inline(always)]
     fn hessian_vector(
         &self,
         t: T,
@@ -289,6 +295,7 @@ where
         out_q.y[0] = T::zero();
         out_p.y[0] = moved_scale;
     }
+    #[inline(always)]
     fn observable(&self, index: usize, _: T, q: &Self::Vector, p: &Self::Vector) -> T {
         self.system.observable(index, q.y[0], &q.x, &p.x)
     }
@@ -299,6 +306,7 @@ where
         self.system.set_arithmetic(arithmetic);
         self.monitor.set_arithmetic(arithmetic);
     }
+    #[inline(always)]
     fn field(&self, c: T) -> Self::Field {
         FieldInNewTime {
             dynamics: self.clone(),

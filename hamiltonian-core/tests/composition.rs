@@ -12,7 +12,7 @@ use hamiltonian_core::schemes::{
 };
 use hamiltonian_core::{
     DoubleDouble, Scheme, Vector,
-    schemes::author::{Form, OneStep},
+    schemes::author::{Form, Map, OneStep, Scratch, Step},
 };
 
 /// The slope of the error at t = 1 between two steps, in double-double, against Gauss's method of order 16, whose
@@ -229,6 +229,82 @@ fn after<S: System<f64>, M: Scheme<f64, S>>(
 ) -> State<S::Vector> {
     let mut run = Integrator::new(system, scheme, start.clone(), h).unwrap();
     run.advance(n).unwrap().clone()
+}
+
+/// The bits of what a scheme carries after a step from a state: of a prepared step, or of one made at once.
+fn after_a_step<S, M>(
+    system: &S,
+    scheme: &M,
+    begin: &State<S::Vector>,
+    h: f64,
+    at_once: bool,
+) -> Vec<u64>
+where
+    S: System<f64>,
+    M: Scheme<f64, S>,
+{
+    let prepared = system.prepare();
+    let mut carried = scheme.start(&prepared, begin, h);
+    let mut work = Scratch::like(&carried);
+    let [t, end] = [begin.t, begin.t + h];
+    if at_once {
+        scheme.step(&prepared, h, [t, end], &mut carried, &mut work);
+    } else {
+        let map = scheme.prepare(&prepared, Step::of(h));
+        map.step(t, end, &mut carried, &mut work);
+    }
+    let parts = 0..<<M::Map as Map>::Carried as Vector>::PARTS;
+    (parts.flat_map(|k| carried.part(k).to_vec()))
+        .map(f64::to_bits)
+        .collect()
+}
+
+#[derive(Default)]
+struct AtOnce {
+    apart: Vec<String>,
+    /// How many schemes had other bits after a slightly longer step.
+    moved: usize,
+}
+
+impl<S: Sample<f64>> Visitor<f64, S> for AtOnce {
+    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+        let step = |h: f64, at_once| after_a_step(&S::sample(), &scheme, &S::begin(), h, at_once);
+        for h in [0.05, -0.03] {
+            if step(h, true) != step(h, false) {
+                self.apart.push(format!("{:?} with {h}", scheme.entry()));
+            }
+        }
+        self.moved += usize::from(step(0.05, true) != step(0.051, true));
+    }
+}
+
+#[test]
+fn a_step_at_once_has_the_bits_of_a_prepared_one() {
+    let mut at_once = AtOnce::default();
+    everywhere::<f64, _>(&mut at_once);
+    assert!(at_once.apart.is_empty(), "{:#?}", at_once.apart);
+    assert!(at_once.moved > 50, "{}", at_once.moved);
+
+    // Three pieces; loops of terms that do not commute, innermost and outermost; the table of an adjoint.
+    let (q, p) = ([0.5, -0.4], [0.3, 0.8]);
+    fn same<S: Split<f64>>(system: &S, q: &[f64], p: &[f64])
+    where
+        Ruth3: Scheme<f64, S>,
+        BlanesMoan4: Scheme<f64, S>,
+        Reversed<Ruth3>: Scheme<f64, S>,
+    {
+        let begin = start::<f64, S>(system, q, p);
+        fn of<S: System<f64>, M: Scheme<f64, S>>(system: &S, begin: &State<S::Vector>, scheme: M) {
+            let step = |at_once| after_a_step(system, &scheme, begin, 0.05, at_once);
+            assert_eq!(step(true), step(false));
+        }
+        of(system, &begin, Ruth3);
+        of(system, &begin, Reversed(Ruth3));
+        of(system, &begin, BlanesMoan4);
+    }
+    same(&Hand(Polar::<3>), &q, &p);
+    same(&Hand(Loops::<0, true>), &q, &p);
+    same(&Hand(Loops::<1, true>), &q, &p);
 }
 
 #[test]

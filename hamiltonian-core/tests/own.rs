@@ -36,10 +36,12 @@ impl Listed for Runge {
 
 impl<T: Real, S: System<T>> Scheme<T, S> for Runge {
     type Map = Twice<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let half = step.h * T::constant(0.5, 0.0);
         Twice(prepared.field(half), prepared.field(step.h), PhantomData)
     }
+    #[inline(always)]
     fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
         state.point()
     }
@@ -76,14 +78,16 @@ struct TwoStages;
 
 impl Splitting for TwoStages {
     type Of<U> = [U; 2];
+    #[inline(always)]
     fn stages(&self) -> [Durations; 2] {
         const LAMBDA: f64 = 0.193_183_327_503_783_6;
         const OUTER: Weight = Weight(LAMBDA, 0.0);
         const INNER: Weight = Weight(0.5 - LAMBDA, 0.0);
         [(OUTER, INNER), (INNER, OUTER)]
     }
-    fn map<A, U>(of: [A; 2], f: impl FnMut(A) -> U) -> [U; 2] {
-        of.map(f)
+    #[inline(always)]
+    fn filled<U: Clone>(value: U) -> [U; 2] {
+        [value.clone(), value]
     }
 }
 
@@ -104,9 +108,11 @@ impl Listed for TwoStages {
 
 impl<T: Real, S: Split<T>> Scheme<T, S> for TwoStages {
     type Map = ZigzagOf<T, S, S::Pieces, Self>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Zigzag::new(self, &S::PIECES, prepared, step)
     }
+    #[inline(always)]
     fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
         state.point()
     }

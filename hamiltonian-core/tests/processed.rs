@@ -30,8 +30,8 @@ impl Splitting for Idle {
     fn stages(&self) -> [Durations; 1] {
         [(Weight(0.0, 0.0), Weight(0.0, 0.0))]
     }
-    fn map<A, U>(of: [A; 1], f: impl FnMut(A) -> U) -> [U; 1] {
-        of.map(f)
+    fn filled<U: Clone>(value: U) -> [U; 1] {
+        [value]
     }
 }
 

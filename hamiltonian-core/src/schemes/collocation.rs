@@ -198,20 +198,24 @@ impl<const S: usize> Collocation<S> {
     /// With this rounding, the method is symplectic in the arithmetic of the scalar too: M.
     /// Antoñana, J. Makazaga, A. Murua, Numer. Algorithms 76, 861 (2017), section 3,
     /// doi:10.1007/s11075-017-0287-z.
+    #[inline(always)]
     pub fn symplectic<T: Real>(&self) -> [[T; S]; S] {
-        let mu = |i: usize, j: usize| {
-            let (here, there) = (self.integrals[i][j], self.integrals[j][i]);
-            let (size, other) = (here.hi().abs(), there.hi().abs());
-            // One less the larger of the two is exact.
-            if i == j {
-                T::constant(0.5, 0.0)
-            } else if size > other || (size == other && i < j) {
-                constant(here)
-            } else {
-                T::one() - constant::<T>(there)
+        let mut mu = [[T::constant(0.5, 0.0); S]; S];
+        for (i, row) in mu.iter_mut().enumerate() {
+            for (j, to) in row.iter_mut().enumerate() {
+                let (here, there) = (self.integrals[i][j], self.integrals[j][i]);
+                let (size, other) = (here.hi().abs(), there.hi().abs());
+                // One less the larger of the two is exact.
+                if i != j {
+                    *to = if size > other || (size == other && i < j) {
+                        constant(here)
+                    } else {
+                        T::one() - constant::<T>(there)
+                    };
+                }
             }
-        };
-        core::array::from_fn(|i| core::array::from_fn(|j| mu(i, j)))
+        }
+        mu
     }
 }
 
@@ -223,20 +227,35 @@ impl<const S: usize> Collocation<S> {
     /// of p and their parts 1 − c in q is symplectic in the arithmetic of the scalar too: E.
     /// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), theorem IV.2.3,
     /// doi:10.1007/3-540-30666-8.
+    #[inline(always)]
     pub(super) fn symplectic_double<T: Real>(&self, h: T) -> ([T; S], [[T; S]; S]) {
-        let times = self.nodes.map(|c| whole_ulps(c, h));
+        let mut times = [T::zero(); S];
+        for (to, c) in times.iter_mut().zip(&self.nodes) {
+            *to = whole_ulps(*c, h);
+        }
+        let exact = self.double_integrals();
         let mut double = [[T::zero(); S]; S];
         for i in 0..S {
             for j in 0..=i {
-                let mut sum = number(0.0);
-                for k in 0..S {
-                    sum += self.integrals[i][k] * self.weights[k] * self.integrals[k][j];
-                }
-                double[i][j] = whole_ulps(sum, h);
+                double[i][j] = whole_ulps(exact[i][j], h);
                 double[j][i] = double[i][j] - (times[i] - times[j]);
             }
         }
         (times, double)
+    }
+
+    /// νᵢⱼ for j ≤ i.
+    #[inline(never)]
+    fn double_integrals(&self) -> [[DoubleDouble; S]; S] {
+        let mut double = [[number(0.0); S]; S];
+        for (i, row) in double.iter_mut().enumerate() {
+            for (j, sum) in row.iter_mut().enumerate().take(i + 1) {
+                for k in 0..S {
+                    *sum += self.integrals[i][k] * self.weights[k] * self.integrals[k][j];
+                }
+            }
+        }
+        double
     }
 }
 
@@ -258,6 +277,16 @@ fn number(value: f64) -> DoubleDouble {
 #[inline(always)]
 pub(super) fn constant<T: Real>(x: DoubleDouble) -> T {
     T::constant(x.hi(), x.lo())
+}
+
+/// `numbers`·h.
+#[inline(always)]
+pub(super) fn multiples<T: Real, const S: usize>(numbers: &[DoubleDouble; S], h: T) -> [T; S] {
+    let mut all = [T::zero(); S];
+    for (to, number) in all.iter_mut().zip(numbers) {
+        *to = constant::<T>(*number) * h;
+    }
+    all
 }
 
 /// Legendre's polynomials at a point of [−1, 1] with their derivatives, one degree after another.

@@ -3,7 +3,7 @@
 //! Input: any system. Output: [`Gauss`]. Invariant: a step is finished only when its equations hold
 //! to rounding; otherwise it is an error.
 
-use super::collocation::{Collocation, constant};
+use super::collocation::{Collocation, multiples};
 use super::stages::{Carries, Collocated, at_rest, of_fixed_point};
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
@@ -142,14 +142,15 @@ symmetric!(Gauss<S>, const S: usize);
 
 impl<T: Real, S: System<T>, const STAGES: usize> Scheme<T, S> for Gauss<STAGES> {
     type Map = Collocated<T, S::Prepared, STAGES>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let integrals = self.coefficients.symplectic();
-        let weights = self.coefficients.weights.map(|b| constant::<T>(b) * step.h);
+        let weights = multiples(&self.coefficients.weights, step.h);
         Collocated {
             field: prepared.field(T::one()),
             dynamics: prepared.clone(),
             h: step.h,
-            times: self.coefficients.nodes.map(|c| constant::<T>(c) * step.h),
+            times: multiples(&self.coefficients.nodes, step.h),
             weights,
             spans: weights,
             // 1 − μⱼᵢ is μᵢⱼ.

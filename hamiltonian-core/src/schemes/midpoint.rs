@@ -71,6 +71,7 @@ symmetric!(ImplicitMidpoint);
 
 impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
     type Map = Midpoint<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Midpoint {
             field: prepared.field(T::one()),
@@ -79,6 +80,7 @@ impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
             limit: self.max_iterations,
         }
     }
+    #[inline(always)]
     fn start(
         &self,
         _: &S::Prepared,

@@ -149,6 +149,7 @@ where
     fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
         self.scheme.check(prepared, state)
     }
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Pacing {
             prepared: prepared.clone(),
@@ -159,6 +160,7 @@ where
             half: step.h * T::constant(0.5, 0.0),
         }
     }
+    #[inline(always)]
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, _: T) -> Pace<S::Vector> {
         let point = state.point();
         let mut velocity = point.zeros_like();
@@ -212,8 +214,8 @@ where
         let [density, rate_here, t] = &mut z.pace;
         *density += self.half * *rate_here;
         let h = self.epsilon / *density;
-        let map = self.scheme.prepare(&self.prepared, Step::of(h));
-        map.step(*t, *t + h, &mut z.point, &mut work.inner);
+        let ends = [*t, *t + h];
+        (self.scheme).step(&self.prepared, h, ends, &mut z.point, &mut work.inner);
         *t += h;
         *rate_here =
             rate::<T, S::Prepared, G>(&self.density, &self.field, *t, &z.point, &mut work.velocity);

@@ -113,7 +113,7 @@ where
     }
 }
 
-/// What makes the observed state from the kernel's, at one time.
+/// The map from the kernel's state to the observed one, at one time.
 pub trait PostProcessor<X: Carried, W> {
     /// Scratch besides that of the kernel.
     type Work: Scratch<X>;
@@ -283,8 +283,8 @@ macro_rules! weights {
                 $table.$part
             }
             #[inline(always)]
-            fn map<A, U>(of: [A; $stages], f: impl FnMut(A) -> U) -> [U; $stages] {
-                of.map(f)
+            fn filled<U: Clone>(value: U) -> [U; $stages] {
+                core::array::from_fn(|_| value.clone())
             }
         }
     };

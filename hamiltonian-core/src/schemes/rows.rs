@@ -237,6 +237,7 @@ pub(super) fn sum<T: Real, L: Layout<T>, const S: usize>(few: &[L::Few; S]) -> T
 
 /// A matrix of a method times `guess`, the matrix that takes the unknowns of the step before to a guess for
 /// those of this one. Both are matrices of numbers that the weights have multiplied.
+#[inline(always)]
 pub(super) fn of_the_guess<T: Real, const S: usize>(
     matrix: &[[T; S]; S],
     weights: &[T; S],

@@ -59,6 +59,7 @@ impl OneStep for RungeKutta4 {
 
 impl<T: Real, S: System<T>> Scheme<T, S> for RungeKutta4 {
     type Map = Classical<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Classical {
             field: prepared.field(step.h),
@@ -70,6 +71,7 @@ impl<T: Real, S: System<T>> Scheme<T, S> for RungeKutta4 {
             ),
         }
     }
+    #[inline(always)]
     fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
         state.point()
     }

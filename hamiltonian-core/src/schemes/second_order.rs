@@ -4,7 +4,7 @@
 //! [`Gauss`](super::Gauss), to rounding.
 
 use super::beside::StagedMap;
-use super::collocation::{Collocation, constant, whole_ulps};
+use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
 use super::iterate::Outcome;
 use super::rows::{
@@ -130,10 +130,11 @@ where
     S: System<T> + Separable<T> + QuadraticKinetic + Unforced,
 {
     type Map = Eliminated<T, S::Prepared, STAGES>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let h = step.h;
         let (times, double) = self.coefficients.symplectic_double(h);
-        let weights = self.coefficients.weights.map(|b| constant::<T>(-b) * h);
+        let weights = multiples(&self.coefficients.weights, -h);
         let guess = extrapolation(&self.coefficients, step);
         let first = whole_ulps(DoubleDouble::from(GOLDEN), h);
         Eliminated {

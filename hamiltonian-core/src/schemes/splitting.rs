@@ -48,11 +48,11 @@ pub type Durations = (Weight, Weight);
 )]
 pub trait Splitting: Listed + Copy {
     /// An array with one element a stage.
-    type Of<U>: AsRef<[U]>;
+    type Of<U>: AsRef<[U]> + AsMut<[U]>;
     /// The durations of the stages.
     fn stages(&self) -> Self::Of<Durations>;
-    /// The array of the values of `f` at each element, in order.
-    fn map<A, U>(of: Self::Of<A>, f: impl FnMut(A) -> U) -> Self::Of<U>;
+    /// The array with `value` in each element.
+    fn filled<U: Clone>(value: U) -> Self::Of<U>;
 }
 
 /// The table of the adjoint scheme: backwards, with the durations of each stage exchanged.
@@ -71,15 +71,16 @@ impl<W: Splitting> Listed for Reversed<W> {
 impl<W: Splitting> Splitting for Reversed<W> {
     type Of<U> = W::Of<U>;
     fn stages(&self) -> W::Of<Durations> {
-        let stages = self.0.stages();
-        let mut from_the_end = stages.as_ref().iter().rev();
-        W::map(self.0.stages(), |same| {
-            let (down, up) = *from_the_end.next().unwrap_or(&same);
-            (up, down)
-        })
+        let mut stages = self.0.stages();
+        stages.as_mut().reverse();
+        for (down, up) in stages.as_mut() {
+            core::mem::swap(down, up);
+        }
+        stages
     }
-    fn map<A, U>(of: W::Of<A>, f: impl FnMut(A) -> U) -> W::Of<U> {
-        W::map(of, f)
+    #[inline(always)]
+    fn filled<U: Clone>(value: U) -> W::Of<U> {
+        W::filled(value)
     }
 }
 
@@ -109,9 +110,14 @@ impl<W: Splitting> Listed for Negated<W> {
 impl<W: Splitting> Splitting for Negated<W> {
     type Of<U> = W::Of<U>;
     fn stages(&self) -> W::Of<Durations> {
-        W::map(self.0.stages(), |(down, up)| (down.negated(), up.negated()))
+        let mut stages = self.0.stages();
+        for (down, up) in stages.as_mut() {
+            (*down, *up) = (down.negated(), up.negated());
+        }
+        stages
     }
-    fn map<A, U>(of: W::Of<A>, f: impl FnMut(A) -> U) -> W::Of<U> {
-        W::map(of, f)
+    #[inline(always)]
+    fn filled<U: Clone>(value: U) -> W::Of<U> {
+        W::filled(value)
     }
 }

@@ -9,7 +9,7 @@ use super::composition::Composition;
 use super::splitting::{Durations, Reversed, Splitting};
 use super::tables::{Coefficients, general, near_integrable, nystrom};
 use super::zigzag::{Zigzag, ZigzagOf};
-use crate::map::Step;
+use crate::map::{Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
 use crate::state::{Point, State};
 use crate::system::{Exact, Nystrom, Split};
@@ -50,8 +50,8 @@ macro_rules! tabulated {
                 $table.stages
             }
             #[inline(always)]
-            fn map<A, U>(of: [A; $stages], f: impl FnMut(A) -> U) -> [U; $stages] {
-                of.map(f)
+            fn filled<U: Clone>(value: U) -> [U; $stages] {
+                core::array::from_fn(|_| value.clone())
             }
         }
 
@@ -78,6 +78,17 @@ macro_rules! on_exact_pieces {
             #[inline(always)]
             fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
                 Zigzag::new(self, &S::PIECES, prepared, step)
+            }
+            #[inline(always)]
+            fn step(
+                &self,
+                prepared: &S::Prepared,
+                h: T,
+                ends: [T; 2],
+                z: &mut Point<S::Vector>,
+                work: &mut <Self::Map as Map>::Work,
+            ) {
+                Zigzag::once(self, &S::PIECES, prepared, h, ends, z, work);
             }
             fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
                 state.point()
@@ -226,6 +237,17 @@ macro_rules! nystrom {
             #[inline(always)]
             fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
                 Zigzag::new(self, &(S::$first, S::$second), prepared, step)
+            }
+            #[inline(always)]
+            fn step(
+                &self,
+                prepared: &S::Prepared,
+                h: T,
+                ends: [T; 2],
+                z: &mut Point<S::Vector>,
+                work: &mut <Self::Map as Map>::Work,
+            ) {
+                Zigzag::once(self, &(S::$first, S::$second), prepared, h, ends, z, work);
             }
             fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
                 state.point()

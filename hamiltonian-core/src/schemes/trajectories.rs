@@ -45,6 +45,7 @@ impl Start {
     }
 
     /// The start, and the point `back` before it.
+    #[inline(always)]
     fn pair<T, D, V>(self, prepared: &D, start: &State<V>, back: T) -> Points<V>
     where
         T: Real,
@@ -58,6 +59,7 @@ impl Start {
     }
 
     /// The point `back` before the start.
+    #[inline(always)]
     fn before<T, D, V>(self, prepared: &D, start: &State<V>, back: T) -> Point<V>
     where
         T: Real,
@@ -216,15 +218,18 @@ type Points<V> = Pair<Point<V>, Point<V>>;
 
 impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for TwoStepMidpoint {
     type Map = TwoStep<<S::Prepared as Dynamics<T>>::Field, S::Vector>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         TwoStep {
             leap: prepared.field(step.h + step.h),
             vector: PhantomData,
         }
     }
+    #[inline(always)]
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
         self.start.pair(prepared, state, h)
     }
+    #[inline(always)]
     fn start_alone(
         &self,
         prepared: &S::Prepared,
@@ -280,12 +285,15 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
 
 impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for ConsecutiveSubTrajectories {
     type Map = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Interleaved::new(prepared, step.h + step.h)
     }
+    #[inline(always)]
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
         self.start.pair(prepared, state, h)
     }
+    #[inline(always)]
     fn start_alone(
         &self,
         prepared: &S::Prepared,
@@ -298,12 +306,15 @@ impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for ConsecutiveSubTrajectori
 
 impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for IntersectingSubTrajectories {
     type Map = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Interleaved::new(prepared, step.h)
     }
+    #[inline(always)]
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
         self.start.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
+    #[inline(always)]
     fn start_alone(
         &self,
         prepared: &S::Prepared,

@@ -114,6 +114,7 @@ where
         }
         Ok(())
     }
+    #[inline(always)]
     fn prepare(&self, prepared: &InNewTime<S::Prepared, G::Prepared>, step: Step<T>) -> Self::Map {
         VerletInNewTime {
             dynamics: prepared.clone(),
@@ -122,6 +123,7 @@ where
             limit: self.max_iterations,
         }
     }
+    #[inline(always)]
     fn start(
         &self,
         _: &InNewTime<S::Prepared, G::Prepared>,

@@ -4,7 +4,7 @@
 //! [`Extremal`], the discrete action with its boundary momenta. Invariant: fewer points than the degree
 //! do not compile.
 
-use super::collocation::{Collocation, constant};
+use super::collocation::{Collocation, constant, multiples};
 use super::stages::{Carries, Collocated, CollocatedWork, Modes, Stages, at_rest, of_fixed_point};
 use crate::error::Error;
 use crate::map::Step;
@@ -179,6 +179,7 @@ impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, 
     for Variational<DEGREE, POINTS>
 {
     type Map = Collocated<T, S::Prepared, POINTS>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let (nodal, momenta) = self.coefficients.pair(DEGREE);
         let map = Collocated {
@@ -285,6 +286,7 @@ symmetric!(MomentumVariational<S>, const S: usize);
 
 impl<T: Real, S: System<T>, const POINTS: usize> Scheme<T, S> for MomentumVariational<POINTS> {
     type Map = Collocated<T, S::Prepared, POINTS>;
+    #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let map: Self::Map = Scheme::<T, S>::prepare(&self.0, prepared, step);
         Collocated {
@@ -325,8 +327,8 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
             field: prepared.field(T::one()),
             dynamics: prepared.clone(),
             h,
-            times: self.coefficients.nodes.map(|c| constant::<T>(c) * h),
-            weights: self.coefficients.weights.map(|b| constant::<T>(b) * h),
+            times: multiples(&self.coefficients.nodes, h),
+            weights: multiples(&self.coefficients.weights, h),
             spans: [h; POINTS],
             coordinates,
             momenta: zero,

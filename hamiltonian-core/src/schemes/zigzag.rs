@@ -9,7 +9,7 @@
 //! autonomous splitting of A(z, t₂) + B(z, t₁) + C(z, t₁) + … with a pair of conjugate energies, so
 //! tables keep their order.) Störmer–Verlet thus kicks at t and t + h and drifts at t + h/2.
 
-use super::splitting::{Splitting, Weight};
+use super::splitting::{Durations, Splitting, Weight};
 use crate::flow::{Flow, Pieces};
 use crate::map::{Cause, Map, Step};
 use crate::state::{Carried, Point};
@@ -36,19 +36,21 @@ struct Link<F> {
 
 impl<F> Link<F> {
     #[inline(always)]
-    fn new<X: Vector>(flow: impl Fn(X::Scalar) -> F, up: X::Scalar, down: X::Scalar) -> Self
+    fn new<T, P, K>(pieces: &K, prepared: &P, up: T, down: T) -> Self
     where
-        F: Flow<X>,
+        T: Real,
+        K: Pieces<T, P, Outer = F>,
+        F: Flow<K::Point>,
     {
         if F::MERGES {
             Link {
-                up: flow(up + down),
+                up: pieces.outer(prepared, up + down),
                 down: None,
             }
         } else {
             Link {
-                up: flow(up),
-                down: Some(flow(down)),
+                up: pieces.outer(prepared, up),
+                down: Some(pieces.outer(prepared, down)),
             }
         }
     }
@@ -98,6 +100,7 @@ impl<T: Real> PartialSums<T> {
     }
 
     /// The duration of the next weight.
+    #[inline(always)]
     fn next(&mut self, weight: Weight) -> T {
         // The rounding of the last digits of a table.
         const ROUNDING: f64 = 1e-28;
@@ -129,6 +132,59 @@ struct Stage<T, O, I> {
     outer: Link<O>,
     /// The time of the other clock.
     outer_at: T,
+}
+
+impl<T: Real, O, I> Stage<T, O, I> {
+    /// The flows of a stage of the durations `down` and `up`, before one that begins with `next`.
+    #[inline(always)]
+    fn new<P, K>(
+        pieces: &K,
+        prepared: &P,
+        (down, up): (T, T),
+        next: T,
+        [inner_at, outer_at]: [T; 2],
+    ) -> Self
+    where
+        K: Pieces<T, P, Outer = O, Inner = I>,
+        O: Flow<K::Point>,
+    {
+        Stage {
+            inner: pieces.inner(prepared, down, up),
+            inner_at,
+            outer: Link::new(pieces, prepared, up, next),
+            outer_at,
+        }
+    }
+}
+
+/// The two clocks in units of the step, at the beginning of a stage.
+struct Clocks<T> {
+    outer: T,
+    inner: T,
+}
+
+impl<T: Real> Clocks<T> {
+    #[inline(always)]
+    fn new(weights: &[Durations]) -> Self {
+        Clocks {
+            outer: weights.first().map_or(T::zero(), |(down, _)| down.to()),
+            inner: T::zero(),
+        }
+    }
+
+    /// The times of the inner flows of stage `i` and of the flow after it.
+    #[inline(always)]
+    fn next(&mut self, weights: &[Durations], i: usize, h: T) -> [T; 2] {
+        let zero = T::zero();
+        let (down, up) = weights
+            .get(i)
+            .map_or((zero, zero), |(down, up)| (down.to(), up.to()));
+        let next = weights.get(i + 1).map_or(zero, |(down, _)| down.to());
+        let inner_at = self.outer * h;
+        self.inner += down + up;
+        self.outer += up + next;
+        [inner_at, self.inner * h]
+    }
 }
 
 /// A splitting for a given step.
@@ -166,8 +222,13 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         let before = before.stages();
         let closing = (before.as_ref().last()).map_or(X::Scalar::zero(), |(_, up)| up.to());
         let closing = closing * step.before;
-        let duration = |weight: Weight| weight.to::<X::Scalar>() * step.h;
-        Self::with(table, pieces, prepared, step.h, duration, closing)
+        let zero = X::Scalar::zero();
+        let mut durations = W::filled((zero, zero));
+        for (to, (down, up)) in (durations.as_mut().iter_mut()).zip(table.stages().as_ref()) {
+            let (down, up): (X::Scalar, X::Scalar) = (down.to(), up.to());
+            *to = (down * step.h, up * step.h);
+        }
+        Self::with(table, pieces, prepared, step.h, durations, closing)
     }
 
     /// Folds the table into the flows, with durations that add up to the step exactly.
@@ -176,65 +237,106 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
     where
         K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
     {
-        let mut sums = PartialSums::new(step.before);
-        let mut closing = X::Scalar::zero();
-        for (down, up) in table.stages().as_ref() {
-            sums.next(*down);
-            closing = sums.next(*up);
+        let zero = X::Scalar::zero();
+        let mut durations = W::filled((zero, zero));
+        let mut closing = zero;
+        for h in [step.before, step.h] {
+            closing = durations.as_ref().last().map_or(zero, |(_, up)| *up);
+            let mut sums = PartialSums::new(h);
+            for (to, (down, up)) in (durations.as_mut().iter_mut()).zip(table.stages().as_ref()) {
+                *to = (sums.next(*down), sums.next(*up));
+            }
         }
-        let mut sums = PartialSums::new(step.h);
-        let duration = |weight: Weight| sums.next(weight);
-        Self::with(table, pieces, prepared, step.h, duration, closing)
+        Self::with(table, pieces, prepared, step.h, durations, closing)
     }
 
-    /// Folds the durations of the weights into the flows; `duration` is called in the order of the
-    /// table.
+    /// Folds the durations of the weights into the flows.
+    ///
+    /// No closure makes a flow: one that is not inlined is compiled without the instructions of a level.
     #[inline(always)]
     fn with<P, K>(
         table: &W,
         pieces: &K,
         prepared: &P,
         h: X::Scalar,
-        mut duration: impl FnMut(Weight) -> X::Scalar,
+        durations: W::Of<(X::Scalar, X::Scalar)>,
         closing_before: X::Scalar,
     ) -> Self
     where
         K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
     {
         let zero = X::Scalar::zero();
-        let outer = |c| pieces.outer(prepared, c);
-        let durations = W::map(table.stages(), |(down, up)| (duration(down), duration(up)));
+        let none = (zero, zero);
         let durations = durations.as_ref();
-        let opening = durations.first().map_or(zero, |(down, _)| *down);
-        let closing = durations.last().map_or(zero, |(_, up)| *up);
+        let opening = durations.first().unwrap_or(&none).0;
+        let closing = durations.last().unwrap_or(&none).1;
         let weights = table.stages();
-        let first = (weights.as_ref().first()).map_or(zero, |(down, _)| down.to::<X::Scalar>());
-        let mut outer_time = first;
-        let mut inner_time = zero;
-        let mut following = weights.as_ref().iter().skip(1);
-        let mut lasting = durations.iter();
-        let stages = W::map(table.stages(), |(down, up)| {
-            let (down, up) = (down.to::<X::Scalar>(), up.to::<X::Scalar>());
-            let next = following
-                .next()
-                .map_or(zero, |(down, _)| down.to::<X::Scalar>());
-            let inner_at = outer_time * h;
-            inner_time += down + up;
-            outer_time += up + next;
-            let (down, up) = lasting.next().map_or((zero, zero), |durations| *durations);
-            let next = lasting.as_slice().first().map_or(zero, |(down, _)| *down);
-            Stage {
-                inner: pieces.inner(prepared, down, up),
-                inner_at,
-                outer: Link::new::<X>(outer, up, next),
-                outer_at: inner_time * h,
+        let weights = weights.as_ref();
+        let mut clocks = Clocks::new(weights);
+        let mut stages = None;
+        let mut i = 0;
+        loop {
+            let duration = *durations.get(i).unwrap_or(&none);
+            let next = durations.get(i + 1).unwrap_or(&none).0;
+            let times = clocks.next(weights, i, h);
+            let stage = Stage::new(pieces, prepared, duration, next, times);
+            match &mut stages {
+                None => stages = Some(W::filled(stage)),
+                Some(stages) => stages.as_mut()[i] = stage,
             }
-        });
-        Zigzag {
-            opening: (opening != zero).then(|| outer(opening)),
-            joining: Link::new::<X>(outer, closing_before, opening),
-            closes: closing != zero,
-            stages,
+            i += 1;
+            if i >= durations.len()
+                && let Some(stages) = stages
+            {
+                let joining = Link::new(pieces, prepared, closing_before, opening);
+                let opening = if opening != zero {
+                    Some(pieces.outer(prepared, opening))
+                } else {
+                    None
+                };
+                return Zigzag {
+                    opening,
+                    joining,
+                    closes: closing != zero,
+                    stages,
+                };
+            }
+        }
+    }
+
+    /// One step of size `h` from `t` to `end`, with the bits of [`Map::step`] of the map that [`Zigzag::new`]
+    /// prepares: each flow is made where it is applied.
+    #[inline(always)]
+    pub(super) fn once<P, K>(
+        table: &W,
+        pieces: &K,
+        prepared: &P,
+        h: X::Scalar,
+        [t, end]: [X::Scalar; 2],
+        z: &mut X,
+        (outer, inner): &mut (O::Work, I::Work),
+    ) where
+        K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
+    {
+        let zero = X::Scalar::zero();
+        let weights = table.stages();
+        let weights = weights.as_ref();
+        let down = |i: usize| weights.get(i).map_or(zero, |(down, _)| down.to()) * h;
+        let mut clocks = Clocks::new(weights);
+        let opening = down(0);
+        if opening != zero {
+            pieces.outer(prepared, opening).apply(t, z, outer);
+        }
+        for (i, (_, up)) in weights.iter().enumerate() {
+            let up = up.to::<X::Scalar>() * h;
+            let times = clocks.next(weights, i, h);
+            let stage = Stage::new(pieces, prepared, (down(i), up), down(i + 1), times);
+            stage.inner.apply(t + stage.inner_at, z, inner);
+            let is_last = i + 1 == weights.len();
+            if !is_last || up != zero {
+                let at = if is_last { end } else { t + stage.outer_at };
+                stage.outer.apply(at, z, outer);
+            }
         }
     }
 

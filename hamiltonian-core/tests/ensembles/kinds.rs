@@ -119,7 +119,7 @@ fn members_in_another_time() {
 #[test]
 fn members_with_variable_steps() {
     let scheme = Paced {
-        scheme: StormerVerlet::default(),
+        scheme: Suzuki4,
         density: Close,
     };
     at_each_level(|_| agrees(kepler, scheme));

@@ -1,7 +1,6 @@
 //! Extents that are products of sizes.
 
 use crate::common::bits;
-use hamiltonian::Lattice;
 use hamiltonian::prelude::*;
 
 hamiltonian! {

@@ -99,9 +99,11 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
     type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;
     /// Folds the step into the flows. This does not allocate.
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map;
-    /// One step of size `h` from `t` to `end`: what [`Map::step`] of the map for this step does, with the
-    /// same bits. Schemes with variable steps call it in each step; one whose map has many flows makes them here
-    /// where it applies them.
+    /// One step of size `h` from `t` to `end`, with the bits of [`Map::step`] of the map for this step. [`Paced`]
+    /// calls it in each step. The provided method prepares the map. A splitting of several stages makes each flow where
+    /// it applies it, by [`Zigzag::once`](crate::schemes::author::Zigzag::once), which stores no stages.
+    ///
+    /// [`Paced`]: crate::schemes::Paced
     #[inline(always)]
     fn step(
         &self,

@@ -70,29 +70,36 @@ macro_rules! tabulated {
     };
 }
 
+/// The methods of a scheme that applies its table to `$pieces`.
+macro_rules! on_pieces {
+    ($pieces:expr) => {
+        #[inline(always)]
+        fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+            Zigzag::new(self, &$pieces, prepared, step)
+        }
+        #[inline(always)]
+        fn step(
+            &self,
+            prepared: &S::Prepared,
+            h: T,
+            ends: [T; 2],
+            z: &mut Point<S::Vector>,
+            work: &mut <Self::Map as Map>::Work,
+        ) {
+            Zigzag::once(self, &$pieces, prepared, h, ends, z, work);
+        }
+        fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+            state.point()
+        }
+    };
+}
+
 /// The scheme of a table on the pieces of any splitting.
 macro_rules! on_exact_pieces {
     ($name:ty) => {
         impl<T: Real, S: Split<T> + Exact> Scheme<T, S> for $name {
             type Map = ZigzagOf<T, S, S::Pieces, Self>;
-            #[inline(always)]
-            fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-                Zigzag::new(self, &S::PIECES, prepared, step)
-            }
-            #[inline(always)]
-            fn step(
-                &self,
-                prepared: &S::Prepared,
-                h: T,
-                ends: [T; 2],
-                z: &mut Point<S::Vector>,
-                work: &mut <Self::Map as Map>::Work,
-            ) {
-                Zigzag::once(self, &S::PIECES, prepared, h, ends, z, work);
-            }
-            fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
-                state.point()
-            }
+            on_pieces!(S::PIECES);
         }
     };
 }
@@ -234,24 +241,7 @@ macro_rules! nystrom {
 
         impl<T: Real, S: Nystrom<T>> Scheme<T, S> for $name {
             type Map = ZigzagOf<T, S, (S::$first_piece, S::$second_piece), Self>;
-            #[inline(always)]
-            fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-                Zigzag::new(self, &(S::$first, S::$second), prepared, step)
-            }
-            #[inline(always)]
-            fn step(
-                &self,
-                prepared: &S::Prepared,
-                h: T,
-                ends: [T; 2],
-                z: &mut Point<S::Vector>,
-                work: &mut <Self::Map as Map>::Work,
-            ) {
-                Zigzag::once(self, &(S::$first, S::$second), prepared, h, ends, z, work);
-            }
-            fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
-                state.point()
-            }
+            on_pieces!((S::$first, S::$second));
         }
     )+};
 }

@@ -273,6 +273,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         let weights = table.stages();
         let weights = weights.as_ref();
         let mut clocks = Clocks::new(weights);
+        // The first stage fills the array. All are made in one place, since the flows of many pieces are much code.
         let mut stages = None;
         let mut i = 0;
         loop {
@@ -307,7 +308,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
     /// One step of size `h` from `t` to `end`, with the bits of [`Map::step`] of the map that [`Zigzag::new`]
     /// prepares: each flow is made where it is applied.
     #[inline(always)]
-    pub(super) fn once<P, K>(
+    pub fn once<P, K>(
         table: &W,
         pieces: &K,
         prepared: &P,

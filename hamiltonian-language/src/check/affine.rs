@@ -9,7 +9,7 @@ use crate::ast::{BinaryOp, ExprId, ExprKind};
 use crate::checked::{Kind, NodeId};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 
-/// Indices of all forms.
+/// The help for an index of no known form.
 const INDICES: &str = "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`";
 
 impl Checker<'_> {

@@ -10,7 +10,7 @@ use crate::ast::{ExprId, ScopeId, Symbol};
 use crate::checked::Loop;
 use hamiltonian_symbolic::index::Domain;
 
-/// What to write for a range to a product.
+/// The help for a range to a product.
 const LOOPS: &str =
     "write a loop for each factor: `sum(a in 0..m, b in 0..i)` instead of `sum(k in 0..m*i)`";
 

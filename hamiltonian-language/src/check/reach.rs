@@ -16,7 +16,7 @@ use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
 use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Ident;
 
-/// What to write for an index that is not affine: it counts rows.
+/// The help for an index that counts rows.
 const EXTENTS: &str =
     "write an extent for each index: `w[n][m]` and `w[i][j]` instead of `w[n*m]` and `w[i*m + j]`";
 

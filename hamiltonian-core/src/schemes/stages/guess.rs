@@ -24,7 +24,7 @@ pub(in crate::schemes) fn extrapolation<T: Real, const S: usize>(
     } else {
         1
     };
-    // Once, in double-double arithmetic: it takes calls, which the loops below shall not have.
+    // Double-double arithmetic is a call, and the loops below contain none.
     let norms: [DoubleDouble; S] = core::array::from_fn(|k| method.norm(k));
     let two = number::<T>(2);
     let mut matrix = [[T::zero(); S]; S];

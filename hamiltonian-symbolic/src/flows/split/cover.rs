@@ -45,9 +45,9 @@ pub(crate) struct Block {
 
 struct Search<'a> {
     space: &'a mut Space,
-    /// The units, in an order that follows from H alone,
+    /// The units, in an order that follows from H alone.
     units: &'a [Unit],
-    /// and their places in the order in which they are written.
+    /// The places of the units in the order in which they are written.
     places: &'a [usize],
     tried: Map<Mask, Option<Flow>>,
     blocks: Vec<Block>,

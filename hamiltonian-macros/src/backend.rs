@@ -118,7 +118,7 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
         model.hamiltonian = Some(model.dag.add(&[split.kinetic, split.potential]));
     }
     let large = is_large(checked, &model);
-    let split = splits::decide(checked, &mut model, &structure, &part, large, report);
+    let split = splits::decide(checked, &mut model, &structure, &part, report);
     text.facts.extend(split.facts);
     let structure = verdicts::verdicts(&mut model, &structure, split.verdict);
     let wanted = wanted(checked, &model, large, &structure);

@@ -7,6 +7,7 @@ pub mod rows;
 pub mod table;
 
 use crate::common;
+use crate::judge::{Definition, Subject, Verdict, verdicts};
 use crate::tree::{Random, grow};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
@@ -190,7 +191,7 @@ fn budgets_that_are_spent_are_named() {
     // Products of three functions, whose derivatives have many terms.
     let waves = |count| {
         let term = |k| format!("sin({k}*q*p)*exp({k}*q)*cos({k}*p)");
-        limit_of_search("q; p", "", &sum_of(count, term))
+        limit_of_piece("q; p", &sum_of(count, term))
     };
     assert_eq!(waves(4), Ok(None));
     assert_eq!(waves(16), Ok(Some(Limit::Expressions)));
@@ -204,7 +205,60 @@ fn budgets_that_are_spent_are_named() {
         )
     };
     assert_eq!(powers(3), Err(1));
-    assert_eq!(powers(12), Ok(Some(Limit::Question)));
+    assert_eq!(powers(12), Ok(Some(Limit::Comparison)));
+}
+
+/// Terms of coordinates alone have a flow without any question, however many and however long they are: they exhaust no
+/// limit of the terms beside them.
+#[test]
+fn a_long_potential_exhausts_no_limit() {
+    let series = |x: &str, count| sum_of(count, |k| format!("sin({k}*{x})/{k}^2"));
+    let pair = "(q^2 + 1)*(p^2 + 1)/2";
+    for count in [10, 40, 700] {
+        let apart = format!("{pair} + {}", series("x", count));
+        let moving = format!("{pair} + y^2/2 + {}", series("x", count));
+        let same = format!("{pair} + {}", series("q", count));
+        for (signature, h) in [
+            ("q, x; p, y", &apart),
+            ("x, q; y, p", &moving),
+            ("q; p", &same),
+        ] {
+            let definition = Definition::of(signature, "", h, 0);
+            let subject = Subject::split(&definition).expect("it is split");
+            for verdict in verdicts(&subject, 2, 0.0, &mut Random(count as u64)) {
+                assert_eq!(verdict, Verdict::Right, "{signature}, {count} terms");
+            }
+            let mut model = common::system(signature, "", "", h);
+            let found = find(&mut model).expect("it is split");
+            assert!(found.pieces.len() <= 4, "{signature}, {count} terms");
+            let parts: Vec<_> = found.pieces.iter().map(|piece| piece.h).collect();
+            assert!(check_split(&mut model, &parts).is_ok(), "{signature}");
+        }
+    }
+    // Where coordinates and momenta meet, the number of terms and of subexpressions counts.
+    let mixed = |count| limit_of_search("q; p", "", &sum_of(count, |k| format!("p*sin({k}*q)")));
+    assert_eq!(mixed(33), Ok(Some(Limit::Terms)));
+    assert_eq!(mixed(400), Ok(Some(Limit::Subexpressions)));
+    let in_loop = sum_of(400, |k| format!("p[i]*sin({k}*q[i])"));
+    let in_loop = format!("sum(i in 0..N) {{ {in_loop} }}");
+    assert_eq!(
+        limit_of_search("q[N]; p[N]", "N", &in_loop),
+        Ok(Some(Limit::Subexpressions))
+    );
+}
+
+/// What one question spends is not taken from the next: two terms, each of which takes more than half of the products
+/// that a flow may take, are refused because they have no flow.
+#[test]
+fn a_question_leaves_the_others_their_limits() {
+    let hard = |[x, y, u, v]: [&str; 4]| {
+        let term =
+            |k| format!("sin({k}*{x}*{u} + {k}*{y}*{v})/(1 + {k}*{x}^2*{u}^2 + {k}*{y}^4*{v}^4)");
+        format!("exp({})", sum_of(5, term))
+    };
+    let (one, other) = (hard(["x", "y", "u", "v"]), hard(["a", "b", "c", "d"]));
+    let h = format!("{one} + {other} + x*a");
+    assert_eq!(limit_of_search("x, y, a, b; u, v, c, d", "", &h), Ok(None));
 }
 
 /// Sharing may cancel a prepared expression to a number, which has no name to be handed on by.

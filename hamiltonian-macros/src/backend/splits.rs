@@ -4,7 +4,7 @@
 //! of docs and of rustc on them. Invariant: pieces that are kept are proven to add up to H,
 //! each with an exact flow; V and T of a separable H need no search.
 
-use super::{LARGE, Part};
+use super::Part;
 use crate::emit::Reason;
 use hamiltonian_language::checked::{self, Checked, Kind, Variable};
 use hamiltonian_language::report::Report;
@@ -36,7 +36,6 @@ pub fn decide(
     model: &mut Model,
     structure: &Structure,
     part: &Part,
-    large: bool,
     report: &mut Report,
 ) -> Found {
     let declared = part.pieces;
@@ -55,12 +54,6 @@ pub fn decide(
         let is_closed = |found: &Splitting| found.pieces.iter().any(|p| !p.flow.rows().is_empty());
         if is_separable && !matches!(&alone, Some(Ok(found)) if is_closed(found)) {
             return Found::split(Vec::new());
-        }
-        if large {
-            let why = format!(
-                "H has more than {LARGE} subexpressions, too many to be searched for exact flows"
-            );
-            return refused(model, &why);
         }
         alone.unwrap_or_else(|| split::find(model).map_err(|refusal| (0, refusal)))
     } else {

@@ -1,26 +1,28 @@
 //! The limits of the search for exact flows.
 //!
-//! Each group of terms of H that has no degree of freedom in common with the others is searched by itself, within
-//! limits of its own (`split::join`).
+//! Each group of terms of H that has no degree of freedom in common with the others is searched by itself
+//! (`split::join`), and each question in it has limits of its own: the flow of one sum of terms, or whether one
+//! expression is zero.
 
 use std::fmt;
 
-/// The most questions whether an expression is zero.
+/// The most comparisons for one flow; those of the systems in the tests take 18 at most.
 pub(crate) const TESTS: usize = 400;
 
-/// The most nodes that a search adds to the arena; those of the systems in the tests stay below 1500.
+/// The most nodes that the search for one flow adds to the arena; those of the systems in the tests stay below 1500.
 pub const NODES: usize = 6_000;
 
-/// The most products of terms that the normal form takes for all questions together.
+/// The most products of terms that the normal form takes for one flow.
 pub(crate) const PRODUCTS: usize = 60_000;
 
-/// The most products of terms that the normal form takes for one question.
-pub(crate) const QUESTION: usize = 20_000;
+/// The most products of terms that the normal form takes for one comparison.
+pub(crate) const COMPARISON: usize = 20_000;
 
 /// The most points of which numbers are kept.
 pub(crate) const POINTS: usize = 64;
 
-/// The most terms of H that are combined to pieces.
+/// The most terms of H that are combined to pieces; of more, those of coordinates alone and those of momenta alone are
+/// one each.
 pub(crate) const TERMS: usize = 32;
 
 /// The most pieces of a splitting.
@@ -42,20 +44,25 @@ pub(crate) const ROWS: usize = 4;
 /// The most components of a point whose quadratic forms are exponentiated as matrices.
 pub(crate) const COMPONENTS: usize = 16;
 
+/// The most subexpressions of terms in which coordinates and momenta meet.
+pub(crate) const SUBEXPRESSIONS: usize = 1000;
+
 /// The most pairs, so that a set of variables is a word.
 pub(crate) const PAIRS: usize = 32;
 
 /// A limit at which the search for exact flows ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Limit {
-    /// The number of comparisons of two expressions.
+    /// The number of comparisons of two expressions for one flow.
     Comparisons,
-    /// The number of products of terms in the normal forms of all questions.
+    /// The number of products of terms in the normal forms for one flow.
     Products,
-    /// The number of new expressions.
+    /// The number of new expressions for one flow.
     Expressions,
     /// The number of terms of H.
     Terms,
+    /// The number of subexpressions of terms in which coordinates and momenta meet.
+    Subexpressions,
     /// The number of degrees of freedom that terms of H join.
     Pairs,
     /// The number of pieces.
@@ -70,8 +77,8 @@ pub enum Limit {
     Coupled,
     /// The number of rows of arrays that the body of a loop names.
     Rows,
-    /// The number of products of terms in the normal form of one question.
-    Question,
+    /// The number of products of terms in the normal form for one comparison.
+    Comparison,
     /// The number of coordinates and momenta of a point whose quadratic forms are exponentiated.
     Components,
 }
@@ -83,6 +90,10 @@ impl fmt::Display for Limit {
             Limit::Products => write!(f, "{PRODUCTS} products of terms"),
             Limit::Expressions => write!(f, "{NODES} new expressions"),
             Limit::Terms => write!(f, "{TERMS} terms"),
+            Limit::Subexpressions => write!(
+                f,
+                "{SUBEXPRESSIONS} subexpressions of terms in which coordinates and momenta meet"
+            ),
             Limit::Pairs => write!(f, "{PAIRS} coupled degrees of freedom"),
             Limit::Pieces => write!(f, "{MOST} pieces"),
             Limit::Commuting => write!(f, "{COMMUTING} terms of a sum whose parts may commute"),
@@ -94,7 +105,7 @@ impl fmt::Display for Limit {
                 f,
                 "{COMPONENTS} coordinates and momenta of which a quadratic form is exponentiated"
             ),
-            Limit::Question => write!(f, "{QUESTION} products of terms for one comparison"),
+            Limit::Comparison => write!(f, "{COMPARISON} products of terms for one comparison"),
         }
     }
 }

@@ -16,34 +16,47 @@ use crate::rational::Rational;
 use crate::sort::Arrange;
 use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
 
-/// The flow of h for the time s; `None` where no row takes it.
+/// The flow of h for the time s; `None` where no row takes it, or where the budget of one question is spent.
 pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    if space.active(h).is_empty() {
+        // Nothing is to be proven.
+        return Some(shear(space, h, s));
+    }
+    if let Some(known) = space.flows.get(&(h, s)) {
+        return known.clone();
+    }
+    let found = space.question(h, |space| part(space, h, s));
+    space.flows.insert((h, s), found.clone());
+    found
+}
+
+/// The flow of h, or of a part of it, within the budget of one question.
+fn part(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     if space.active(h).is_empty() {
         return Some(shear(space, h, s));
     }
     if let Some(known) = space.flows.get(&(h, s)) {
         return known.clone();
     }
-    if space.is_spent() {
-        return None;
-    }
     let found = whole(space, h, s)
         .or_else(|| function(space, h, s))
         .or_else(|| bare(space, h, s))
         .or_else(|| separated(space, h, s))
         .or_else(|| commuting(space, h, s));
-    // Expressions made after the limits may hold anything.
-    let found = found.filter(|_| !space.is_spent());
-    space.flows.insert((h, s), found.clone());
+    // As a question of its own it may have a flow all the same.
+    if !space.is_spent() {
+        space.flows.insert((h, s), found.clone());
+    }
     found
 }
 
 /// The rates of a quadratic form, whose matrix is exponentiated when a run is prepared: of a whole
 /// piece only, over a point of few components.
 pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
-    if !space.has_exponentials || !is_constant_form(space, h) {
+    if !space.has_exponentials {
         return None;
     }
+    space.question(h, |space| is_constant_form(space, h).then_some(()))?;
     let c = space.dag().coefficient();
     let rates = shear(space, h, c);
     Some(rates.noted(&[EXPONENTIAL]))
@@ -54,7 +67,7 @@ pub(crate) fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
     let mut motion = Motion::default();
     for one in space.set(h).members() {
         let variable = space.variable(one);
-        let slope = space.d(h, variable);
+        let slope = space.derivative(h, variable);
         let value = space.dag().mul(&[s, slope]);
         space.push(&mut motion, one, value);
     }
@@ -199,7 +212,9 @@ fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow> {
         return known.clone();
     }
     let found = row_of(space, k, space.pairs[pair], time);
-    space.atoms.insert((k, time), found.clone());
+    if !space.is_spent() {
+        space.atoms.insert((k, time), found.clone());
+    }
     found
 }
 
@@ -318,7 +333,7 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let mut all = Flow::default();
     // One composition rounds in another way than another.
     for at in space.in_order(&parts) {
-        let next = flow(space, parts[at], s)?;
+        let next = part(space, parts[at], s)?;
         all = all.noted(&next.rows);
         all.motion = all.motion.then(space.dag(), &next.motion);
     }

@@ -2,10 +2,9 @@
 //! is zero and which variables it is free of.
 //!
 //! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
-//! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
-//! where the search has spent its budget ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
-//! normal form), every answer is no. A question has a limit of its own ([`QUESTION`]), and so has each group
-//! of terms that share no degree of freedom with the others (`split::join`).
+//! expression is zero where the normal form says so, refuted first by numbers, which are cheaper.
+//! Each question ([`Space::question`]) has a [`Budget`] of its own. Where that is spent, the answer is no, and nothing
+//! that was found since is kept.
 
 mod breaks;
 mod labels;
@@ -14,7 +13,7 @@ pub(crate) mod tape;
 use crate::algebra::ball::Ball;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side, Sign};
 use crate::diff;
-use crate::flows::limits::{COMPONENTS, Limit, NODES, PAIRS, POINTS, PRODUCTS, QUESTION, TESTS};
+use crate::flows::limits::{COMPARISON, COMPONENTS, Limit, NODES, PAIRS, POINTS, PRODUCTS, TESTS};
 use crate::index::Index;
 use crate::loops::{Sample, Values, next_random};
 use crate::model::{Flow, Model, Motion};
@@ -115,16 +114,33 @@ pub(crate) struct Space {
     pub(crate) has_exponentials: bool,
     /// True if the point is given and has too many components for that.
     pub(crate) has_many_components: bool,
-    /// The number of questions that are left.
-    tests: usize,
-    /// The number of products that are left to the normal form.
-    products: usize,
-    /// The largest size of the arena in this search.
-    last: usize,
+    /// What is left to the question that is answered.
+    budget: Budget,
     /// The limits that were met at an expression alone.
     met: Map<Node, Limit>,
-    /// True if a question ended at its limit.
-    has_long_questions: bool,
+    /// The first limit at which some question ended.
+    ended: Option<Limit>,
+}
+
+/// What is left to a question.
+struct Budget {
+    /// The number of comparisons.
+    tests: usize,
+    /// The number of products in the normal form.
+    products: usize,
+    /// The largest size of the arena.
+    last: usize,
+}
+
+impl Budget {
+    /// A whole one, beside an arena.
+    fn new(dag: &Dag) -> Budget {
+        Budget {
+            tests: TESTS,
+            products: PRODUCTS,
+            last: dag.len() + NODES,
+        }
+    }
 }
 
 impl Space {
@@ -171,12 +187,11 @@ impl Space {
             (leaf, Ball::exact(size as f64 / 64.0))
         });
         let parameters = parameters.collect();
-        let last = model.dag.len() + NODES;
         let components = model.components();
         Ok(Space {
             has_exponentials: components.is_some_and(|count| count <= COMPONENTS),
             has_many_components: components.is_some_and(|count| count > COMPONENTS),
-            last,
+            budget: Budget::new(&model.dag),
             model,
             pairs,
             labels,
@@ -194,28 +209,47 @@ impl Space {
             points: Map::default(),
             flows: Map::default(),
             atoms: Map::default(),
-            tests: TESTS,
-            products: PRODUCTS,
             met: Map::default(),
-            has_long_questions: false,
+            ended: None,
         })
     }
 
-    /// Returns true if the search has spent its budget.
-    pub(crate) fn is_spent(&self) -> bool {
-        self.tests == 0 || self.products == 0 || self.model.dag.len() > self.last
+    /// The answer to a question on an expression, within a budget of its own; `None` where that is spent.
+    pub(crate) fn question<T>(
+        &mut self,
+        of: Node,
+        answer: impl FnOnce(&mut Space) -> Option<T>,
+    ) -> Option<T> {
+        self.budget = Budget::new(&self.model.dag);
+        let found = answer(self);
+        // Expressions made after the limits may hold anything.
+        let Some(limit) = self.spent() else {
+            return found;
+        };
+        self.ended = self.ended.or(Some(limit));
+        self.meets(limit, of);
+        None
     }
-    /// The limit at which the search for a flow of an expression ended.
-    pub(crate) fn limit(&self, node: Node) -> Option<Limit> {
-        match self {
-            _ if self.tests == 0 => Some(Limit::Comparisons),
-            _ if self.products == 0 => Some(Limit::Products),
-            _ if self.is_spent() => Some(Limit::Expressions),
-            _ => {
-                let long = self.has_long_questions.then_some(Limit::Question);
-                self.met.get(&node).copied().or(long)
-            }
+    /// The limit at which the budget is spent.
+    fn spent(&self) -> Option<Limit> {
+        match self.budget {
+            Budget { tests: 0, .. } => Some(Limit::Comparisons),
+            Budget { products: 0, .. } => Some(Limit::Products),
+            Budget { last, .. } if self.model.dag.len() > last => Some(Limit::Expressions),
+            _ => None,
         }
+    }
+    /// Returns true if the question has spent its budget.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.spent().is_some()
+    }
+    /// Returns true if the search for a flow of an expression ended at a limit.
+    pub(crate) fn ends_at(&self, node: Node) -> bool {
+        self.met.contains_key(&node)
+    }
+    /// The limit at which the search for a flow of an expression ended, or that of some expression.
+    pub(crate) fn limit(&self, node: Node) -> Option<Limit> {
+        self.met.get(&node).copied().or(self.ended)
     }
     /// Notes that a limit ended the search for a flow of an expression.
     pub(crate) fn meets(&mut self, limit: Limit, node: Node) {
@@ -272,12 +306,15 @@ impl Space {
         (motion.moves.iter()).fold(none, |set, m| set | self.set(m.leaf))
     }
 
-    /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too. After the
-    /// search has spent its budget, some other expression: nothing is proven or found any more.
+    /// ∂h/∂v of a variable v. Where the budget is spent, some other expression: nothing is proven or found any more.
     pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
         if self.is_spent() {
             return self.model.dag.parameter(Parameter(u16::MAX));
         }
+        self.derivative(h, variable)
+    }
+    /// ∂h/∂v of a variable v, at any cost; of a sum term by term, as its terms stand in other sums too.
+    pub(crate) fn derivative(&mut self, h: Node, variable: Node) -> Node {
         if !self.set(h).meets(self.set(variable)) {
             return self.model.dag.integer(0);
         }
@@ -286,7 +323,7 @@ impl Space {
         {
             let mut slopes = terms.clone();
             for (_, term) in &mut slopes {
-                *term = self.d(*term, variable);
+                *term = self.derivative(*term, variable);
             }
             return self.model.dag.linear(&Rational::ZERO, &slopes);
         }
@@ -336,6 +373,11 @@ impl Space {
         self.bracket(a, b).is_empty()
             || self.brackets_vanish(a, b) && self.stays_smooth(a, b) && self.stays_smooth(b, a)
     }
+    /// Returns true if the flow of a part of H is proven to keep an invariant, a question of its own.
+    pub(crate) fn is_kept(&mut self, invariant: Node, part: Node) -> bool {
+        let is_kept = |space: &mut Space| space.commute(invariant, part).then_some(());
+        self.question(part, is_kept).is_some()
+    }
     /// Returns true if {a, b} = 0 is proven wherever both have derivatives.
     pub(crate) fn brackets_vanish(&mut self, a: Node, b: Node) -> bool {
         let terms = self.bracket(a, b);
@@ -377,15 +419,20 @@ impl Space {
         if self.is_off(node) {
             return false;
         }
-        self.tests = self.tests.saturating_sub(1);
-        let own = self.products.min(QUESTION);
+        self.budget.tests = self.budget.tests.saturating_sub(1);
+        if self.is_spent() {
+            return false;
+        }
+        let own = self.budget.products.min(COMPARISON);
         let mut left = own;
         let mut answer = Answer::Other(None);
-        if !self.is_spent() && witness(&self.model, node, Effort::Glance, &[]).is_none() {
+        if witness(&self.model, node, Effort::Glance, &[]).is_none() {
             answer = answer_within(&mut self.model.dag, node, &mut left);
-            self.has_long_questions |= answer == Answer::Limit(Undecided::Budget);
         }
-        self.products -= own - left;
+        if answer == Answer::Limit(Undecided::Budget) {
+            self.ended = self.ended.or(Some(Limit::Comparison));
+        }
+        self.budget.products -= own - left;
         let is_zero = answer == Answer::Zero;
         self.zeros.insert(node, is_zero);
         is_zero

@@ -1,11 +1,12 @@
 //! H as the terms it is written with, and as finer ones where a term has no flow.
 //!
 //! Input: H. Output: [`Units`]. Invariant: units add up to H with the constant; a term in which no
-//! conjugate pair meets stays as it was written; products are multiplied out only where no row
+//! conjugate pair meets stays as it was written, or is part of such a sum; products are multiplied out only where no row
 //! takes them, and only where that loses few digits.
 
 use super::flow;
 use crate::dag::{Dag, Dependence, Kind, Node};
+use crate::flows::limits::TERMS;
 use crate::flows::space::Space;
 use crate::index::Domain;
 use crate::rational::Rational;
@@ -64,7 +65,10 @@ pub(crate) fn levels(space: &mut Space, h: Node) -> Vec<Units> {
             unit.source,
         );
     }
-    let (first, second) = (merged(space, first), merged(space, second));
+    let [first, second] = [first, second].map(|units| {
+        let units = merged(space, units);
+        fewer(space, units)
+    });
     if second == first || second.units.len() > 12 {
         vec![first]
     } else {
@@ -109,6 +113,32 @@ fn merged(space: &mut Space, units: Units) -> Units {
         }
     }
     merged
+}
+
+/// Many terms of coordinates alone are one, and so are many of momenta alone.
+fn fewer(space: &mut Space, units: Units) -> Units {
+    if units.units.len() <= TERMS {
+        return units;
+    }
+    let mut fewer = Units {
+        units: Vec::new(),
+        constant: units.constant,
+    };
+    let mut sides = [Vec::new(), Vec::new()];
+    for unit in units.units {
+        match space.set(unit.node).sides() {
+            (true, true) => fewer.units.push(unit),
+            (has_coordinates, _) => sides[usize::from(has_coordinates)].push(unit),
+        }
+    }
+    for side in sides {
+        let nodes: Vec<Node> = side.iter().map(|unit| unit.node).collect();
+        let node = space.dag().add(&nodes);
+        fewer
+            .units
+            .extend(side.first().map(|unit| Unit { node, ..*unit }));
+    }
+    fewer
 }
 
 /// The terms of H by its own sums.

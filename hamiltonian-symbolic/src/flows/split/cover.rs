@@ -51,6 +51,8 @@ struct Search<'a> {
     places: &'a [usize],
     tried: Map<Mask, Option<Flow>>,
     blocks: Vec<Block>,
+    /// Sums whose search for a flow ended at a limit.
+    ended: Vec<Mask>,
     /// The limit past which blocks were left out.
     limit: Option<Limit>,
 }
@@ -68,6 +70,8 @@ impl Search<'_> {
         let node = self.sum(mask);
         let known = match self.tried.get(&mask) {
             Some(known) => known.clone(),
+            // More terms cost more.
+            None if self.ended.iter().any(|less| less.is_within(mask)) => None,
             None if self.tried.len() >= SUMS => {
                 self.limit = Some(Limit::Sums);
                 None
@@ -76,6 +80,9 @@ impl Search<'_> {
                 let c = self.space.dag().coefficient();
                 let found = flow(self.space, node, c);
                 let found = found.or_else(|| exponential(self.space, node));
+                if found.is_none() && self.space.ends_at(node) {
+                    self.ended.push(mask);
+                }
                 self.tried.insert(mask, found.clone());
                 found
             }
@@ -116,6 +123,7 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         places: &places,
         tried: Map::default(),
         blocks: Vec::new(),
+        ended: Vec::new(),
         limit: None,
     };
     let coupled = search.mask(|_, unit| unit.is_coupled);
@@ -251,7 +259,10 @@ fn covers(blocks: &[Block], coupled: Mask) -> Vec<Vec<Block>> {
 /// p² with all that is divided by r².
 fn uncoupled_blocks(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
     let mut masks = Vec::new();
-    let quadratic = search.mask(|space, unit| !unit.is_coupled && is_quadratic(space, unit.node));
+    let quadratic = search.mask(|space, unit| {
+        let is_form = |space: &mut Space| is_quadratic(space, unit.node).then_some(());
+        !unit.is_coupled && space.question(unit.node, is_form).is_some()
+    });
     masks.push(quadratic);
     for pair in 0..search.space.pairs.len() {
         let [coordinate, momentum] = Variable::pair(pair).map(Variables::of);
@@ -268,9 +279,12 @@ fn uncoupled_blocks(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
             if set & own != coordinate {
                 return false;
             }
-            let slope = space.d(unit.node, r);
-            let slope = space.dag().mul(&[r, slope]);
-            space.ratio(slope, unit.node) == Some(-2)
+            let degree = |space: &mut Space| {
+                let slope = space.d(unit.node, r);
+                let slope = space.dag().mul(&[r, slope]);
+                space.ratio(slope, unit.node)
+            };
+            space.question(unit.node, degree) == Some(-2)
         });
         masks.push(flight);
     }

@@ -161,5 +161,5 @@ fn keep_invariants(model: &mut Model, h: Node, parts: &[(Node, Flow)]) -> bool {
     !invariants.is_empty()
         && parts
             .iter()
-            .all(|(part, _)| invariants.iter().all(|of| space.commute(*of, *part)))
+            .all(|(part, _)| invariants.iter().all(|of| space.is_kept(*of, *part)))
 }

@@ -6,6 +6,7 @@
 
 mod cover;
 mod join;
+mod large;
 mod rank;
 mod sweep;
 
@@ -74,8 +75,9 @@ fn flow_of(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     };
     let found = any_flow(&mut space, h);
     let mut limit = space.limit(h);
-    if found.is_none() && space.has_many_components && is_constant_form(&mut space, h) {
-        limit = limit.or(Some(Limit::Components));
+    if found.is_none() && space.has_many_components {
+        let is_form = |space: &mut Space| is_constant_form(space, h).then_some(Limit::Components);
+        limit = limit.or_else(|| space.question(h, is_form));
     }
     model.dag = space.model.dag;
     if let Some(flow) = found {
@@ -113,13 +115,16 @@ fn any_flow(space: &mut Space, h: Node) -> Option<Flow> {
         units::levels(space, h).into_iter().find_map(|level| {
             let nodes: Vec<Node> = level.units.iter().map(|unit| unit.node).collect();
             let sum = space.dag().add(&nodes);
-            (sum != h && space.constant_apart(h, sum)).then(|| solve::flow(space, sum, c))?
+            let is_apart = |space: &mut Space| space.constant_apart(h, sum).then_some(());
+            (sum != h && space.question(sum, is_apart).is_some())
+                .then(|| solve::flow(space, sum, c))?
         })
     });
     closed.or_else(|| solve::exponential(space, h))
 }
 
 /// Parts of H with their flows, outermost first, and the reasons of the choice.
+#[derive(Default)]
 struct Parts {
     flows: Vec<(Node, Flow)>,
     choice: Option<Reasons>,
@@ -142,9 +147,11 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
                 ..refusal
             });
         }
+        Ok(_) if groups.len() < 2 && large::is_large(&model.dag, h) => large::parts(model, h)?,
         Ok(mut space) if groups.len() < 2 => searched(model, &mut space, h)?,
         whole => {
-            let together = whole.ok().and_then(|mut space| {
+            let whole = whole.ok().filter(|_| !large::is_large(&model.dag, h));
+            let together = whole.and_then(|mut space| {
                 let flow = any_flow(&mut space, h)?;
                 model.dag = space.model.dag;
                 Some(flow)
@@ -160,7 +167,11 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
                         let mut space = Space::new(model, &[group])
                             .map_err(|limit| NoFlow::of(model, group, limit))?;
                         let label = space.label(group);
-                        found.push((label, searched(model, &mut space, group)?));
+                        let parts = match large::is_large(&model.dag, group) {
+                            true => large::parts(model, group)?,
+                            false => searched(model, &mut space, group)?,
+                        };
+                        found.push((label, parts));
                     }
                     found.arrange_by_key(|(label, _)| *label);
                     let found = found.into_iter().map(|(_, parts)| parts).collect();
@@ -249,9 +260,8 @@ fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
     let best = rank::best(space, energy, candidates, &invariants);
     let (chosen, reasons) = best.ok_or(refused.unwrap_or(h))?;
     let rest = rest(space, &chosen);
-    if !space.is_zero(rest) {
-        return Err(h);
-    }
+    let is_proven = |space: &mut Space| space.is_zero(rest).then_some(());
+    space.question(h, is_proven).ok_or(h)?;
     let mut flows = Vec::with_capacity(chosen.len());
     for (at, block) in chosen.into_iter().enumerate() {
         let node = match at {

@@ -191,7 +191,7 @@ fn keeps(space: &mut Space, pieces: &[Block], invariants: &[Node]) -> bool {
         && pieces.iter().all(|piece| {
             invariants
                 .iter()
-                .all(|invariant| space.commute(*invariant, piece.node))
+                .all(|invariant| space.is_kept(*invariant, piece.node))
         })
 }
 

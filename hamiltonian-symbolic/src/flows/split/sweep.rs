@@ -5,6 +5,7 @@
 //! iterations that are proven to commute are exact in any order, others are swept one way down and the
 //! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
 
+use super::large::is_large;
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
@@ -183,7 +184,7 @@ fn couples(dag: &Dag, node: Node) -> bool {
 }
 
 /// The side an expression is of, if it is of one.
-fn side(dag: &Dag, node: Node) -> Option<Side> {
+pub(super) fn side(dag: &Dag, node: Node) -> Option<Side> {
     let dependence = dag.dependence(node);
     match (dependence.on(Dependence::Q), dependence.on(Dependence::P)) {
         (_, false) => Some(Side::Q),
@@ -249,6 +250,9 @@ fn solved(
     body: Node,
     may_part: bool,
 ) -> Result<Vec<Piece>, Option<Limit>> {
+    if is_large(&model.dag, body) {
+        return Err(Some(Limit::Subexpressions));
+    }
     let conditions = are_distinct(&mut model.dag, &site.rows)?;
     let (mut small, images) = scratch(model, body);
     let over = |dag: &mut Dag, root: Node, map: &Map<Node, Node>| {

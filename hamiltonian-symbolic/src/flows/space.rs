@@ -3,7 +3,7 @@
 //!
 //! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
 //! expression is zero where the normal form says so, refuted first by numbers, which are cheaper.
-//! Each question ([`Space::question`]) has a [`Budget`] of its own. Where that is spent, the answer is no, and nothing
+//! Each question ([`Space::question`]) has a [`QuestionBudget`] of its own. Where that is spent, the answer is no, and nothing
 //! that was found since is kept.
 
 mod breaks;
@@ -115,7 +115,7 @@ pub(crate) struct Space {
     /// True if the point is given and has too many components for that.
     pub(crate) has_many_components: bool,
     /// What is left to the question that is answered.
-    budget: Budget,
+    budget: QuestionBudget,
     /// The limits that were met at an expression alone.
     met: Map<Node, Limit>,
     /// The first limit at which some question ended.
@@ -123,7 +123,7 @@ pub(crate) struct Space {
 }
 
 /// What is left to a question.
-struct Budget {
+struct QuestionBudget {
     /// The number of comparisons.
     tests: usize,
     /// The number of products in the normal form.
@@ -132,10 +132,10 @@ struct Budget {
     last: usize,
 }
 
-impl Budget {
+impl QuestionBudget {
     /// A whole one, beside an arena.
-    fn new(dag: &Dag) -> Budget {
-        Budget {
+    fn new(dag: &Dag) -> QuestionBudget {
+        QuestionBudget {
             tests: TESTS,
             products: PRODUCTS,
             last: dag.len() + NODES,
@@ -191,7 +191,7 @@ impl Space {
         Ok(Space {
             has_exponentials: components.is_some_and(|count| count <= COMPONENTS),
             has_many_components: components.is_some_and(|count| count > COMPONENTS),
-            budget: Budget::new(&model.dag),
+            budget: QuestionBudget::new(&model.dag),
             model,
             pairs,
             labels,
@@ -220,7 +220,7 @@ impl Space {
         of: Node,
         answer: impl FnOnce(&mut Space) -> Option<T>,
     ) -> Option<T> {
-        self.budget = Budget::new(&self.model.dag);
+        self.budget = QuestionBudget::new(&self.model.dag);
         let found = answer(self);
         // Expressions made after the limits may hold anything.
         let Some(limit) = self.spent() else {
@@ -233,9 +233,9 @@ impl Space {
     /// The limit at which the budget is spent.
     fn spent(&self) -> Option<Limit> {
         match self.budget {
-            Budget { tests: 0, .. } => Some(Limit::Comparisons),
-            Budget { products: 0, .. } => Some(Limit::Products),
-            Budget { last, .. } if self.model.dag.len() > last => Some(Limit::Expressions),
+            QuestionBudget { tests: 0, .. } => Some(Limit::Comparisons),
+            QuestionBudget { products: 0, .. } => Some(Limit::Products),
+            QuestionBudget { last, .. } if self.model.dag.len() > last => Some(Limit::Expressions),
             _ => None,
         }
     }

@@ -8,7 +8,7 @@ use crate::dag::{Array, Dag, Kind, Node, Numbers, Relation};
 use crate::op::Op;
 use crate::rational::Rational;
 
-enum Operation {
+enum TapeStep {
     Number(f64),
     Variable(usize),
     Coefficient,
@@ -24,7 +24,7 @@ enum Operation {
 
 /// Nodes as operations.
 pub(crate) struct Tape {
-    steps: Vec<Operation>,
+    steps: Vec<TapeStep>,
     /// The number of those that depend on no variable.
     fixed: usize,
     /// The places of the roots' values.
@@ -52,29 +52,29 @@ impl Tape {
             // Every operand was placed before.
             let at = |child: &Node| place.get(*child).map_or(usize::MAX, |at| at as usize);
             let step = match dag.kind(node) {
-                Kind::Constant(value) => Operation::Number(number(value)),
-                Kind::Pi => Operation::Number(std::f64::consts::PI),
-                Kind::Coefficient => Operation::Coefficient,
-                Kind::Element(Array::Phase(_), ..) => Operation::Variable(variables(node).number()),
+                Kind::Constant(value) => TapeStep::Number(number(value)),
+                Kind::Pi => TapeStep::Number(std::f64::consts::PI),
+                Kind::Coefficient => TapeStep::Coefficient,
+                Kind::Element(Array::Phase(_), ..) => TapeStep::Variable(variables(node).number()),
                 Kind::Scalar(_) | Kind::Time | Kind::Extent(_) | Kind::Element(..) => {
-                    Operation::Number(given(node))
+                    TapeStep::Number(given(node))
                 }
-                Kind::Sum(c, terms) => Operation::Sum(
+                Kind::Sum(c, terms) => TapeStep::Sum(
                     number(c),
                     terms.iter().map(|(k, n)| (number(k), at(n))).collect(),
                 ),
-                Kind::Product(c, factors) => Operation::Product(
+                Kind::Product(c, factors) => TapeStep::Product(
                     number(c),
                     factors.iter().map(|(n, k)| (at(n), *k)).collect(),
                 ),
                 Kind::Call(op, arguments) => {
-                    Operation::Call(*op, arguments.iter().map(at).collect())
+                    TapeStep::Call(*op, arguments.iter().map(at).collect())
                 }
-                Kind::Compare(relation, a, b) => Operation::Compare(*relation, at(a), at(b)),
-                Kind::Not(a) => Operation::Not(at(a)),
-                Kind::And(a, b) => Operation::And(at(a), at(b)),
-                Kind::Or(a, b) => Operation::Or(at(a), at(b)),
-                Kind::Select(c, a, b) => Operation::Select(at(c), at(a), at(b)),
+                Kind::Compare(relation, a, b) => TapeStep::Compare(*relation, at(a), at(b)),
+                Kind::Not(a) => TapeStep::Not(at(a)),
+                Kind::And(a, b) => TapeStep::And(at(a), at(b)),
+                Kind::Or(a, b) => TapeStep::Or(at(a), at(b)),
+                Kind::Select(c, a, b) => TapeStep::Select(at(c), at(a), at(b)),
                 Kind::External(..) | Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => {
                     return None;
                 }
@@ -134,16 +134,16 @@ macro_rules! lanes {
 }
 
 /// Operations in turn, the first of which has the number `first`.
-fn perform(steps: &[Operation], first: usize, c: f64, z: &[Lanes], numbers: &mut [Lanes]) {
+fn perform(steps: &[TapeStep], first: usize, c: f64, z: &[Lanes], numbers: &mut [Lanes]) {
     let mut at = 0;
     while at < steps.len() {
         numbers[first + at] = match &steps[at] {
-            Operation::Number(value) => [*value; LANES],
-            Operation::Variable(bit) => z[*bit],
-            Operation::Coefficient => [c; LANES],
-            Operation::Sum(constant, terms) => sum(*constant, terms, numbers),
-            Operation::Product(constant, factors) => product(*constant, factors, numbers),
-            Operation::Call(op, arguments) => match *arguments.as_slice() {
+            TapeStep::Number(value) => [*value; LANES],
+            TapeStep::Variable(bit) => z[*bit],
+            TapeStep::Coefficient => [c; LANES],
+            TapeStep::Sum(constant, terms) => sum(*constant, terms, numbers),
+            TapeStep::Product(constant, factors) => product(*constant, factors, numbers),
+            TapeStep::Call(op, arguments) => match *arguments.as_slice() {
                 [a] => lanes!(|a: f64| called(*op, &[a]), numbers[a]),
                 [a, b] => lanes!(|a, b| called(*op, &[a, b]), numbers[a], numbers[b]),
                 [a, b, c] => {
@@ -152,7 +152,7 @@ fn perform(steps: &[Operation], first: usize, c: f64, z: &[Lanes], numbers: &mut
                 }
                 ref more => unreachable!("{op:?} of {} arguments", more.len()),
             },
-            Operation::Compare(relation, a, b) => {
+            TapeStep::Compare(relation, a, b) => {
                 let holds = |a: f64, b: f64| {
                     f64::from(match relation {
                         Relation::Less => a < b,
@@ -162,10 +162,10 @@ fn perform(steps: &[Operation], first: usize, c: f64, z: &[Lanes], numbers: &mut
                 };
                 lanes!(holds, numbers[*a], numbers[*b])
             }
-            Operation::Not(a) => lanes!(|a: f64| 1.0 - a, numbers[*a]),
-            Operation::And(a, b) => lanes!(|a: f64, b: f64| a * b, numbers[*a], numbers[*b]),
-            Operation::Or(a, b) => lanes!(f64::max, numbers[*a], numbers[*b]),
-            Operation::Select(condition, a, b) => {
+            TapeStep::Not(a) => lanes!(|a: f64| 1.0 - a, numbers[*a]),
+            TapeStep::And(a, b) => lanes!(|a: f64, b: f64| a * b, numbers[*a], numbers[*b]),
+            TapeStep::Or(a, b) => lanes!(f64::max, numbers[*a], numbers[*b]),
+            TapeStep::Select(condition, a, b) => {
                 let chosen = |condition: f64, a: f64, b: f64| if condition == 0.0 { b } else { a };
                 lanes!(chosen, numbers[*condition], numbers[*a], numbers[*b])
             }

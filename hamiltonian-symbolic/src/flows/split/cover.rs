@@ -19,19 +19,19 @@ const COVERS: usize = 60;
 
 /// A unit by its place in the list of all.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-struct At(usize);
+struct UnitNumber(usize);
 
-impl Member for At {
+impl Member for UnitNumber {
     fn number(self) -> u32 {
         self.0 as u32
     }
-    fn numbered(number: u32) -> At {
-        At(number as usize)
+    fn numbered(number: u32) -> UnitNumber {
+        UnitNumber(number as usize)
     }
 }
 
 /// A set of units.
-type Mask = Set<At>;
+type Mask = Set<UnitNumber>;
 
 /// Some units that have a flow together.
 #[derive(Clone)]
@@ -60,9 +60,9 @@ struct Search<'a> {
 impl Search<'_> {
     /// The sum of some units, in the order in which they are written.
     fn sum(&mut self, mask: Mask) -> Node {
-        let mut numbers: Vec<At> = mask.members().collect();
-        numbers.arrange_by_key(|At(at)| self.places[*at]);
-        let nodes = numbers.iter().map(|At(at)| self.units[*at].node);
+        let mut numbers: Vec<UnitNumber> = mask.members().collect();
+        numbers.arrange_by_key(|UnitNumber(at)| self.places[*at]);
+        let nodes = numbers.iter().map(|UnitNumber(at)| self.units[*at].node);
         let nodes: Vec<Node> = nodes.collect();
         self.space.dag().add(&nodes)
     }
@@ -100,9 +100,9 @@ impl Search<'_> {
         self.blocks.extend(block);
     }
     fn mask(&mut self, mut is: impl FnMut(&mut Space, &Unit) -> bool) -> Mask {
-        let numbers = (0..self.units.len()).map(At);
+        let numbers = (0..self.units.len()).map(UnitNumber);
         numbers
-            .filter(|At(at)| is(self.space, &self.units[*at]))
+            .filter(|UnitNumber(at)| is(self.space, &self.units[*at]))
             .collect()
     }
 }
@@ -127,7 +127,7 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         limit: None,
     };
     let coupled = search.mask(|_, unit| unit.is_coupled);
-    let all: Mask = (0..units.units.len()).map(At).collect();
+    let all: Mask = (0..units.units.len()).map(UnitNumber).collect();
     if let Some(whole) = search.block(all) {
         return Ok(vec![vec![whole]]);
     }
@@ -142,7 +142,11 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
     }
     if covers.is_empty() {
         let bad = ordered.iter().enumerate().filter(|(at, unit)| {
-            unit.is_coupled && !search.blocks.iter().any(|block| block.units.has(At(*at)))
+            unit.is_coupled
+                && !search
+                    .blocks
+                    .iter()
+                    .any(|block| block.units.has(UnitNumber(*at)))
         });
         let bad = bad.min_by_key(|(at, _)| places[*at]);
         let bad = bad.map_or(units.units[0], |(_, unit)| *unit).source;
@@ -186,7 +190,7 @@ fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
     );
     let mut offers: Vec<Mask> = vec![v, t, mixed, v | mixed, t | mixed, uncoupled];
     offers.extend(uncoupled.members().map(Mask::of));
-    let numbers: Vec<At> = coupled.members().collect();
+    let numbers: Vec<UnitNumber> = coupled.members().collect();
     let mut subsets: Vec<Mask> = coupled.members().map(Mask::of).collect();
     if numbers.len() <= COUPLED {
         let chosen = |choice: usize| {
@@ -304,7 +308,7 @@ fn uncoupled_blocks(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
 
 /// Uncoupled units as few pieces in which no conjugate pair meets.
 fn linear_pieces(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
-    let mut numbers: Vec<At> = uncoupled.members().collect();
+    let mut numbers: Vec<UnitNumber> = uncoupled.members().collect();
     let order = |set: Variables| match set.sides() {
         (false, _) => 0,
         (_, false) => 1,

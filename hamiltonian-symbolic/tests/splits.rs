@@ -3,6 +3,7 @@
 pub mod arrays;
 mod order;
 mod perturbed;
+mod rewrite;
 pub mod rows;
 pub mod table;
 

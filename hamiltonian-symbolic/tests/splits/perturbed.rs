@@ -3,12 +3,14 @@
 //! Scaled coordinates keep the structure.
 
 use super::arrays::RINGS;
+use super::rewrite::{replaced, shuffle, terms, with_factors};
 use super::rows::CASES;
 use super::table::{FOUND, REFUSED};
 use crate::common;
-use crate::judge::field::{Field, World};
+use crate::judge::field::{Field, Layout, World, extents};
 use crate::tree::Random;
 use hamiltonian_lanes::{DoubleDouble as D, Real};
+use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::split::find;
 use hamiltonian_symbolic::structure::analyse;
@@ -125,6 +127,14 @@ impl System {
         shuffle(&mut other.terms, random);
         other
     }
+    /// With the factors of each term in another order.
+    fn with_factors(&self, random: &mut Random) -> System {
+        let terms = self.terms.iter().map(|term| with_factors(term, random));
+        System {
+            terms: terms.collect(),
+            ..self.clone()
+        }
+    }
     fn with_coordinates(&self, random: &mut Random) -> System {
         let mut places: Vec<usize> = (0..self.order.len()).collect();
         shuffle(&mut places, random);
@@ -192,29 +202,43 @@ impl System {
     fn pieces(&self) -> Result<Vec<Vec<f64>>, String> {
         let mut model = self.model();
         let pieces = find(&mut model).map_err(|refusal| refusal.text)?.pieces;
+        // Rings of four sites.
+        let sizes = vec![4; usize::from(!self.sizes.is_empty())];
+        let parameters = model.parameters.iter().zip(&self.values);
+        let parameters = parameters.map(|(parameter, value)| {
+            let (rows, columns) = extents(&parameter.shape, &sizes);
+            let column = |_| (0..rows).map(|row| value + row as f64 / 8.0).collect();
+            (0..columns).map(column).collect()
+        });
         let world = World {
-            sizes: Vec::new(),
-            parameters: self.values.iter().map(|value| vec![vec![*value]]).collect(),
+            parameters: parameters.collect(),
+            sizes,
             t: 0.3,
         };
-        let n = self.order.len();
+        let layout = Layout::of(&model, &world.sizes);
         let point = |k: usize| -> Vec<D> {
-            let value = |old: usize| {
+            let mut z = vec![D::from(0.0); 2 * layout.half];
+            for (group, old) in self.order.iter().enumerate() {
+                let (_, rows, columns) = layout.groups[group];
                 // What stands apart rests.
-                let k = if old / 2 + 1 == n && self.coordinates.contains(&APART[0].to_owned()) {
+                let k = if self.coordinates[group] == APART[0] {
                     0
                 } else {
                     k
                 };
-                let place = (old * 7 + k * 5) % 11;
-                let momentum = f64::from(u8::from(old % 2 == 1));
-                D::from(0.9 - 0.6 * momentum + place as f64 / 32.0)
-            };
-            let q = self.order.iter().map(|old| value(2 * old));
-            let p = self.order.iter().map(|old| value(2 * old + 1));
-            let all: Vec<D> = q.chain(p).collect();
-            assert_eq!(all.len(), 2 * n);
-            all
+                for (side, row) in [Side::Q, Side::P]
+                    .into_iter()
+                    .flat_map(|side| (0..rows).map(move |row| (side, row)))
+                {
+                    let momentum = usize::from(side == Side::P);
+                    let place = ((2 * old + momentum) * 7 + row * 3 + k * 5) % 11;
+                    let value = 0.9 - 0.6 * momentum as f64 + place as f64 / 32.0;
+                    for column in 0..columns {
+                        z[layout.place(side, group, column, row)] = D::from(value);
+                    }
+                }
+            }
+            z
         };
         let mut all = Vec::new();
         for piece in pieces {
@@ -226,50 +250,6 @@ impl System {
         all.retain(|values: &Vec<f64>| values.iter().any(|value| *value != 0.0));
         all.sort_by(|a: &Vec<f64>, b| a[1].total_cmp(&b[1]));
         Ok(all)
-    }
-}
-
-/// The terms of a sum, each with its sign.
-fn terms(h: &str) -> Vec<String> {
-    let (mut terms, mut depth) = (Vec::new(), 0);
-    let mut now = String::from("+ ");
-    for c in h.chars() {
-        match c {
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' | '}' => depth -= 1,
-            '+' | '-' if depth == 0 && now.trim_end().len() > 1 => {
-                terms.push(now.trim_end().to_owned());
-                now.clear();
-            }
-            '-' if depth == 0 => now.clear(),
-            _ => {}
-        }
-        now.push(c);
-    }
-    terms.push(now);
-    terms
-}
-
-/// Text with other words.
-fn replaced(text: &str, names: &[(String, String)]) -> String {
-    let mut out = String::new();
-    let mut word = String::new();
-    for c in text.chars().chain([' ']) {
-        if c.is_alphanumeric() || c == '_' {
-            word.push(c);
-            continue;
-        }
-        let new = names.iter().find(|(old, _)| *old == word);
-        out.push_str(new.map_or(&word, |(_, new)| new));
-        word.clear();
-        out.push(c);
-    }
-    out.trim_end().to_owned()
-}
-
-fn shuffle<T>(list: &mut [T], random: &mut Random) {
-    for at in (1..list.len()).rev() {
-        list.swap(at, random.below(at + 1));
     }
 }
 
@@ -399,11 +379,18 @@ fn systems() -> Vec<System> {
         .collect()
 }
 
+/// Systems of arrays.
+fn rings() -> impl Iterator<Item = System> {
+    let all = RINGS.iter();
+    all.map(|ring| System::read(ring.signature, ring.parameters, ring.h))
+}
+
 /// The ways in which one system is written, each with its name; scaled coordinates have other pieces.
 fn others(system: &System, random: &mut Random) -> Vec<(&'static str, System)> {
     let mut all = vec![
         ("names", system.renamed()),
         ("terms", system.with_terms(random)),
+        ("factors", system.with_factors(random)),
         ("coordinates", system.with_coordinates(random)),
         ("both reversed", system.reversed()),
         ("parameter", system.with_parameter()),
@@ -416,6 +403,7 @@ fn others(system: &System, random: &mut Random) -> Vec<(&'static str, System)> {
             system
                 .renamed()
                 .with_terms(random)
+                .with_factors(random)
                 .with_coordinates(random)
                 .with_parameter()
                 .with_parameters(random)
@@ -425,6 +413,7 @@ fn others(system: &System, random: &mut Random) -> Vec<(&'static str, System)> {
     ];
     for _ in 0..common::cases(0, 20) {
         all.push(("terms", system.with_terms(random)));
+        all.push(("factors", system.with_factors(random)));
         all.push(("coordinates", system.with_coordinates(random)));
         all.push(("another", system.with_another().with_coordinates(random)));
     }
@@ -460,7 +449,7 @@ fn with_other_pieces(systems: &[System], random: &mut Random) -> (Vec<String>, u
 #[test]
 fn the_same_systems_have_the_same_pieces() {
     let mut random = Random(19);
-    let systems = systems();
+    let systems: Vec<System> = systems().into_iter().chain(rings()).collect();
     let (faults, count) = with_other_pieces(&systems, &mut random);
     println!("{count} ways to write {} systems", systems.len());
     assert!(systems.len() >= 50);
@@ -522,10 +511,7 @@ fn random_systems_have_the_same_pieces() {
 fn the_same_systems_have_the_same_structure() {
     let mut random = Random(20);
     let (mut faults, mut count) = (Vec::new(), 0);
-    let rings = RINGS
-        .iter()
-        .map(|ring| System::read(ring.signature, ring.parameters, ring.h));
-    for system in systems().into_iter().chain(rings) {
+    for system in systems().into_iter().chain(rings()) {
         let own = system.structure();
         let mut all = others(&system, &mut random);
         // Elements of arrays are scaled by the tests of transformations.

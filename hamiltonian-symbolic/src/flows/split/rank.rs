@@ -19,6 +19,8 @@ const STEPS: usize = 32;
 const TRIALS: usize = 40;
 /// The most operations of all runs together, each on all orbits: a run is not begun past them.
 const OPERATIONS: usize = 100_000;
+/// Past this an orbit has ended: rounding would decide what functions of such numbers are.
+const FAR: f64 = 1e6;
 /// Errors closer than this are a tie.
 const TIE: f64 = 1.1;
 
@@ -316,7 +318,8 @@ fn error(
         *operations += a_step;
         for orbit in 0..ORBITS {
             let off = (now[orbit] - first[orbit]).abs();
-            let off = if off.is_finite() { off } else { f64::INFINITY };
+            let is_near = off.is_finite() && z.iter().all(|x| x[orbit].abs() < FAR);
+            let off = if is_near { off } else { f64::INFINITY };
             largest[orbit] = off.max(largest[orbit]).min(size[orbit]);
         }
         // It only grows, so that one that is too large now is so at the end.

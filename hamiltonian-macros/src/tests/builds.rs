@@ -208,3 +208,68 @@ fn a_large_h_is_written_out_fewer_times() {
         "{large} sines a term, {small} where H is small"
     );
 }
+
+/// The conditions under which the emitted code has its traits, those that never hold among them, and what its pieces are.
+fn traits(source: &str) -> Vec<String> {
+    let code = built(source).unwrap_or_else(|errors| panic!("{source}: {errors:?}"));
+    let words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
+    let is_trait = |word: &&str| {
+        let never = word.strip_prefix("__");
+        never.is_some_and(|name| name.starts_with(char::is_uppercase))
+            || ["Shifts", "Moves", "Kick", "Nystrom", "Cyclic"].contains(word)
+    };
+    let mut traits: Vec<String> = words.filter(is_trait).map(str::to_owned).collect();
+    traits.sort();
+    traits
+}
+
+/// Another order of terms, factors and coordinates, other names, a parameter that nothing reads, and an added constant
+/// keep the traits.
+#[test]
+fn systems_that_are_written_in_other_ways_have_the_same_traits() {
+    const SAME: &[&[&str]] = &[
+        // Nyström methods take V and T.
+        &[
+            "struct A { k } H(x, y; u, v) = (u^2 + v^2)/2 + k*x^2*y - y^3/3",
+            "struct A { b, a } H(n, m; q, p) = -n^3/3 + m^2*n*b + (q^2 + p^2)/2",
+            "struct A { k } H(x, y; u, v) = 2.5 + v^2/2 + u^2/2 - 1/3*y^3 + y*k*x^2",
+        ],
+        // They take pieces of an H that is not separable: a turn with free flight, and V.
+        &[
+            "struct A { m } H(x, y; u, v) = (u^2 + v^2)/2 + y*u - x*v - m/hypot(x, y + 1)",
+            "struct A { n, m } H(b, a; d, c) = b*c - m/hypot(a, b + 1) + (c^2 + d^2)/2 - d*a",
+            "struct A { m } H(x, y; u, v) = 1 - v*x + u*y + v^2/2 + u^2/2 - 1/hypot(x, y + 1)*m",
+        ],
+        // The paper's (34), split otherwise, and one whose momenta are not quadratic.
+        &[
+            "struct A { k } H(q; p) = 0.5*(q^2 + 1)*(p^2 + 1) + k*q",
+            "struct A { k, l } H(a; b) = a*k + (b^2 + 1)*(1 + a^2)*0.5 + 7",
+        ],
+        &[
+            "struct A { } H(q; p) = cosh(p) - cos(q)",
+            "struct A { s } H(a; b) = 3 - cos(a) + cosh(b)",
+        ],
+        // A cyclic coordinate, and the time.
+        &[
+            "struct A { k } H(r, f; p, l; t) = p^2/2 + l^2/(2*r^2) - k*cos(t)/r",
+            "struct A { c, k } H(f, r; l, p; s) = -cos(s)/r*k + l^2/r^2/2 + p^2/2 + 4",
+        ],
+        // Damping.
+        &[
+            "struct A { g } H(q; p) = p^2/2 - cos(q); force(q; p) = -g*p",
+            "struct A { h, g } H(a; b) = 1 - cos(a) + b^2/2; force(a; b) = -b*g",
+        ],
+    ];
+    let mut different = Vec::new();
+    for same in SAME {
+        let first = traits(same[0]);
+        for other in &same[1..] {
+            assert_eq!(first, traits(other), "{other}");
+        }
+        if !different.contains(&first) {
+            different.push(first);
+        }
+    }
+    // Each of these systems has a structure of its own.
+    assert_eq!(different.len(), SAME.len(), "{different:#?}");
+}

@@ -46,7 +46,7 @@ mod proofs;
 pub use algebra::ball::Ball;
 pub use algebra::dag::op;
 pub use algebra::{
-    dag, diff, index, loops, model, normal_form, print, ranges, rational, set, sort,
+    dag, diff, index, loops, model, normal_form, print, product, ranges, rational, set, sort,
 };
 pub use flows::split;
 pub use programs::{count, forces, hold, interpret, pairs, pipeline, program, schedule};

@@ -7,10 +7,10 @@
 
 mod conditions;
 
-use crate::algebra::factors::{Factors, multiply};
 use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Side};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
+use crate::product::{Factors, Product};
 use crate::rational::{LONGEST, Rational};
 use crate::sort::Arrange;
 
@@ -286,20 +286,19 @@ impl Dag {
         if k.is_zero() {
             return self.integer(0);
         }
-        let mut factors = factors.list;
-        factors.retain(|(node, n)| match self.as_constant(*node) {
-            Some(value) => match multiplied(&k, value, *n) {
-                Some(product) => {
-                    k = product;
-                    false
-                }
-                None => true,
-            },
-            None => true,
+        let mut product = Product::new(k, factors.list);
+        let k = &mut product.coefficient;
+        product.factors.retain(|(node, n)| {
+            let value = self.as_constant(*node);
+            match value.and_then(|value| multiplied(k, value, *n)) {
+                Some(product) => *k = product,
+                None => return true,
+            }
+            false
         });
-        self.collect_roots(&mut factors);
-        factors.retain(|(_, n)| *n != 0);
-        self.bare_product(k, factors)
+        self.collect_roots(&mut product);
+        let product = product.simplified();
+        self.bare_product(product.coefficient, product.factors)
     }
 
     /// Returns true if the n-th power of a product is the product of its factors' powers.
@@ -316,36 +315,33 @@ impl Dag {
 
     /// Powers of √x with x ≥ 0 known: x·√x is (√x)³, and an even power of √x is a power of x;
     /// |x| to an even power is x to that power.
-    fn collect_roots(&mut self, factors: &mut Factors) {
-        for at in 0..factors.len() {
-            let (node, n) = factors[at];
+    fn collect_roots(&self, product: &mut Product) {
+        for at in 0..product.factors.len() {
+            let (node, n) = product.factors[at];
             let Kind::Call(op, arguments) = self.kind(node) else {
                 continue;
             };
             let inner = arguments[0];
             if *op == Op::Abs && n % 2 == 0 {
-                factors[at].1 = 0;
-                multiply(factors, inner, n);
+                product.factors[at].1 = 0;
+                product.multiply(inner, n);
             } else if *op == Op::Sqrt && self.is_nonnegative(inner) {
-                let whole = match factors.iter().position(|(other, _)| *other == inner) {
-                    Some(other) => core::mem::replace(&mut factors[other].1, 0),
-                    None => 0,
-                };
+                let whole = product.exponent(inner);
+                product.multiply(inner, -whole);
                 let total = n + 2 * whole;
-                if total % 2 == 0 {
-                    factors[at].1 = 0;
-                    if let Kind::Product(c, parts) = self.kind(inner) {
-                        // Only a bare product of powers may be taken apart without a constant.
-                        if c.is_one() {
-                            for (part, m) in parts.clone() {
-                                multiply(factors, part, m * (total / 2));
-                            }
-                            continue;
+                if total % 2 != 0 {
+                    product.factors[at].1 = total;
+                    continue;
+                }
+                product.factors[at].1 = 0;
+                match self.kind(inner) {
+                    // Only a bare product of powers may be taken apart without a constant.
+                    Kind::Product(c, parts) if c.is_one() => {
+                        for (part, m) in parts {
+                            product.multiply(*part, m * (total / 2));
                         }
                     }
-                    multiply(factors, inner, total / 2);
-                } else {
-                    factors[at].1 = total;
+                    _ => product.multiply(inner, total / 2),
                 }
             }
         }

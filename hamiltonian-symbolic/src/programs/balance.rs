@@ -4,9 +4,9 @@
 //! are not prepared is a tree. Invariant: a gradient through a tree costs two multiplications a
 //! factor (Speelpenning 1980), and so does every later pass; the factors keep their order.
 
-use crate::algebra::factors::Factors;
 use crate::algebra::simplify::SHORT;
 use crate::dag::{Dag, Kind, Node};
+use crate::product::Factors;
 use crate::programs::factor::is_prepared;
 use crate::rational::Rational;
 use crate::sort::Arrange;

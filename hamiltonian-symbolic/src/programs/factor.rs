@@ -4,9 +4,9 @@
 //! Invariant: a term used elsewhere too is left whole, so that factoring never undoes sharing;
 //! sums are regrouped by common factors only, which cannot introduce cancellation.
 
-use crate::algebra::factors::{self, Factors};
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::index::Domain;
+use crate::product::{Factors, Product};
 use crate::rational::Rational;
 use crate::sort::Arrange;
 
@@ -36,20 +36,32 @@ pub(crate) fn is_known(dag: &Dag, node: Node, now: Stage) -> bool {
 /// takes a prepared value for every term.
 const ABSORBING: usize = 16;
 
-/// A term `k·p·Π f`, p prepared, the rest not.
+/// A term `p·rest`: p prepared, none of the other factors.
 #[derive(Clone, Debug)]
 struct Summand {
-    k: Rational,
     p: Node,
-    factors: Factors,
+    rest: Product,
 }
 
 impl Summand {
+    /// The term `p·product`.
+    fn new(dag: &mut Dag, p: Node, product: Product) -> Summand {
+        let factors = product.factors.into_iter();
+        let (prepared, rest): (Vec<_>, Vec<_>) = factors.partition(|(n, _)| is_prepared(dag, *n));
+        let rest = Product::new(product.coefficient, rest);
+        if prepared.is_empty() {
+            return Summand { p, rest };
+        }
+        let prepared = dag.product(&Rational::ONE, &prepared);
+        let p = dag.mul(&[p, prepared]);
+        Summand { p, rest }
+    }
     fn has_coefficient(&self, one: Node) -> bool {
-        self.p != one || !self.k.is_unit()
+        self.p != one || !self.rest.coefficient.is_unit()
     }
     fn multiplications(&self, one: Node) -> i64 {
-        let factors: i64 = self.factors.iter().map(|(_, n)| i64::from(n.abs())).sum();
+        let factors = self.rest.factors.iter();
+        let factors: i64 = factors.map(|(_, n)| i64::from(n.abs())).sum();
         if factors == 0 {
             0
         } else {
@@ -58,14 +70,20 @@ impl Summand {
     }
     /// The power of a base, if it has that sign.
     fn power(&self, base: Node, sign: i32) -> Option<i32> {
-        let power = factors::power(&self.factors, &base);
+        let power = self.rest.exponent(base);
         (power.signum() == sign).then_some(power)
     }
     fn without(&self, base: Node, power: i32) -> Summand {
-        let mut rest = self.clone();
-        factors::multiply(&mut rest.factors, base, -power);
-        rest.factors.retain(|(_, n)| *n != 0);
-        rest
+        let mut rest = self.rest.clone();
+        rest.multiply(base, -power);
+        let rest = rest.simplified();
+        Summand { p: self.p, rest }
+    }
+    /// The term with ±1 for its coefficient.
+    fn without_coefficient(&self, one: Node) -> Summand {
+        let mut rest = self.rest.clone();
+        rest.coefficient = rest.coefficient.sign();
+        Summand { p: one, rest }
     }
 }
 
@@ -82,17 +100,15 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
             factored_sum(dag, &c, &terms, &Rational::ONE, None)
         }
         Kind::Product(..) if dag.is_sealed(node) => dag.rebuild(node, &|child| new[&child]),
-        Kind::Product(k, factors) => match gathered(dag, &k, &factors, &uses) {
+        Kind::Product(..) => match gathered(dag, &Product::of(dag, node), &uses) {
             Some((domain, body, negative)) => {
                 // Its factors are these, so they are rewritten already.
-                if let Kind::Product(k, factors) = dag.kind(body).clone() {
-                    let image = factored_product(dag, k, factors, &uses, new);
-                    new.insert(body, image);
-                }
-                let sum = dag.intern(Kind::Reduce(domain, new[&body]));
+                let image = factored_product(dag, body, &uses, new);
+                new.insert(body, image);
+                let sum = dag.intern(Kind::Reduce(domain, image));
                 if negative { dag.neg(sum) } else { sum }
             }
-            None => factored_product(dag, k, factors, &uses, new),
+            None => factored_product(dag, node, &uses, new),
         },
         _ => dag.rebuild(node, &|child| new[&child]),
     });
@@ -103,12 +119,8 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
 
 /// A product with a sum over a loop whose body, with the other factors in it, is computed inside
 /// that loop anyway (up to sign): the same force on both bodies of a pair.
-fn gathered(
-    dag: &Dag,
-    k: &Rational,
-    factors: &[(Node, i32)],
-    uses: &Numbers,
-) -> Option<(Domain, Node, bool)> {
+fn gathered(dag: &Dag, product: &Product, uses: &Numbers) -> Option<(Domain, Node, bool)> {
+    let factors = &product.factors;
     factors.iter().find_map(|&(sum, n)| {
         let Kind::Reduce(domain, body) = *dag.kind(sum) else {
             return None;
@@ -130,6 +142,7 @@ fn gathered(
             return None;
         }
         [false, true].into_iter().find_map(|negative| {
+            let k = &product.coefficient;
             let k = if negative { k.neg() } else { k.clone() };
             let known = dag.known(&Kind::Product(k, all.clone()))?;
             uses.has(known).then_some((domain, known, negative))
@@ -137,20 +150,16 @@ fn gathered(
     })
 }
 
-fn factored_product(
-    dag: &mut Dag,
-    k: Rational,
-    factors: Factors,
-    uses: &Numbers,
-    new: &Map<Node, Node>,
-) -> Node {
-    let place = absorbing_sum(dag, &k, &factors, uses);
+fn factored_product(dag: &mut Dag, node: Node, uses: &Numbers, new: &Map<Node, Node>) -> Node {
+    let product = Product::of(dag, node);
+    let place = absorbing_sum(dag, &product, uses);
+    let (k, factors) = (&product.coefficient, &product.factors);
     let Some((at, Kind::Sum(c, terms))) = place.map(|at| (at, dag.kind(factors[at].0).clone()))
     else {
-        let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new[&n], e)).collect();
-        return dag.product(&k, &factors);
+        let factors: Vec<_> = factors.iter().map(|(n, e)| (new[n], *e)).collect();
+        return dag.product(k, &factors);
     };
-    let (prepared, others): (Vec<_>, Vec<_>) = factors
+    let (prepared, mut others): (Vec<_>, Vec<_>) = factors
         .iter()
         .enumerate()
         .filter(|(i, _)| *i != at)
@@ -163,24 +172,19 @@ fn factored_product(
         .collect();
     // The sign stays outside, where it becomes a subtraction.
     let sum = factored_sum(dag, &c, &terms, &k.abs(), Some(p));
-    let mut all = vec![(sum, 1)];
-    all.extend(others);
-    dag.product(&k.sign(), &all)
+    others.insert(0, (sum, 1));
+    dag.product(&k.sign(), &others)
 }
 
 /// The factor of a product into which the product's coefficient can be multiplied for free: a
 /// sum used only here, all of whose terms but at most one have a coefficient already.
-fn absorbing_sum(
-    dag: &Dag,
-    k: &Rational,
-    factors: &[(Node, i32)],
-    uses: &Numbers,
-) -> Option<usize> {
-    let has_prepared = factors.iter().any(|(n, _)| is_prepared(dag, *n));
-    if !has_prepared && k.is_unit() {
+fn absorbing_sum(dag: &Dag, product: &Product, uses: &Numbers) -> Option<usize> {
+    let mut factors = product.factors.iter();
+    let has_prepared = factors.any(|(n, _)| is_prepared(dag, *n));
+    if !has_prepared && product.coefficient.is_unit() {
         return None;
     }
-    factors.iter().position(|&(node, n)| {
+    product.factors.iter().position(|&(node, n)| {
         let Kind::Sum(c, terms) = dag.kind(node) else {
             return false;
         };
@@ -217,38 +221,19 @@ fn factored_sum(
     let p = p.unwrap_or(one);
     let mut list: Vec<Summand> = Vec::with_capacity(terms.len() + 1);
     for (k, node, alone) in terms {
-        let mut term = Summand {
-            k: k.mul(scale),
-            p,
-            factors: Vec::new(),
+        let product = match alone {
+            true => Product::of(dag, *node),
+            false => Product::power(*node, 1),
         };
-        match dag.kind(*node) {
-            Kind::Product(k, factors) if *alone => {
-                let (k, factors) = (k.clone(), factors.clone());
-                term.k = term.k.mul(&k);
-                let (prepared, rest): (Vec<_>, Vec<_>) =
-                    factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
-                if !prepared.is_empty() {
-                    let prepared = dag.product(&Rational::ONE, &prepared);
-                    term.p = dag.mul(&[p, prepared]);
-                }
-                term.factors = rest;
-            }
-            _ if is_prepared(dag, *node) => term.p = dag.mul(&[p, *node]),
-            _ => term.factors.push((*node, 1)),
-        }
-        list.push(term);
+        list.push(Summand::new(dag, p, product.scaled(&k.mul(scale))));
     }
     let constant = c.mul(scale);
     if p == one {
         collect(dag, &constant, list, one)
     } else {
         if !constant.is_zero() {
-            list.push(Summand {
-                k: constant,
-                p,
-                factors: Vec::new(),
-            });
+            let rest = Product::constant(constant);
+            list.push(Summand { p, rest });
         }
         collect(dag, &Rational::ZERO, list, one)
     }
@@ -288,13 +273,9 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Summand>, one: Nod
                     .power(*base, power.signum())
                     .map(|_| term.without(*base, *power)),
                 Common::Coefficient(k, p) => (term.p == *p
-                    && term.k.abs() == *k
-                    && !term.factors.is_empty())
-                .then(|| Summand {
-                    k: term.k.sign(),
-                    p: one,
-                    factors: term.factors.clone(),
-                }),
+                    && term.rest.coefficient.abs() == *k
+                    && !term.rest.factors.is_empty())
+                .then(|| term.without_coefficient(one)),
             };
             match quotient {
                 Some(quotient) => {
@@ -305,45 +286,24 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Summand>, one: Nod
             }
         }
         let sum = collect(dag, &Rational::ZERO, inner, one);
-        let (k, mut factors) = match dag.kind(sum).clone() {
-            Kind::Product(k, factors) => (k, factors),
-            _ => (Rational::ONE, vec![(sum, 1)]),
-        };
-        let mut term = Summand {
-            k,
-            p: one,
-            factors: Vec::new(),
-        };
+        let mut product = Product::of(dag, sum);
+        let mut coefficient = one;
         match common {
-            Common::Factor(base, power) => match factors.iter_mut().find(|(n, _)| *n == base) {
-                Some(entry) => entry.1 += power,
-                None => factors.insert(0, (base, power)),
-            },
+            Common::Factor(base, power) => product.multiply_at(0, base, power),
             Common::Coefficient(k, p) => {
-                term.k = term.k.mul(&k);
-                term.p = p;
+                product = product.scaled(&k);
+                coefficient = p;
             }
         }
-        factors.retain(|(_, n)| *n != 0);
-        let (prepared, others): (Vec<_>, Vec<_>) =
-            factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
-        if !prepared.is_empty() {
-            let prepared = dag.product(&Rational::ONE, &prepared);
-            term.p = dag.mul(&[term.p, prepared]);
-        }
-        term.factors = others;
+        let term = Summand::new(dag, coefficient, product.simplified());
         rest.insert(place.unwrap_or(0).min(rest.len()), term);
         terms = rest;
     }
-    let nodes: Vec<_> = terms
-        .into_iter()
-        .map(|term| {
-            let mut factors = vec![(term.p, 1)];
-            factors.extend(term.factors);
-            let node = dag.product(&Rational::ONE, &factors);
-            (term.k, node)
-        })
-        .collect();
+    let nodes = terms.into_iter().map(|mut term| {
+        term.rest.multiply_at(0, term.p, 1);
+        term.rest.split(dag)
+    });
+    let nodes: Vec<_> = nodes.collect();
     dag.collected(constant, &nodes, false)
 }
 
@@ -362,12 +322,12 @@ fn best(terms: &[Summand], one: Node) -> Option<Common> {
     };
     for term in terms {
         let cost = term.multiplications(one);
-        for &(base, n) in &term.factors {
+        for &(base, n) in &term.rest.factors {
             let rest = term.without(base, n.signum()).multiplications(one);
             save(Common::Factor(base, n.signum()), cost - rest);
         }
-        if term.has_coefficient(one) && !term.factors.is_empty() {
-            save(Common::Coefficient(term.k.abs(), term.p), 1);
+        if term.has_coefficient(one) && !term.rest.factors.is_empty() {
+            save(Common::Coefficient(term.rest.coefficient.abs(), term.p), 1);
         }
     }
     let mut winner: Option<(Common, i64)> = None;

@@ -5,10 +5,10 @@
 //! from an array that preparation fills. Invariant: an element is computed as it would have been
 //! in the loop, from the same row.
 
-use crate::algebra::factors::Factors;
 use crate::dag::{Array, Dag, Kind, Map, Node, Stage};
 use crate::index::{Affine, Domain, Index, LOOPS};
 use crate::model::{ParameterDeclaration, Shape};
+use crate::product::Factors;
 use crate::rational::Rational;
 
 /// An array that preparation fills: element k has the value that `value` has where the loop

@@ -3,8 +3,12 @@
 //! Input: numbers of atoms. Output: [`Poly`]. Invariant: terms sorted by monomial, no zero
 //! coefficients, atoms of a monomial sorted and with exponents other than 0, so that equal
 //! polynomials are equal values; every product is charged to a [`Budget`].
+//!
+//! Proofs compare expressions in this form. Programs and texts keep the order of the source: their products are
+//! [`Product`](crate::product::Product)s.
 
 use crate::dag::Map;
+use crate::product::{exponent, exponent_ranges};
 use crate::rational::Rational;
 use crate::sort::Arrange;
 use std::cmp::Ordering;
@@ -108,10 +112,7 @@ impl Monomial {
     }
     /// The exponent of an atom.
     pub(crate) fn exponent(&self, atom: Atom) -> i32 {
-        self.0
-            .iter()
-            .find(|(a, _)| *a == atom)
-            .map_or(0, |entry| entry.1)
+        exponent(&self.0, &atom)
     }
     /// The monomial without an atom.
     pub(crate) fn without(&self, atom: Atom) -> Monomial {
@@ -277,23 +278,15 @@ impl Poly {
     /// Checks that the n-th power is within the budget: its terms, and the products that make it.
     fn allow_power(&self, n: u32, budget: &Budget) -> Result<(), Undecided> {
         // No two terms of a power have the same exponents.
-        let mut ranges: Map<Atom, (i64, i64)> = Map::default();
-        for (monomial, _) in &self.terms {
-            for &(atom, m) in &monomial.0 {
-                let (least, most) = ranges.entry(atom).or_default();
-                (*least, *most) = ((*least).min(m.into()), (*most).max(m.into()));
-            }
-        }
-        let lengths = ranges.values().map(|(least, most)| most.abs_diff(*least));
-        let lengths: Vec<u64> = lengths.collect();
-        let terms = terms_of_power(self.terms.len(), lengths.iter().copied(), n);
+        let ranges = exponent_ranges(self.terms.iter().map(|(monomial, _)| monomial.0.as_slice()));
+        let terms = terms_of_power(self.terms.len(), &ranges, n);
         budget.allow(terms, 0)?;
         // Numbers grow by the bits of the sum of coefficients.
         let longest = self.terms.iter().map(|(_, k)| k.length()).max();
         let bits = longest.unwrap_or(0) + u64::from(self.terms.len().max(1).ilog2());
         let mut products = 0usize;
         for m in 1..n {
-            let terms = terms_of_power(self.terms.len(), lengths.iter().copied(), m);
+            let terms = terms_of_power(self.terms.len(), &ranges, m);
             let words = (bits * u64::from(m) / 64) as usize;
             let each = 1 + words * words;
             products += terms.saturating_mul(self.terms.len()).saturating_mul(each);
@@ -342,7 +335,7 @@ impl Poly {
 
 /// A bound of the number of terms of an n-th power: of a sum of so many terms, whose exponents have
 /// ranges of these lengths.
-pub(crate) fn terms_of_power(terms: usize, lengths: impl Iterator<Item = u64>, n: u32) -> usize {
+pub(crate) fn terms_of_power(terms: usize, ranges: &[u64], n: u32) -> usize {
     // Exponents of the terms in each product: n of them, in any order.
     let mut choices = 1usize;
     for at in 1..terms.max(1) {
@@ -354,7 +347,7 @@ pub(crate) fn terms_of_power(terms: usize, lengths: impl Iterator<Item = u64>, n
         choices = more / at;
     }
     let n = u64::from(n);
-    let exponents = lengths.fold(1u64, |all, length| {
+    let exponents = ranges.iter().fold(1u64, |all, length| {
         all.saturating_mul(length.saturating_mul(n).saturating_add(1))
     });
     choices.min(usize::try_from(exponents).unwrap_or(usize::MAX))

@@ -7,6 +7,7 @@ use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
+use crate::product::Product;
 use crate::rational::Rational;
 
 pub(super) const LATEX: Style = Style {
@@ -220,9 +221,9 @@ fn external(of: &External, part: Part) -> String {
 
 /// `k·Π` with k ≥ 0: one fraction, unless a sum stands above the line beside numbers only below
 /// it.
-fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Fragment> {
-    let dag = writer.dag();
-    let (above, below) = fraction(factors);
+fn product(writer: &Writer<'_>, product: &Product) -> Vec<Fragment> {
+    let (dag, k) = (writer.dag(), &product.coefficient);
+    let (above, below) = fraction(&product.factors);
     let (n, d) =
         if is_fraction(k) || !below.is_empty() && k.to_small().is_some_and(|(_, d)| d <= 64) {
             parts(k)

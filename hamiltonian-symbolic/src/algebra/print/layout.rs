@@ -10,6 +10,7 @@ use crate::dag::{Array, Dag, Kind, Node, Parameter, Part, Relation};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{External, Model, Shape};
 use crate::op::Op;
+use crate::product::Product;
 use crate::rational::Rational;
 
 /// The rest of an expression past this many bytes is written as an ellipsis.
@@ -46,7 +47,7 @@ pub(super) enum Fragment {
     /// A node, in parentheses if it holds together less tightly.
     Node(Node, Level),
     /// A product: `k·Π`, without its sign.
-    Product(Rational, Vec<Power>),
+    Product(Product),
     /// The terms of a sum from this one on, negated if the flag says so.
     Terms(Node, usize, bool),
     /// The head of a sum over a loop; the loop is entered.
@@ -95,7 +96,7 @@ pub(super) struct Style {
     /// A condition, and the two values.
     pub(super) select: fn(Node, Node, Node) -> Vec<Fragment>,
     /// `k·Π` with k ≥ 0.
-    pub(super) product: fn(&Writer<'_>, &Rational, &[Power]) -> Vec<Fragment>,
+    pub(super) product: fn(&Writer<'_>, &Product) -> Vec<Fragment>,
 }
 
 impl Style {
@@ -145,8 +146,8 @@ impl<'a> Writer<'a> {
                 Fragment::Owned(text) => self.out.push_str(&text),
                 Fragment::Node(..) if self.is_long() => self.out.push_str(self.style.ellipsis),
                 Fragment::Node(node, level) => self.node(node, level),
-                Fragment::Product(k, factors) => {
-                    let pieces = (self.style.product)(&self, &k, &factors);
+                Fragment::Product(product) => {
+                    let pieces = (self.style.product)(&self, &product);
                     self.push(pieces);
                 }
                 Fragment::Terms(node, at, negated) => self.terms(node, at, negated),
@@ -213,7 +214,8 @@ impl<'a> Writer<'a> {
                 if k.is_negative() {
                     pieces.push(Fragment::Static("-"));
                 }
-                pieces.push(Fragment::Product(k.abs(), factors.clone()));
+                let product = Product::new(k.abs(), factors.clone());
+                pieces.push(Fragment::Product(product));
                 pieces
             }
             Kind::Call(op, arguments) => (style.call)(self, *op, arguments),
@@ -351,11 +353,10 @@ impl<'a> Writer<'a> {
 
     /// `k·node` as one product, k ≥ 0.
     fn scaled(&self, k: &Rational, node: Node) -> Fragment {
-        match self.dag().kind(node) {
-            Kind::Product(c, factors) => Fragment::Product(k.mul(c), factors.clone()),
-            _ if k.is_one() => Fragment::Node(node, Level::Product),
-            _ => Fragment::Product(k.clone(), vec![(node, 1)]),
+        if k.is_one() && !matches!(self.dag().kind(node), Kind::Product(..)) {
+            return Fragment::Node(node, Level::Product);
         }
+        Fragment::Product(Product::of(self.dag(), node).scaled(k))
     }
 
     /// The name of a loop variable.

@@ -6,6 +6,7 @@ use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
+use crate::product::Product;
 use crate::rational::Rational;
 
 pub(super) const TEXT: Style = Style {
@@ -109,9 +110,9 @@ fn exponent(dag: &Dag, node: Node) -> Fragment {
 }
 
 /// `k·Π` with k ≥ 0: `0.5*q^2*p^2`, `p^2/2`, `p^2/(2*m*l^2)`.
-fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Fragment> {
-    let dag = writer.dag();
-    let (above, below) = fraction(factors);
+fn product(writer: &Writer<'_>, product: &Product) -> Vec<Fragment> {
+    let (dag, k) = (writer.dag(), &product.coefficient);
+    let (above, below) = fraction(&product.factors);
     let text = k.to_text();
     let is_decimal = !text.contains('/');
     let (numerator, denominator) = match k.to_small() {

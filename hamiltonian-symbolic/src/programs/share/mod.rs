@@ -9,11 +9,11 @@
 mod products;
 mod sums;
 
-use crate::algebra::factors::Factors;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
+use crate::product::{Factors, Product};
 use crate::programs::factor::{count_uses, is_known};
 use crate::rational::Rational;
-use products::{FactorPool, Item, Made, SignedProduct, known_root, share_products};
+use products::{FactorPool, Item, Made, known_root, share_products};
 use sums::{
     TermPair, TermPairs, Terms, gathered, known_multiple, known_start, raw_sum, share_terms,
 };
@@ -50,7 +50,7 @@ pub fn share(dag: &mut Dag, roots: &mut [Node], now: Stage) {
 #[derive(Default)]
 struct Plan {
     /// Products as lists.
-    lists: Vec<SignedProduct>,
+    lists: Vec<Product<Item>>,
     /// The list of each product.
     product_at: Map<Node, usize>,
     /// The list of a term with its coefficient in a sum, by (sum, term).
@@ -101,7 +101,7 @@ impl Plan {
             match dag.kind(node).clone() {
                 Kind::Product(k, factors) => {
                     let list = match roots.get(&node) {
-                        Some(&(root, n)) => SignedProduct::power_of(root, n),
+                        Some(&(root, n)) => Product::power(Item::Node(root), n),
                         None => pool.grouped(dag, &k, &factors),
                     };
                     plan.product_at.insert(node, plan.lists.len());
@@ -208,8 +208,8 @@ impl Build<'_> {
 
     fn list(&mut self, dag: &mut Dag, at: usize) -> Node {
         let list = &self.plan.lists[at];
-        let mut factors: Factors = Vec::with_capacity(list.items.len());
-        for &(item, n) in &list.items {
+        let mut factors: Factors = Vec::with_capacity(list.factors.len());
+        for &(item, n) in &list.factors {
             let node = self.item(dag, item);
             match factors
                 .iter_mut()
@@ -228,8 +228,8 @@ impl Build<'_> {
             factors = [vec![(coefficient, 1)], others].concat();
         }
         match factors.as_slice() {
-            [(node, 1)] if !list.negative => *node,
-            _ => dag.intern(Kind::Product(sign(list.negative), factors)),
+            [(node, 1)] if list.coefficient.is_one() => *node,
+            _ => dag.intern(Kind::Product(list.coefficient.clone(), factors)),
         }
     }
 

@@ -1,12 +1,12 @@
 //! Products as lists of powers, and what several of them have in common.
 //!
-//! Input: products of the arena. Output: [`SignedProduct`] over [`Item`]s, where shared powers, pairs,
-//! quotients and reciprocals are items of their own. Invariant: every list stands for the product
-//! it was made from; a made item names earlier items only.
+//! Input: products of the arena. Output: products over [`Item`]s with the coefficient ±1, where
+//! numbers, shared powers, pairs, quotients and reciprocals are items of their own. Invariant: every
+//! list stands for the product it was made from; a made item names earlier items only.
 
-use crate::algebra::factors;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::op::Op;
+use crate::product::Product;
 use crate::programs::factor::is_known;
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -34,36 +34,6 @@ pub(super) enum Made {
     Reciprocal(Item),
     /// A number.
     Number(Rational),
-}
-
-/// A product `±Π item^n`.
-#[derive(Clone, Debug, Default)]
-pub(super) struct SignedProduct {
-    pub(super) negative: bool,
-    pub(super) items: Vec<(Item, i32)>,
-}
-
-impl SignedProduct {
-    pub(super) fn power_of(node: Node, n: i32) -> SignedProduct {
-        SignedProduct {
-            negative: false,
-            items: vec![(Item::Node(node), n)],
-        }
-    }
-    fn power(&self, item: Item) -> i32 {
-        factors::power(&self.items, &item)
-    }
-    /// Puts the power of one item in place of that of another.
-    fn replace(&mut self, old: Item, new: Item, n: i32) {
-        if let Some(place) = self.items.iter().position(|(i, _)| *i == old) {
-            self.items.remove(place);
-            factors::multiply_at(&mut self.items, place, new, n);
-        }
-    }
-    fn divisors(&self) -> impl Iterator<Item = (Item, i32)> {
-        let negative = self.items.iter().filter(|(_, n)| *n < 0);
-        negative.map(|(item, n)| (*item, *n))
-    }
 }
 
 /// Everything made, each with the depth of the loop it is computed in.
@@ -113,27 +83,24 @@ impl FactorPool {
         dag: &mut Dag,
         k: &Rational,
         factors: &[(Node, i32)],
-    ) -> SignedProduct {
+    ) -> Product<Item> {
         let common = if k.is_one() { common_power(factors) } else { 1 };
         let roots = factors.iter().map(|(node, n)| (*node, n / common));
         let (prepared, rest): (Vec<_>, Vec<_>) =
             roots.partition(|(n, _)| is_known(dag, *n, self.now));
-        let mut list = SignedProduct {
-            negative: k.is_negative(),
-            items: Vec::with_capacity(rest.len() + 1),
-        };
+        let mut list = Product::new(k.sign(), Vec::with_capacity(rest.len() + 1));
         let k = k.abs();
         if !prepared.is_empty() {
             let p = dag.product(&k, &prepared);
-            list.items.push((Item::Node(p), common));
+            list.factors.push((Item::Node(p), common));
         } else if !k.is_one() {
             let number = self.make(dag, Made::Number(k));
-            list.items.push((number, 1));
+            list.factors.push((number, 1));
         }
         let powers = rest
             .into_iter()
             .map(|(node, n)| (Item::Node(node), n * common));
-        list.items.extend(powers);
+        list.factors.extend(powers);
         list
     }
 }
@@ -166,7 +133,7 @@ pub(super) fn known_root(dag: &Dag, uses: &Numbers, product: Node) -> Option<(No
 }
 
 /// Makes items of what the lists have in common.
-pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
+pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item>]) {
     merge_roots(dag, pool, lists);
     merge_companions(dag, pool, lists);
     // A reciprocal rounds once more; it pays where divisions are done again and again.
@@ -178,7 +145,7 @@ pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [Sign
 }
 
 /// The places of each divisor and its powers there, in order of first appearance.
-fn divisors(lists: &[SignedProduct]) -> Vec<(Item, Vec<(usize, i32)>)> {
+fn divisors(lists: &[Product<Item>]) -> Vec<(Item, Vec<(usize, i32)>)> {
     let mut all: Vec<(Item, Vec<(usize, i32)>)> = Vec::new();
     let mut place: Map<Item, usize> = Map::default();
     for (at, list) in lists.iter().enumerate() {
@@ -195,7 +162,7 @@ fn divisors(lists: &[SignedProduct]) -> Vec<(Item, Vec<(usize, i32)>)> {
 
 /// Divisions by √x and by x ≥ 0 are divisions by powers of √x; where only (√x)⁻³ is needed the
 /// divisor is x·√x.
-fn merge_roots(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
+fn merge_roots(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item>]) {
     let mut all = divisors(lists);
     let places: Map<Item, usize> = all.iter().enumerate().map(|(at, d)| (d.0, at)).collect();
     for at in 0..all.len() {
@@ -223,7 +190,7 @@ fn merge_roots(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
 }
 
 /// Divisors that several products have together, and only together, are one divisor.
-fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
+fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item>]) {
     let mut first: Map<Vec<(usize, i32)>, Item> = Map::default();
     for (item, places) in divisors(lists) {
         if places.len() < 2 {
@@ -235,7 +202,7 @@ fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct
         };
         let both = pool.make(dag, Made::Pair(companion, item));
         for &(list, n) in &places {
-            lists[list].items.retain(|(i, _)| *i != item);
+            lists[list].factors.retain(|(i, _)| *i != item);
             lists[list].replace(companion, both, n);
         }
         first.insert(places, both);
@@ -244,14 +211,14 @@ fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct
 
 /// A divisor becomes a reciprocal where that leaves at least two products without a division, or
 /// where it lives in an outer loop.
-fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
+fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item>]) {
     let all = divisors(lists);
     let mut inverted: Map<Item, bool> = Map::default();
     for (item, places) in &all {
         let depth = pool.depth(dag, *item);
         let outside = places.iter().any(|(list, _)| {
-            let items = &lists[*list].items;
-            items.iter().any(|(i, _)| pool.depth(dag, *i) > depth)
+            let factors = &lists[*list].factors;
+            factors.iter().any(|(i, _)| pool.depth(dag, *i) > depth)
         });
         inverted.insert(*item, outside || places.len() > 1);
         if outside {
@@ -262,7 +229,7 @@ fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduc
         }
     }
     // The number of divisors of a list that would remain.
-    let remaining = |list: &SignedProduct, inverted: &Map<Item, bool>| {
+    let remaining = |list: &Product<Item>, inverted: &Map<Item, bool>| {
         let kept = list.divisors().filter(|(item, _)| !inverted[item]);
         kept.count()
     };
@@ -289,13 +256,13 @@ fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduc
 }
 
 /// Products that live in an outer loop are multiplied with each other first.
-fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
+fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item>]) {
     if dag.loop_count() == 0 {
         return;
     }
     for list in lists.iter_mut() {
         let depths: Vec<usize> = list
-            .items
+            .factors
             .iter()
             .map(|(i, _)| pool.depth(dag, *i))
             .collect();
@@ -303,7 +270,7 @@ fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Signed
         let outside = |at: usize, n: i32| n > 0 && depths[at] < deepest;
         let mut outer: Vec<(usize, Item, i32)> = Vec::new();
         let mut inner = Vec::new();
-        for (at, &(item, n)) in list.items.iter().enumerate() {
+        for (at, &(item, n)) in list.factors.iter().enumerate() {
             if outside(at, n) {
                 outer.push((depths[at], item, n));
             } else {
@@ -323,9 +290,9 @@ fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Signed
                 });
             }
         }
-        list.items = inner;
+        list.factors = inner;
         if let Some(product) = product {
-            factors::multiply_at(&mut list.items, 0, product, 1);
+            list.multiply_at(0, product, 1);
         }
     }
 }
@@ -343,9 +310,9 @@ impl Couple {
         }
     }
     /// The number of times the couple stands in a product, negative below the line.
-    fn times(self, list: &SignedProduct) -> i32 {
+    fn times(self, list: &Product<Item>) -> i32 {
         let Couple(a, b, divided) = self;
-        let (m, n) = (list.power(a), list.power(b));
+        let (m, n) = (list.exponent(a), list.exponent(b));
         if a == b {
             m / 2
         } else if divided {
@@ -374,18 +341,18 @@ struct Counts {
 
 impl Counts {
     /// Counts the couples of a list in which an item is one of those asked for.
-    fn tally(&mut self, list: &SignedProduct, sign: i64, is_asked: impl Fn(Item, i32) -> bool) {
-        if list.items.len() > LONGEST {
+    fn tally(&mut self, list: &Product<Item>, sign: i64, is_asked: impl Fn(Item, i32) -> bool) {
+        if list.factors.len() > LONGEST {
             return;
         }
-        for (i, &(a, m)) in list.items.iter().enumerate() {
+        for (i, &(a, m)) in list.factors.iter().enumerate() {
             if !is_asked(a, m) {
                 continue;
             }
             if m.abs() > 1 {
                 self.add(Couple(a, a, false), sign * i64::from(m.abs() / 2));
             }
-            for (j, &(b, n)) in list.items.iter().enumerate() {
+            for (j, &(b, n)) in list.factors.iter().enumerate() {
                 // Two that are asked for are one couple.
                 if j > i || j < i && !is_asked(b, n) {
                     let times = i64::from(m.abs().min(n.abs()));
@@ -411,12 +378,12 @@ impl Counts {
 }
 
 /// Greedily makes an item of the couple that most products have in common.
-fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
+fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item>]) {
     let mut counts = Counts::default();
     let mut holders: Map<Item, Vec<usize>> = Map::default();
     for (at, list) in lists.iter().enumerate() {
         counts.tally(list, 1, |_, _| true);
-        for (item, _) in &list.items {
+        for (item, _) in &list.factors {
             holders.entry(*item).or_default().push(at);
         }
     }
@@ -429,12 +396,12 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
         let among: Vec<usize> = holders[&couple.0]
             .iter()
             .copied()
-            .filter(|at| lists[*at].items.len() <= LONGEST && couple.times(&lists[*at]) != 0)
+            .filter(|at| lists[*at].factors.len() <= LONGEST && couple.times(&lists[*at]) != 0)
             .collect();
         // A quotient costs a division; it must spare one.
         let last_division = |at: &usize| {
             let list = &lists[*at];
-            list.divisors().count() == 1 && -list.power(couple.1) == couple.times(list)
+            list.divisors().count() == 1 && -list.exponent(couple.1) == couple.times(list)
         };
         if couple.2 && !among.iter().any(last_division) {
             continue;
@@ -450,10 +417,10 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
             }
             counts.tally(list, -1, changes);
             let place = list
-                .items
+                .factors
                 .iter()
                 .position(|(i, _)| *i == couple.0 || *i == couple.1);
-            for (item, n) in &mut list.items {
+            for (item, n) in &mut list.factors {
                 if *item == couple.0 {
                     *n -= times;
                 }
@@ -461,19 +428,14 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
                     *n -= if couple.2 { -times } else { times };
                 }
             }
-            if list.power(made) == 0 {
+            if list.exponent(made) == 0 {
                 let held = holders.entry(made).or_default();
                 if held.last() != Some(&at) {
                     held.push(at);
                 }
             }
-            factors::multiply_at(
-                &mut list.items,
-                place.expect("it has the couple"),
-                made,
-                times,
-            );
-            list.items.retain(|(_, n)| *n != 0);
+            list.multiply_at(place.expect("it has the couple"), made, times);
+            list.factors.retain(|(_, n)| *n != 0);
             counts.tally(list, 1, changes);
         }
         counts.offer(&mut heap);

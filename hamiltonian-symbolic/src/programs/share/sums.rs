@@ -5,6 +5,7 @@
 
 use super::products::LONGEST;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
+use crate::product::Product;
 use crate::programs::factor::is_known;
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -41,18 +42,13 @@ pub(super) fn known_multiple(
     if k.is_unit() {
         return None;
     }
-    let (c, factors) = match dag.kind(*term) {
-        Kind::Product(c, factors) => {
-            let mut factors = factors.clone();
-            factors.arrange();
-            (c.mul(k), factors)
-        }
-        _ => (k.clone(), vec![(*term, 1)]),
-    };
+    let mut product = Product::of(dag, *term).scaled(k);
+    product.factors.arrange();
     [Rational::ONE, Rational::MINUS_ONE]
         .into_iter()
         .find_map(|sign| {
-            let known = dag.known(&Kind::Product(c.mul(&sign), factors.clone()))?;
+            let scaled = product.clone().scaled(&sign);
+            let known = dag.known(&Kind::Product(scaled.coefficient, scaled.factors))?;
             (known < sum && uses.has(known)).then_some((sign, known))
         })
 }

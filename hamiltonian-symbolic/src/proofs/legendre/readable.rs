@@ -7,13 +7,13 @@
 //! computed with.
 
 use super::{Legendre, Mass};
-use crate::algebra::factors::{self, Factors};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::model::{Model, ParameterDeclaration, Shape};
 use crate::print::{
     self, Equations, Notation, hamilton_equations, is_taken, latex, scalar_equation, text,
 };
+use crate::product::Product;
 use crate::rational::Rational;
 use crate::sort::Arrange;
 
@@ -329,7 +329,7 @@ impl Readable {
 
     /// A sum by a name of its own, its common factors beside it; other things as they are.
     fn named(&mut self, name: &str, value: Node) -> Node {
-        let (k, mut factors, rest) = content(&mut self.model.dag, value);
+        let (mut product, rest) = content(&mut self.model.dag, value);
         if !matches!(self.model.dag.kind(rest), Kind::Sum(..)) {
             return value;
         }
@@ -341,8 +341,8 @@ impl Readable {
         }
         let name = self.parameter(free);
         self.names.push((name, rest));
-        factors.push((name, 1));
-        self.model.dag.product(&k, &factors)
+        product.multiply(name, 1);
+        product.node(&mut self.model.dag)
     }
 
     /// A further parameter of the model.
@@ -407,50 +407,46 @@ fn over(dag: &mut Dag, mass: &Mass, energy: Node) -> Node {
 
 /// `k·above/below` in lowest terms, as far as factors show.
 fn quotient(dag: &mut Dag, k: &Rational, above: Node, below: Node) -> Node {
-    let (above, below) = (content(dag, above), content(dag, below));
-    let Some(inverse) = below.0.recip() else {
-        return dag.div(above.2, below.2);
-    };
-    let mut factors = above.1;
-    factors.push((above.2, 1));
-    factors.extend(below.1.iter().map(|(node, n)| (*node, -n)));
-    factors.push((below.2, -1));
-    dag.product(&k.mul(&above.0).mul(&inverse), &factors)
+    let ((mut product, numerator), (divisor, denominator)) =
+        (content(dag, above), content(dag, below));
+    let inverse = divisor.pow(-1).map(|inverse| inverse.scaled(k));
+    product.multiply(numerator, 1);
+    match inverse.and_then(|inverse| product.times(&inverse)) {
+        Some(mut quotient) => {
+            quotient.multiply(denominator, -1);
+            quotient.node(dag)
+        }
+        None => dag.product(k, &[(above, 1), (below, -1)]),
+    }
 }
 
-/// A node as k·Π·rest: a sum with the factors and denominators that its terms share taken out.
-fn content(dag: &mut Dag, node: Node) -> (Rational, Factors, Node) {
-    let factored = |dag: &Dag, node: Node| match dag.kind(node) {
-        Kind::Product(k, factors) => (k.clone(), factors.clone()),
-        Kind::Constant(value) => (value.clone(), Vec::new()),
-        _ => (Rational::ONE, vec![(node, 1)]),
-    };
+/// A node as product·rest: a sum with the factors and denominators that its terms share taken out.
+fn content(dag: &mut Dag, node: Node) -> (Product, Node) {
     let Kind::Sum(constant, terms) = dag.kind(node).clone() else {
-        let (k, factors) = factored(dag, node);
-        return (k, factors, dag.integer(1));
+        return (Product::of(dag, node), dag.integer(1));
     };
-    let mut parts: Vec<(Rational, Factors)> = Vec::new();
+    let mut parts = Vec::with_capacity(terms.len() + 1);
     for (k, term) in terms {
-        let (own, factors) = factored(dag, term);
-        parts.push((k.mul(&own), factors));
+        parts.push(Product::of(dag, term).scaled(&k));
     }
     if !constant.is_zero() {
-        parts.push((constant, Vec::new()));
+        parts.push(Product::constant(constant));
     }
-    let mut shared: Factors = Vec::new();
-    for (factor, _) in parts.iter().flat_map(|(_, factors)| factors) {
-        if shared.iter().any(|(known, _)| known == factor) {
+    let mut shared = Product::constant(Rational::ONE);
+    for (factor, _) in parts.iter().flat_map(|part| &part.factors) {
+        if shared.factors.iter().any(|(known, _)| known == factor) {
             continue;
         }
-        let power = |(_, factors): &(Rational, Factors)| factors::power(factors, factor);
-        let least = parts.iter().map(power).min().unwrap_or(0);
-        shared.push((*factor, least));
+        let least = parts.iter().map(|part| part.exponent(*factor)).min();
+        shared.multiply(*factor, least.unwrap_or(0));
     }
-    shared.retain(|(_, n)| *n != 0);
+    let shared = shared.simplified();
     let mut rest = Vec::with_capacity(parts.len());
-    for (k, mut factors) in parts {
-        factors.extend(shared.iter().map(|(node, n)| (*node, -n)));
-        rest.push((k, dag.product(&Rational::ONE, &factors)));
+    for mut part in parts {
+        for (node, n) in &shared.factors {
+            part.multiply(*node, -n);
+        }
+        rest.push(part.split(dag));
     }
-    (Rational::ONE, shared, dag.linear(&Rational::ZERO, &rest))
+    (shared, dag.linear(&Rational::ZERO, &rest))
 }

@@ -11,8 +11,8 @@ mod quadratic;
 mod separate;
 
 pub(crate) use components::components;
+pub use expand::expand;
 pub(crate) use expand::{Collected, expand_within};
-pub use expand::{Term, expand};
 pub(crate) use quadratic::degrees;
 pub use quadratic::kick_beside;
 

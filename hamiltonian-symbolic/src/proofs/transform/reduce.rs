@@ -6,12 +6,12 @@
 //! function or below a fraction line that is known to be ≥ 0 stays known to be so, because a
 //! distance must not be computed by cancellation.
 
-use crate::algebra::factors::{Factors, product};
 use crate::dag::{Dag, Kind, Map, Node, Sign, Stage, work};
 use crate::op::Op;
+use crate::product::{Factors, Product};
 use crate::rational::Rational;
 use crate::sort::Arrange;
-use crate::structure::{Collected, Term, expand_within};
+use crate::structure::{Collected, expand_within};
 
 /// The most terms of all sums together that are multiplied out: of more operations a system is refused.
 const BUDGET: usize = 1 << 14;
@@ -177,7 +177,7 @@ impl Reducer<'_> {
             Kind::Product(..) => (Rational::ZERO, vec![(Rational::ONE, node)]),
             _ => return node,
         };
-        let mut terms: Vec<Vec<Term>> = Vec::with_capacity(operands.len());
+        let mut terms: Vec<Vec<Product>> = Vec::with_capacity(operands.len());
         for (k, operand) in &operands {
             let scaled = dag.scale(k, *operand);
             // The limit is known before anything is multiplied out.
@@ -191,7 +191,7 @@ impl Reducer<'_> {
         let mut picked: Vec<(Rational, Node)> = Vec::with_capacity(parts.len());
         for part in &parts {
             let own: Vec<(Rational, Node)> = part.iter().map(|at| operands[*at].clone()).collect();
-            let together: Vec<&Term> = part.iter().flat_map(|at| &terms[*at]).collect();
+            let together: Vec<&Product> = part.iter().flat_map(|at| &terms[*at]).collect();
             let better = self.cheaper(dag, &own, &together);
             // An operand that is a sum is continued: its terms were collected with the others.
             for (k, operand) in better.map_or(own, |better| vec![(Rational::ONE, better)]) {
@@ -212,7 +212,12 @@ impl Reducer<'_> {
     }
 
     /// Some operands of a sum, multiplied out and collected, where that is cheaper.
-    fn cheaper(&self, dag: &mut Dag, own: &[(Rational, Node)], together: &[&Term]) -> Option<Node> {
+    fn cheaper(
+        &self,
+        dag: &mut Dag,
+        own: &[(Rational, Node)],
+        together: &[&Product],
+    ) -> Option<Node> {
         let kept = dag.linear(&Rational::ZERO, own);
         let mut best: Option<(u32, Node)> = None;
         for keeps_sines in [true, false] {
@@ -241,7 +246,7 @@ impl Reducer<'_> {
 }
 
 /// The operands that have a monomial in common, directly or through others, in order.
-fn connected(dag: &Dag, terms: &[Vec<Term>], rules: &Rules) -> Vec<Vec<usize>> {
+fn connected(dag: &Dag, terms: &[Vec<Product>], rules: &Rules) -> Vec<Vec<usize>> {
     let mut parts: Vec<(Vec<usize>, Map<Factors, ()>)> = Vec::new();
     for (at, own) in terms.iter().enumerate() {
         let mut collected = Collected::default();
@@ -272,14 +277,14 @@ fn connected(dag: &Dag, terms: &[Vec<Term>], rules: &Rules) -> Vec<Vec<usize>> {
 }
 
 /// The factors that are computed once per run, and those computed at every evaluation.
-fn parted(dag: &Dag, term: &Term) -> (Factors, Factors) {
+fn parted(dag: &Dag, term: &Product) -> (Factors, Factors) {
     term.factors
         .iter()
         .partition(|(node, _)| dag.stage(*node) < Stage::Evaluation)
 }
 
 /// A term by the rules, into a collection; whether any rule applied.
-fn rewrite(term: &Term, rules: &Rules, keeps_sines: bool, into: &mut Collected) -> bool {
+fn rewrite(term: &Product, rules: &Rules, keeps_sines: bool, into: &mut Collected) -> bool {
     let mut terms = vec![term.clone()];
     let mut rewritten = false;
     for &(sin, cos) in &rules.angles {
@@ -303,14 +308,13 @@ fn rewrite(term: &Term, rules: &Rules, keeps_sines: bool, into: &mut Collected) 
 /// Writes powers of `gone`^`step` = a − b as powers of the difference, aⁿ⁻ᵏbᵏ being the powers that
 /// are given for n and k; whether there was any.
 fn exchange(
-    terms: &mut Vec<Term>,
+    terms: &mut Vec<Product>,
     (gone, step): (Node, i32),
     powers: impl Fn(i32, i32) -> Factors,
 ) -> bool {
     let mut rewritten = false;
     for term in std::mem::take(terms) {
-        let own = term.factors.iter().find(|(node, _)| *node == gone);
-        let own = own.map_or(0, |(_, n)| *n);
+        let own = term.exponent(gone);
         if !(step..=HIGHEST).contains(&own) {
             terms.push(term);
             continue;
@@ -319,13 +323,12 @@ fn exchange(
         let n = own / step;
         let mut binomial = Rational::ONE;
         for k in 0..=n {
-            let mut powers = powers(n, k);
-            powers.push((gone, -step * n));
-            terms.push(Term {
-                coefficient: term.coefficient.mul(&binomial),
-                factors: product(&term.factors, &powers)
+            let mut by = Product::new(binomial.clone(), powers(n, k));
+            by.multiply(gone, -step * n);
+            terms.push(
+                term.times(&by)
                     .expect("powers that are rewritten are small"),
-            });
+            );
             let next = Rational::new(i64::from(k - n), i64::from(k + 1));
             binomial = binomial.mul(&next);
         }
@@ -334,9 +337,9 @@ fn exchange(
 }
 
 /// The sum of terms, those that differ in parameters only under one coefficient.
-fn grouped(dag: &mut Dag, terms: &[Term]) -> Node {
+fn grouped(dag: &mut Dag, terms: &[Product]) -> Node {
     let mut place: Map<Factors, usize> = Map::default();
-    let mut groups: Vec<(Factors, Vec<(Rational, Factors)>)> = Vec::new();
+    let mut groups: Vec<(Factors, Vec<Product>)> = Vec::new();
     for term in terms {
         let (parameters, factors) = parted(dag, term);
         let mut key = factors.clone();
@@ -345,23 +348,21 @@ fn grouped(dag: &mut Dag, terms: &[Term]) -> Node {
         if at == groups.len() {
             groups.push((factors, Vec::new()));
         }
-        groups[at].1.push((term.coefficient.clone(), parameters));
+        let coefficient = Product::new(term.coefficient.clone(), parameters);
+        groups[at].1.push(coefficient);
     }
     let mut operands = Vec::with_capacity(groups.len());
     for (factors, coefficients) in groups {
-        let mut all = factors;
-        let mut k = Rational::ONE;
-        if let [(coefficient, parameters)] = coefficients.as_slice() {
-            k = coefficient.clone();
-            all.extend(parameters);
+        let mut all = Product::new(Rational::ONE, factors);
+        if let [coefficient] = coefficients.as_slice() {
+            all.coefficient = coefficient.coefficient.clone();
+            all.factors.extend(&coefficient.factors);
         } else {
-            let mut parts = Vec::with_capacity(coefficients.len());
-            for (coefficient, parameters) in &coefficients {
-                parts.push((coefficient.clone(), dag.product(&Rational::ONE, parameters)));
-            }
-            all.push((dag.linear(&Rational::ZERO, &parts), 1));
+            let parts = coefficients.into_iter().map(|part| part.split(dag));
+            let parts: Vec<_> = parts.collect();
+            all.multiply(dag.linear(&Rational::ZERO, &parts), 1);
         }
-        operands.push((Rational::ONE, dag.product(&k, &all)));
+        operands.push((Rational::ONE, all.node(dag)));
     }
     dag.collected(&Rational::ZERO, &operands, false)
 }

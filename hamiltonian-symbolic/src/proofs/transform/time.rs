@@ -21,6 +21,7 @@ use crate::index::Index;
 use crate::loops::field::{elements, field};
 use crate::loops::guarded;
 use crate::model::{Group, Model, VectorEntry};
+use crate::product::Product;
 use crate::rational::Rational;
 
 /// A system in another time.
@@ -178,14 +179,11 @@ fn free(model: &Model, name: &str) -> String {
 /// g·(h + p): terms of h that have g, or a factor of it, below their fraction line meet it there;
 /// the others stay in the bracket.
 fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
-    let factors: Vec<Node> = match dag.kind(g) {
-        Kind::Product(_, factors) => factors
-            .iter()
-            .filter(|(_, n)| *n > 0)
-            .map(|(node, _)| *node)
-            .collect(),
-        _ => vec![g],
-    };
+    let factors = Product::of(dag, g).factors.into_iter();
+    let factors: Vec<Node> = factors
+        .filter(|(_, n)| *n > 0)
+        .map(|(node, _)| node)
+        .collect();
     let mut cancelled: Vec<(Rational, Node)> = Vec::new();
     let mut bracket: Vec<(Rational, Node)> = Vec::new();
     let mut stack = vec![(Rational::ONE, h)];

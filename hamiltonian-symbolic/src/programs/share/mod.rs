@@ -32,17 +32,12 @@ pub fn share(dag: &mut Dag, roots: &mut [Node], now: Stage) {
         plan: &plan,
         pairs: &pairs,
         paired,
-        new: Map::default(),
         made: vec![None; pool.made.len()],
         terms: vec![None; pairs.len()],
     };
-    // `Dag::map` would keep the images from the functions of `Build`, which need them too.
-    for &node in &order {
-        let image = build.image(dag, node);
-        build.new.insert(node, image);
-    }
+    let new = dag.map(order, |dag, node, new| build.image(dag, node, new));
     for root in roots {
-        *root = build.new[root];
+        *root = new[root];
     }
 }
 
@@ -161,56 +156,52 @@ struct Build<'a> {
     plan: &'a Plan,
     pairs: &'a [TermPair],
     paired: TermPairs,
-    new: Map<Node, Node>,
     made: Vec<Option<Node>>,
     terms: Vec<Option<Node>>,
 }
 
 impl Build<'_> {
-    fn image(&mut self, dag: &mut Dag, node: Node) -> Node {
+    fn image(&mut self, dag: &mut Dag, node: Node, new: &Map<Node, Node>) -> Node {
         if is_known(dag, node, self.pool.now) {
             return node;
         }
         match dag.kind(node).clone() {
-            Kind::Product(..) => self.list(dag, self.plan.product_at[&node]),
-            Kind::Sum(..) => self.sum(dag, node),
-            Kind::Reduce(domain, body) => dag.intern(Kind::Reduce(domain, self.new[&body])),
+            Kind::Product(..) => self.list(dag, self.plan.product_at[&node], new),
+            Kind::Sum(..) => self.sum(dag, node, new),
+            Kind::Reduce(domain, body) => dag.intern(Kind::Reduce(domain, new[&body])),
             Kind::Call(op, arguments) => {
-                let arguments = arguments.iter().map(|n| self.new[n]).collect();
+                let arguments = arguments.iter().map(|n| new[n]).collect();
                 dag.intern(Kind::Call(op, arguments))
             }
-            _ => {
-                let new = &self.new;
-                dag.rebuild(node, &|child| new[&child])
-            }
+            _ => dag.rebuild(node, &|child| new[&child]),
         }
     }
 
-    fn sum(&mut self, dag: &mut Dag, node: Node) -> Node {
+    fn sum(&mut self, dag: &mut Dag, node: Node, new: &Map<Node, Node>) -> Node {
         let (c, terms) = gathered(dag, self.pool.now, self.plan.sums[&node].clone());
         let mut list: Vec<(Rational, Node)> = Vec::with_capacity(terms.len());
         let mut paired = self.paired.take(&node).unwrap_or_default();
         for (k, term) in terms {
             if let Some(&at) = self.plan.absorbed_at.get(&(node, term)) {
-                let image = self.list(dag, at);
+                let image = self.list(dag, at, new);
                 list.push((Rational::ONE, image));
             } else if let Some(pair) = paired.get_mut(&term) {
                 if let Some((at, negative)) = pair.take() {
-                    let image = self.pair(dag, at);
+                    let image = self.pair(dag, at, new);
                     list.push((sign(negative), image));
                 }
             } else {
-                list.push((k, self.new.get(&term).copied().unwrap_or(term)));
+                list.push((k, new.get(&term).copied().unwrap_or(term)));
             }
         }
         raw_sum(dag, c, list)
     }
 
-    fn list(&mut self, dag: &mut Dag, at: usize) -> Node {
+    fn list(&mut self, dag: &mut Dag, at: usize, new: &Map<Node, Node>) -> Node {
         let list = &self.plan.lists[at];
         let mut factors: Factors = Vec::with_capacity(list.factors.len());
         for &(item, n) in &list.factors {
-            let node = self.item(dag, item);
+            let node = self.item(dag, item, new);
             match factors
                 .iter_mut()
                 .find(|(other, e)| *other == node && e.signum() == n.signum())
@@ -234,19 +225,19 @@ impl Build<'_> {
     }
 
     /// The node of an item, if what it is made of is there.
-    fn ready(&self, item: Item) -> Option<Node> {
+    fn ready(&self, item: Item, new: &Map<Node, Node>) -> Option<Node> {
         match item {
             // Prepared coefficients are no part of the input.
-            Item::Node(node) => Some(self.new.get(&node).copied().unwrap_or(node)),
+            Item::Node(node) => Some(new.get(&node).copied().unwrap_or(node)),
             Item::Made(at) => self.made[at as usize],
         }
     }
 
-    fn item(&mut self, dag: &mut Dag, item: Item) -> Node {
+    fn item(&mut self, dag: &mut Dag, item: Item, new: &Map<Node, Node>) -> Node {
         // Made items name earlier ones only, so a stack of pending ones ends.
         let mut pending = vec![item];
         loop {
-            if let Some(node) = self.ready(item) {
+            if let Some(node) = self.ready(item, new) {
                 return node;
             }
             let top = pending.last().copied().unwrap_or(item);
@@ -269,7 +260,7 @@ impl Build<'_> {
             };
             let mut nodes = Vec::with_capacity(factors.len());
             for (item, n) in factors {
-                match self.ready(item) {
+                match self.ready(item, new) {
                     Some(node) => nodes.push((node, n)),
                     None => pending.push(item),
                 }
@@ -280,14 +271,14 @@ impl Build<'_> {
         }
     }
 
-    fn pair(&mut self, dag: &mut Dag, at: usize) -> Node {
+    fn pair(&mut self, dag: &mut Dag, at: usize, new: &Map<Node, Node>) -> Node {
         if let Some(node) = self.terms[at] {
             return node;
         }
         let pair = self.pairs[at];
         let list = vec![
-            (Rational::ONE, self.new[&pair.first]),
-            (sign(pair.opposite), self.new[&pair.second]),
+            (Rational::ONE, new[&pair.first]),
+            (sign(pair.opposite), new[&pair.second]),
         ];
         let node = raw_sum(dag, Rational::ZERO, list);
         self.terms[at] = Some(node);

@@ -259,7 +259,7 @@ fn arrays_of_parameters_alone_are_computed_once() {
             let function = program.function(purpose).unwrap();
             program.operations(function).divisions
         };
-        let mut all = vec![program.held.len()];
+        let mut all = vec![program.hoisted.len()];
         all.extend(wanted.map(of));
         all
     };

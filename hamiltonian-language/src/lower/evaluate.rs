@@ -12,7 +12,7 @@ use crate::checked::{Checked, Definition, Kind, NodeId, Type, Variable};
 use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
-use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Part, Side};
+use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Partial, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::legendre::ElementMap;
 use hamiltonian_symbolic::loops::guarded;
@@ -319,7 +319,7 @@ impl<'a> Evaluator<'a> {
                 self.call(&mut model.dag, node, *function, items, demand, values)
             }
             (Kind::Function(function, _), values) => {
-                dag.external(function.0 as u16, Part::Value, values)
+                dag.external(function.0 as u16, Partial::Value, values)
             }
             (Kind::Sum { loops, .. }, values) => self.sum(dag, loops.clone(), demand, values),
             (Kind::If { .. }, [condition, then, otherwise]) => {

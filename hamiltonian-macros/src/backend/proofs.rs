@@ -8,7 +8,7 @@ use hamiltonian_language::lower::Lowered;
 use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant, is_invariant_of_lagrangian};
 use hamiltonian_symbolic::dag::{Dependence, Node};
-use hamiltonian_symbolic::loops::Point;
+use hamiltonian_symbolic::loops::SamplePoint;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use hamiltonian_symbolic::transform::check_split;
 use proc_macro2::Ident;
@@ -158,7 +158,7 @@ fn readable(value: f64) -> String {
 }
 
 /// `q = 0.5, p = -1.25`
-fn listed(point: &Point) -> String {
+fn listed(point: &SamplePoint) -> String {
     let mut values: Vec<String> = Vec::new();
     for (name, value) in point {
         let value = format!("{name} = {value}");

@@ -153,12 +153,14 @@ fn kick(model: &mut Model, structure: &Structure) -> (Option<emit::Kick>, Result
         return (kick, Ok(()));
     }
     let (kick, exact) = match forces::kick_of(model) {
-        Ok(forces::Kick::Single { damped, .. }) if damped.is_empty() => (emit::Kick::Plain, Ok(())),
-        Ok(forces::Kick::Single { rest, .. }) => {
+        Ok(forces::KickFlow::Single { damped, .. }) if damped.is_empty() => {
+            (emit::Kick::Plain, Ok(()))
+        }
+        Ok(forces::KickFlow::Single { rest, .. }) => {
             let rest = !rest.is_empty();
             (emit::Kick::Damped { rest }, Ok(()))
         }
-        Ok(forces::Kick::Coupled { .. }) => (emit::Kick::Coupled, Ok(())),
+        Ok(forces::KickFlow::Coupled { .. }) => (emit::Kick::Coupled, Ok(())),
         Err(entry) => {
             let reason = Reason {
                 message: format!(

@@ -11,7 +11,7 @@ use super::inline::{Binding, Inlined};
 use super::layout::{Layout, Slice};
 use super::number;
 use super::together::{Calls, few, first};
-use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
+use hamiltonian_symbolic::dag::{Array, Column, Partial, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Update, Value};
 use std::fmt::Write;
@@ -28,12 +28,12 @@ pub fn names(values: &[Value]) -> String {
 }
 
 /// The name of a function written in Rust, or of a derivative of it.
-pub fn external(number: u16, part: Part) -> String {
+pub fn external(number: u16, part: Partial) -> String {
     match part {
-        Part::Value => format!("__f{number}"),
-        Part::First(i) => format!("__f{number}_{i}"),
-        Part::Second(i, j) => format!("__f{number}_{i}_{j}"),
-        Part::Higher { order, .. } => unreachable!("derivatives of order {order} are refused"),
+        Partial::Value => format!("__f{number}"),
+        Partial::First(i) => format!("__f{number}_{i}"),
+        Partial::Second(i, j) => format!("__f{number}_{i}_{j}"),
+        Partial::Higher { order, .. } => unreachable!("derivatives of order {order} are refused"),
     }
 }
 
@@ -321,7 +321,7 @@ impl Writer<'_> {
             Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
                 self.place(slice, Some(at.group), row)
             }
-            Array::Parameter(_) | Array::Held(_) => {
+            Array::Parameter(_) | Array::Hoisted(_) => {
                 self.place(slice, None, &self.context.number(array, row, column))
             }
         }
@@ -331,7 +331,7 @@ impl Writer<'_> {
         let slice = Slice::write(self.context.layout, target);
         match target {
             Target::Phase(Column { group, .. }) => self.place(slice, Some(group), row),
-            Target::Held(_) => self.place(slice, None, row),
+            Target::Hoisted(_) => self.place(slice, None, row),
             Target::Parameter(parameter) => self.entry(slice, parameter.0, row, column),
         }
     }
@@ -538,7 +538,7 @@ pub fn clear(out: &mut String, context: Context, targets: &[Target]) {
             }
             Target::Phase(_) => writeln!(out, "{}.fill({ZERO});", slice.name()),
             // Derivatives with respect to parameters start at 0.
-            Target::Parameter(_) | Target::Held(_) => Ok(()),
+            Target::Parameter(_) | Target::Hoisted(_) => Ok(()),
         };
     }
 }

@@ -129,7 +129,7 @@ impl<'a> Emission<'a> {
         let default = "__h::Default::default()";
         let fill = self.prepared.fill(context, &results, default, |array| {
             let place = match array {
-                Slice::Read(Array::Held(number)) => format!("_made.{number}"),
+                Slice::Read(Array::Hoisted(number)) => format!("_made.{number}"),
                 _ => format!("_b{}", array.name().trim_start_matches("_a")),
             };
             match context.is_on_heap(&shape(context, array)) {
@@ -149,10 +149,10 @@ impl<'a> Emission<'a> {
     fn held(&mut self) -> Vec<(&'static str, String)> {
         let context = self.context;
         let array = |number| {
-            let shape = shape(context, Slice::Read(Array::Held(number)));
+            let shape = shape(context, Slice::Read(Array::Hoisted(number)));
             (context.storage(&shape, "T"), context.zero(&shape))
         };
-        let count = context.program.held.len() as u16;
+        let count = context.program.hoisted.len() as u16;
         if count > 0 {
             Receiver::System.bind_sizes(&mut self.out, context);
         }

@@ -9,7 +9,7 @@ use super::block;
 use super::context::Context;
 use super::{lex, located};
 use hamiltonian_language::ast::Function;
-use hamiltonian_symbolic::dag::Part;
+use hamiltonian_symbolic::dag::Partial;
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::quote;
 
@@ -20,7 +20,7 @@ pub fn wrappers(context: Context) -> TokenStream {
     for (function, number) in functions.zip(0..) {
         let arity = function.arguments.len();
         match &function.value {
-            Some(path) => called(&mut out, (number, Part::Value), arity, path),
+            Some(path) => called(&mut out, (number, Partial::Value), arity, path),
             None => valued(&mut out, number, arity),
         }
         let first = function.first.as_ref().map(|first| &first.paths);
@@ -32,18 +32,18 @@ pub fn wrappers(context: Context) -> TokenStream {
                 Some(paths) => {
                     called(
                         &mut out,
-                        (number, Part::First(i)),
+                        (number, Partial::First(i)),
                         arity,
                         &paths[usize::from(i)],
                     );
                 }
-                None => differentiated(&mut out, function, number, (Part::Value, i)),
+                None => differentiated(&mut out, function, number, (Partial::Value, i)),
             }
         }
         for ((i, j), at) in pairs.zip(0..) {
             match second {
-                Some(paths) => called(&mut out, (number, Part::Second(i, j)), arity, &paths[at]),
-                None => differentiated(&mut out, function, number, (Part::First(i), j)),
+                Some(paths) => called(&mut out, (number, Partial::Second(i, j)), arity, &paths[at]),
+                None => differentiated(&mut out, function, number, (Partial::First(i), j)),
             }
         }
     }
@@ -51,7 +51,7 @@ pub fn wrappers(context: Context) -> TokenStream {
 }
 
 /// A call of a path.
-fn called(out: &mut TokenStream, (number, part): (u16, Part), arity: usize, path: &TokenStream) {
+fn called(out: &mut TokenStream, (number, part): (u16, Partial), arity: usize, path: &TokenStream) {
     let name = lex(&block::external(number, part));
     let arguments: Vec<TokenStream> = (0..arity).map(|at| lex(&format!("_x{at}"))).collect();
     let at = path.clone().into_iter().last();
@@ -69,7 +69,7 @@ fn called(out: &mut TokenStream, (number, part): (u16, Part), arity: usize, path
 
 /// The value of a function that is a parameter.
 fn valued(out: &mut TokenStream, number: u16, arity: usize) {
-    let name = block::external(number, Part::Value);
+    let name = block::external(number, Partial::Value);
     let (arguments, declared) = arguments(arity, "AnyReal");
     out.extend(lex(&format!(
         "#[inline(always)]\n#[allow(dead_code)]\n\
@@ -80,7 +80,12 @@ fn valued(out: &mut TokenStream, number: u16, arity: usize) {
 }
 
 /// The derivative of a part by argument i, over dual numbers.
-fn differentiated(out: &mut TokenStream, function: &Function, number: u16, (part, i): (Part, u16)) {
+fn differentiated(
+    out: &mut TokenStream,
+    function: &Function,
+    number: u16,
+    (part, i): (Partial, u16),
+) {
     let arity = function.arguments.len();
     let [name, of] = [part.by(i), part].map(|part| block::external(number, part));
     let (arguments, declared) = arguments(arity, "AnyReal");

@@ -53,10 +53,10 @@ impl Bodies<'_> {
         for slice in &slices {
             let name = slice.name();
             match slice {
-                Slice::Read(Array::Parameter(_) | Array::Held(_)) => {
+                Slice::Read(Array::Parameter(_) | Array::Hoisted(_)) => {
                     receiver.bind_array(out, context, *slice);
                 }
-                Slice::Write(Target::Held(number)) => {
+                Slice::Write(Target::Hoisted(number)) => {
                     let _ = writeln!(out, "let {name} = _held.{number}.as_mut_slice();");
                 }
                 Slice::Write(Target::Parameter(Parameter(number))) => {

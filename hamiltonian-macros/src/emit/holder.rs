@@ -49,7 +49,8 @@ fn pairs(list: &[String]) -> String {
 impl Holder {
     /// A holder of these values, and of the arrays among these slices.
     pub fn new(context: Context, name: String, values: &[Value], mut slices: Vec<Slice>) -> Holder {
-        slices.retain(|slice| matches!(slice, Slice::Read(Array::Parameter(_) | Array::Held(_))));
+        slices
+            .retain(|slice| matches!(slice, Slice::Read(Array::Parameter(_) | Array::Hoisted(_))));
         slices.arrange();
         slices.dedup();
         Holder {
@@ -198,8 +199,8 @@ impl Holder {
 /// The shape of an array that a holder has; a matrix is stored as its transpose.
 pub fn shape(context: Context, array: Slice) -> Shape {
     match array {
-        Slice::Read(Array::Held(number)) => {
-            Shape::Vector(context.program.held[usize::from(number)].rows.clone())
+        Slice::Read(Array::Hoisted(number)) => {
+            Shape::Vector(context.program.hoisted[usize::from(number)].rows.clone())
         }
         Slice::Read(Array::Parameter(Parameter(number))) => {
             match &context.model.parameters[usize::from(number)].shape {

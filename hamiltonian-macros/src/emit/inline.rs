@@ -56,7 +56,7 @@ impl Inlined {
             if let Step::Let(value) = step {
                 let instruction = context.program.instruction(*value);
                 let may_move = match instruction {
-                    Instruction::Load(Array::Held(_), ..) => false,
+                    Instruction::Load(Array::Hoisted(_), ..) => false,
                     Instruction::Load(..) => context.access == Access::Apart,
                     Instruction::PairedSin(_) | Instruction::PairedCos(_) => false,
                     // A function has a branch for rare arguments, which the operations after it wait for.

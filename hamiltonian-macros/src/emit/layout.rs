@@ -73,8 +73,8 @@ impl Slice {
         match self {
             Slice::Read(Array::Parameter(Parameter(number))) => format!("_a{number}"),
             Slice::Write(Target::Parameter(Parameter(number))) => format!("_d{number}"),
-            Slice::Read(Array::Held(number)) => format!("_h{number}"),
-            Slice::Write(Target::Held(number)) => format!("_u{number}"),
+            Slice::Read(Array::Hoisted(number)) => format!("_h{number}"),
+            Slice::Write(Target::Hoisted(number)) => format!("_u{number}"),
             _ => unreachable!("`validate` finds velocities in a program"),
         }
     }

@@ -5,7 +5,7 @@
 //! that their tests hold them to. Where nothing can be said the error is infinite; where the value itself does
 //! not exist it is NaN.
 
-use crate::dag::{Dag, Kind, Node, Part, Relation};
+use crate::dag::{Dag, Kind, Node, Partial, Relation};
 use crate::op::Op;
 use crate::rational::Rational;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -339,14 +339,14 @@ impl Ball {
                 let angle = Ball::sum(std::iter::once(Ball::exact(1.0)).chain(weighted));
                 let scaled = |factor: f64, op: Op| Ball::exact(factor) * angle.through(op);
                 match part {
-                    Part::Value => scaled(1.0, Op::Sin),
-                    Part::First(i) => scaled(weight(usize::from(*i)), Op::Cos),
-                    Part::Second(i, j) => {
+                    Partial::Value => scaled(1.0, Op::Sin),
+                    Partial::First(i) => scaled(weight(usize::from(*i)), Op::Cos),
+                    Partial::Second(i, j) => {
                         let [a, b] = [i, j].map(|i| Ball::exact(weight(usize::from(*i))));
                         -(a * b) * scaled(1.0, Op::Sin)
                     }
                     // Its arguments are not known: points do not refute what has it.
-                    Part::Higher { .. } => Ball::exact(f64::NAN),
+                    Partial::Higher { .. } => Ball::exact(f64::NAN),
                 }
             }
             Kind::Compare(relation, a, b) => {

@@ -44,7 +44,7 @@ pub enum Relation {
 
 /// The value of an external function, or a derivative.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub enum Part {
+pub enum Partial {
     /// The function itself.
     Value,
     /// ∂/∂(argument i).
@@ -60,18 +60,18 @@ pub enum Part {
     },
 }
 
-impl Part {
+impl Partial {
     /// The derivative by argument i.
-    pub fn by(self, i: u16) -> Part {
-        let higher = |order: u16, arguments: u64| Part::Higher {
+    pub fn by(self, i: u16) -> Partial {
+        let higher = |order: u16, arguments: u64| Partial::Higher {
             order,
-            arguments: arguments.wrapping_add(Part::mixed(i)),
+            arguments: arguments.wrapping_add(Partial::mixed(i)),
         };
         match self {
-            Part::Value => Part::First(i),
-            Part::First(j) => Part::Second(i.min(j), i.max(j)),
-            Part::Second(j, k) => higher(3, Part::mixed(j).wrapping_add(Part::mixed(k))),
-            Part::Higher { order, arguments } => higher(order.saturating_add(1), arguments),
+            Partial::Value => Partial::First(i),
+            Partial::First(j) => Partial::Second(i.min(j), i.max(j)),
+            Partial::Second(j, k) => higher(3, Partial::mixed(j).wrapping_add(Partial::mixed(k))),
+            Partial::Higher { order, arguments } => higher(order.saturating_add(1), arguments),
         }
     }
 
@@ -110,7 +110,7 @@ pub enum Kind {
     /// An elementary function.
     Call(Op, Vec<Node>),
     /// A function written in Rust, by its number in the model, or a derivative of it.
-    External(u16, Part, Vec<Node>),
+    External(u16, Partial, Vec<Node>),
     /// Σ of the body over a loop.
     Reduce(Domain, Node),
     /// The number of times a loop runs, as a real.
@@ -516,7 +516,7 @@ impl Dag {
         let own = match kind {
             Kind::Scalar(_)
             | Kind::Extent(_)
-            | Kind::Element(Array::Parameter(_) | Array::Held(_), ..) => Dependence::PARAMETER,
+            | Kind::Element(Array::Parameter(_) | Array::Hoisted(_), ..) => Dependence::PARAMETER,
             Kind::Element(Array::Phase(Column { side: Side::Q, .. }), ..) => Dependence::Q,
             Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => Dependence::P,
             Kind::Element(Array::Direction(_), ..) => Dependence::DIRECTION,

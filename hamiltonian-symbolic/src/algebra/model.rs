@@ -349,7 +349,7 @@ impl Model {
                 self.group_of(at.group).shape.axes()
             }
             Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].shape.axes(),
-            Array::Held(_) => &[],
+            Array::Hoisted(_) => &[],
         }
     }
     /// The indices of all axes, the first one first: of a lattice those of the element that an index is the number
@@ -391,7 +391,7 @@ impl Model {
                 self.group_of(at.group).shape.of_parameter()
             }
             Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].shape.clone(),
-            Array::Held(_) => unreachable!("only programs read held arrays"),
+            Array::Hoisted(_) => unreachable!("only programs read hoisted arrays"),
         }
     }
     /// The name of an array.
@@ -408,7 +408,7 @@ impl Model {
                 group.velocity.clone().unwrap_or_else(derivative)
             }
             Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].name.clone(),
-            Array::Held(_) => unreachable!("only programs read held arrays"),
+            Array::Hoisted(_) => unreachable!("only programs read hoisted arrays"),
         }
     }
     /// H.

@@ -17,44 +17,44 @@ pub const LONGEST: u64 = 1 << 14;
 
 /// An exact rational number, ordered by value.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub struct Rational(Form);
+pub struct Rational(Repr);
 
 #[derive(Clone, Debug)]
-enum Form {
+enum Repr {
     Small(i64, i64),
     Big(Box<BigRational>),
 }
 
 /// In lowest terms equal values have equal parts; `BigRational` compares and hashes as continued
 /// fractions, which recurses.
-impl PartialEq for Form {
-    fn eq(&self, other: &Form) -> bool {
+impl PartialEq for Repr {
+    fn eq(&self, other: &Repr) -> bool {
         match (self, other) {
-            (Form::Small(a, b), Form::Small(c, d)) => (a, b) == (c, d),
-            (Form::Big(a), Form::Big(b)) => a.numer() == b.numer() && a.denom() == b.denom(),
+            (Repr::Small(a, b), Repr::Small(c, d)) => (a, b) == (c, d),
+            (Repr::Big(a), Repr::Big(b)) => a.numer() == b.numer() && a.denom() == b.denom(),
             _ => false,
         }
     }
 }
 
-impl Eq for Form {}
+impl Eq for Repr {}
 
-impl Hash for Form {
+impl Hash for Repr {
     fn hash<H: Hasher>(&self, state: &mut H) {
         match self {
-            Form::Small(n, d) => (n, d).hash(state),
-            Form::Big(value) => (value.numer(), value.denom()).hash(state),
+            Repr::Small(n, d) => (n, d).hash(state),
+            Repr::Big(value) => (value.numer(), value.denom()).hash(state),
         }
     }
 }
 
 impl Rational {
     /// 0.
-    pub const ZERO: Rational = Rational(Form::Small(0, 1));
+    pub const ZERO: Rational = Rational(Repr::Small(0, 1));
     /// 1.
-    pub const ONE: Rational = Rational(Form::Small(1, 1));
+    pub const ONE: Rational = Rational(Repr::Small(1, 1));
     /// −1.
-    pub const MINUS_ONE: Rational = Rational(Form::Small(-1, 1));
+    pub const MINUS_ONE: Rational = Rational(Repr::Small(-1, 1));
 
     /// An integer.
     #[must_use]
@@ -62,7 +62,7 @@ impl Rational {
         if value == i64::MIN {
             return Rational::from_big(BigRational::from_integer(value.into()));
         }
-        Rational(Form::Small(value, 1))
+        Rational(Repr::Small(value, 1))
     }
 
     /// `numerator/denominator`; the denominator must not be 0.
@@ -106,8 +106,8 @@ impl Rational {
             }
         }
         match (i64::try_from(n), i64::try_from(d)) {
-            (Ok(n), Ok(d)) if n != i64::MIN => Rational(Form::Small(n, d)),
-            _ => Rational(Form::Big(Box::new(BigRational::new_raw(
+            (Ok(n), Ok(d)) if n != i64::MIN => Rational(Repr::Small(n, d)),
+            _ => Rational(Repr::Big(Box::new(BigRational::new_raw(
                 n.into(),
                 d.into(),
             )))),
@@ -116,15 +116,15 @@ impl Rational {
 
     fn from_big(value: BigRational) -> Rational {
         match (value.numer().to_i64(), value.denom().to_i64()) {
-            (Some(n), Some(d)) if n != i64::MIN => Rational(Form::Small(n, d)),
-            _ => Rational(Form::Big(Box::new(value))),
+            (Some(n), Some(d)) if n != i64::MIN => Rational(Repr::Small(n, d)),
+            _ => Rational(Repr::Big(Box::new(value))),
         }
     }
 
     fn big(&self) -> BigRational {
         match &self.0 {
-            Form::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
-            Form::Big(value) => (**value).clone(),
+            Repr::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
+            Repr::Big(value) => (**value).clone(),
         }
     }
 
@@ -132,10 +132,10 @@ impl Rational {
     #[must_use]
     pub fn add(&self, other: &Rational) -> Rational {
         match (&self.0, &other.0) {
-            (Form::Small(a, 1), Form::Small(b, 1)) => {
+            (Repr::Small(a, 1), Repr::Small(b, 1)) => {
                 Rational::reduce(i128::from(*a) + i128::from(*b), 1)
             }
-            (Form::Small(a, b), Form::Small(c, d)) => {
+            (Repr::Small(a, b), Repr::Small(c, d)) => {
                 let (a, b, c, d) = (
                     i128::from(*a),
                     i128::from(*b),
@@ -157,8 +157,8 @@ impl Rational {
     /// Both as integers, if they are: these have no common divisor to look for.
     fn integers(&self, other: &Rational) -> Option<(BigInt, BigInt)> {
         let integer = |value: &Rational| match &value.0 {
-            Form::Small(n, 1) => Some(BigInt::from(*n)),
-            Form::Big(value) if value.denom().is_one() => Some(value.numer().clone()),
+            Repr::Small(n, 1) => Some(BigInt::from(*n)),
+            Repr::Big(value) if value.denom().is_one() => Some(value.numer().clone()),
             _ => None,
         };
         Some((integer(self)?, integer(other)?))
@@ -168,7 +168,7 @@ impl Rational {
     #[must_use]
     pub fn mul(&self, other: &Rational) -> Rational {
         match (&self.0, &other.0) {
-            (Form::Small(a, b), Form::Small(c, d)) => Rational::reduce(
+            (Repr::Small(a, b), Repr::Small(c, d)) => Rational::reduce(
                 i128::from(*a) * i128::from(*c),
                 i128::from(*b) * i128::from(*d),
             ),
@@ -183,8 +183,8 @@ impl Rational {
     #[must_use]
     pub fn neg(&self) -> Rational {
         match &self.0 {
-            Form::Small(n, d) => Rational(Form::Small(-n, *d)),
-            Form::Big(value) => Rational::from_big(-(**value).clone()),
+            Repr::Small(n, d) => Rational(Repr::Small(-n, *d)),
+            Repr::Big(value) => Rational::from_big(-(**value).clone()),
         }
     }
 
@@ -198,9 +198,9 @@ impl Rational {
     #[must_use]
     pub fn recip(&self) -> Option<Rational> {
         match &self.0 {
-            Form::Small(0, _) => None,
-            Form::Small(n, d) => Some(Rational(Form::Small(d * n.signum(), n.abs()))),
-            Form::Big(value) => Some(Rational::from_big(value.recip())),
+            Repr::Small(0, _) => None,
+            Repr::Small(n, d) => Some(Rational(Repr::Small(d * n.signum(), n.abs()))),
+            Repr::Big(value) => Some(Rational::from_big(value.recip())),
         }
     }
 
@@ -244,24 +244,24 @@ impl Rational {
     /// Returns true if this is 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {
-        matches!(self.0, Form::Small(0, _))
+        matches!(self.0, Repr::Small(0, _))
     }
     /// Returns true if this is 1.
     #[must_use]
     pub fn is_one(&self) -> bool {
-        matches!(self.0, Form::Small(1, 1))
+        matches!(self.0, Repr::Small(1, 1))
     }
     /// Returns true if this is 1 or −1.
     #[must_use]
     pub fn is_unit(&self) -> bool {
-        matches!(self.0, Form::Small(1 | -1, 1))
+        matches!(self.0, Repr::Small(1 | -1, 1))
     }
     /// Returns true if this is below 0.
     #[must_use]
     pub fn is_negative(&self) -> bool {
         match &self.0 {
-            Form::Small(n, _) => *n < 0,
-            Form::Big(value) => value.is_negative(),
+            Repr::Small(n, _) => *n < 0,
+            Repr::Big(value) => value.is_negative(),
         }
     }
     /// The absolute value.
@@ -286,24 +286,24 @@ impl Rational {
     #[must_use]
     pub fn is_integer(&self) -> bool {
         match &self.0 {
-            Form::Small(_, d) => *d == 1,
-            Form::Big(value) => value.is_integer(),
+            Repr::Small(_, d) => *d == 1,
+            Repr::Big(value) => value.is_integer(),
         }
     }
     /// Returns true if the value is an odd integer.
     #[must_use]
     pub fn is_odd(&self) -> bool {
         match &self.0 {
-            Form::Small(n, d) => *d == 1 && n % 2 != 0,
-            Form::Big(value) => value.is_integer() && value.numer().is_odd(),
+            Repr::Small(n, d) => *d == 1 && n % 2 != 0,
+            Repr::Big(value) => value.is_integer() && value.numer().is_odd(),
         }
     }
     /// The number of bits of the longer of numerator and denominator, rounded up to 64.
     #[must_use]
     pub fn bits(&self) -> u64 {
         match &self.0 {
-            Form::Small(..) => 64,
-            Form::Big(value) => value
+            Repr::Small(..) => 64,
+            Repr::Big(value) => value
                 .numer()
                 .bits()
                 .max(value.denom().bits())
@@ -314,25 +314,25 @@ impl Rational {
     #[must_use]
     pub fn length(&self) -> u64 {
         match &self.0 {
-            Form::Small(n, d) => {
+            Repr::Small(n, d) => {
                 u64::from(64 - (n.unsigned_abs() | d.unsigned_abs()).leading_zeros())
             }
-            Form::Big(value) => value.numer().bits().max(value.denom().bits()),
+            Repr::Big(value) => value.numer().bits().max(value.denom().bits()),
         }
     }
     /// Numerator and denominator where both fit `i64`.
     #[must_use]
     pub fn to_small(&self) -> Option<(i64, i64)> {
         match self.0 {
-            Form::Small(n, d) => Some((n, d)),
-            Form::Big(_) => None,
+            Repr::Small(n, d) => Some((n, d)),
+            Repr::Big(_) => None,
         }
     }
 
     /// The nearest `f64` (ties to even), infinite past its range.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
-        if let Form::Small(n, d) = self.0 {
+        if let Repr::Small(n, d) = self.0 {
             // Both are exact below 2⁵³, and one division rounds once.
             if n.unsigned_abs() < 1 << 53 && d.unsigned_abs() < 1 << 53 {
                 return n as f64 / d as f64;
@@ -354,7 +354,7 @@ impl Rational {
     pub fn to_words(&self) -> (f64, f64) {
         let hi = self.to_f64();
         // A short fraction of a power of two is a double.
-        if let Form::Small(n, d) = self.0
+        if let Repr::Small(n, d) = self.0
             && n.unsigned_abs() <= 1 << 53
             && d.unsigned_abs().is_power_of_two()
         {
@@ -370,8 +370,8 @@ impl Rational {
     #[must_use]
     pub fn to_text(&self) -> String {
         match &self.0 {
-            Form::Small(n, 1) => n.to_string(),
-            Form::Small(n, d) => {
+            Repr::Small(n, 1) => n.to_string(),
+            Repr::Small(n, d) => {
                 for places in 1..=6usize {
                     let scale = 10i64.pow(places as u32);
                     if scale % d == 0 {
@@ -385,7 +385,7 @@ impl Rational {
                 }
                 format!("{n}/{d}")
             }
-            Form::Big(value) => {
+            Repr::Big(value) => {
                 let f = self.to_f64();
                 if f != 0.0
                     && f.is_finite()
@@ -407,7 +407,7 @@ impl Rational {
 impl Ord for Rational {
     fn cmp(&self, other: &Rational) -> Ordering {
         match (&self.0, &other.0) {
-            (Form::Small(a, b), Form::Small(c, d)) => {
+            (Repr::Small(a, b), Repr::Small(c, d)) => {
                 (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
             }
             // By the sign of the difference: comparing them as fractions recurses.

@@ -7,7 +7,7 @@
 
 mod conditions;
 
-use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Side};
+use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Partial, Side};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
 use crate::product::{Factors, Product};
@@ -502,7 +502,7 @@ impl Dag {
     }
 
     /// A function written in Rust, or a derivative of it.
-    pub fn external(&mut self, function: u16, part: Part, arguments: &[Node]) -> Node {
+    pub fn external(&mut self, function: u16, part: Partial, arguments: &[Node]) -> Node {
         self.intern(Kind::External(function, part, arguments.to_vec()))
     }
 }

@@ -1,6 +1,6 @@
 //! Forces in the vector field and in kicks.
 //!
-//! Input: a model with its force f, and ∂H/∂q. Output: f − ∂H/∂q element by element, and [`Kick`], the
+//! Input: a model with its force f, and ∂H/∂q. Output: f − ∂H/∂q element by element, and [`KickFlow`], the
 //! exact flow of ṗ = f − ∂H/∂q at frozen q where f is affine in p. Invariant: an element of the force
 //! is in one entry, with the part of ∂H/∂q that belongs to the same element of the same loop.
 //!
@@ -16,7 +16,7 @@ use crate::structure::degrees;
 
 /// The exact flow of ṗ = f − ∂H/∂q at frozen q.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Kick {
+pub enum KickFlow {
     /// Two accumulations, one after the other.
     Single {
         /// Reads momenta: each entry its own element alone.
@@ -103,7 +103,7 @@ fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
 ///
 /// # Errors
 /// The entry of the force that is not affine in momenta.
-pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<VectorEntry>> {
+pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<KickFlow, Box<VectorEntry>> {
     let forces = model.force.clone();
     // Derivatives do not tell: that of sign(p) is 0.
     let is_affine = |f: &VectorEntry| degrees(&model.dag, f.value).is_some_and(|(_, n)| n <= 1);
@@ -117,7 +117,7 @@ pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<Vec
             let value = model.dag.mul(&[c, entry.value]);
             VectorEntry { value, ..entry }
         };
-        Kick::Coupled {
+        KickFlow::Coupled {
             linear: forces.iter().map(scaled).collect(),
         }
     }))
@@ -125,7 +125,7 @@ pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<Vec
 
 /// The kick where each momentum is pushed by itself. An error where it is not: it is pushed by others,
 /// or its rate is that of a row and other rows are pushed in the same loop.
-fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, ()> {
+fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<KickFlow, ()> {
     let forces = model.force.clone();
     let mut weights = Vec::with_capacity(forces.len());
     for force in &forces {
@@ -158,7 +158,7 @@ fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, ()> {
             false => rest.push(scaled),
         }
     }
-    Ok(Kick::Single { damped, rest })
+    Ok(KickFlow::Single { damped, rest })
 }
 
 /// ∂H/∂q where the kick is of H and the force: a force beside pieces of H is a piece of its own.
@@ -177,7 +177,7 @@ pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
 ///
 /// # Errors
 /// As for [`kick`].
-pub fn kick_of(model: &mut Model) -> Result<Kick, Box<VectorEntry>> {
+pub fn kick_of(model: &mut Model) -> Result<KickFlow, Box<VectorEntry>> {
     let gradient = beside(model);
     kick(model, &gradient)
 }

@@ -36,14 +36,14 @@
 //! ```
 
 use crate::PI_LOW;
-use crate::dag::{Array, Map, Part, Relation};
+use crate::dag::{Array, Map, Partial, Relation};
 use crate::index::{Affine, Domain, Index};
 use crate::pairs::{self, Pairs, Triangle, pairs};
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 use hamiltonian_real::Real;
 
 /// A function written in Rust: the part asked for, at its arguments.
-pub type ExternalFunction<T> = fn(Part, &[T]) -> T;
+pub type ExternalFunction<T> = fn(Partial, &[T]) -> T;
 
 /// A point at which a program is evaluated.
 #[derive(Clone, Debug)]
@@ -160,10 +160,10 @@ fn run_in_order<T: Real>(
             column.fill(T::zero());
         }
     }
-    for (held, number) in program.held.iter().zip(0..) {
-        let rows = machine.affine(&held.rows).max(0) as usize;
+    for (hoisted, number) in program.hoisted.iter().zip(0..) {
+        let rows = machine.affine(&hoisted.rows).max(0) as usize;
         let empty = vec![vec![T::constant(f64::NAN, 0.0); rows]];
-        machine.outputs.insert(Target::Held(number), empty);
+        machine.outputs.insert(Target::Hoisted(number), empty);
     }
     machine.steps(&program.prepare);
     machine.steps(&function.coefficient);
@@ -214,7 +214,7 @@ impl<T: Real> Machine<'_, T> {
     fn columns(&self, array: &Array) -> &Vec<Vec<T>> {
         match *array {
             Array::Phase(column) if self.is_in_place => &self.outputs[&Target::Phase(column)],
-            Array::Held(number) => &self.outputs[&Target::Held(number)],
+            Array::Hoisted(number) => &self.outputs[&Target::Hoisted(number)],
             _ => &self.point.arrays[array],
         }
     }

@@ -3,7 +3,7 @@
 //! Input: a program. Output: its `Display`. Invariant: numbers of groups, parameters, sizes and loops
 //! instead of names: a program does not know them.
 
-use crate::dag::{Array, Column, Parameter, Part, Relation, Side};
+use crate::dag::{Array, Column, Parameter, Partial, Relation, Side};
 use crate::index::{Affine, Index};
 use crate::program::{Instruction, Program, Step, Target, Update, Value};
 use core::fmt::{Display, Formatter, Result, Write};
@@ -76,7 +76,7 @@ impl Display for Target {
         match self {
             Target::Phase(column) => write!(f, "d{column}"),
             Target::Parameter(Parameter(number)) => write!(f, "da{number}"),
-            Target::Held(number) => write!(f, "held{number}"),
+            Target::Hoisted(number) => write!(f, "hoisted{number}"),
         }
     }
 }
@@ -88,7 +88,7 @@ impl Display for Array {
             Array::Direction(column) => write!(f, "v{column}"),
             Array::Velocity(column) => write!(f, "velocity {column}"),
             Array::Parameter(Parameter(number)) => write!(f, "a{number}"),
-            Array::Held(number) => write!(f, "held{number}"),
+            Array::Hoisted(number) => write!(f, "hoisted{number}"),
         }
     }
 }
@@ -129,10 +129,10 @@ impl Display for Instruction {
             Instruction::PairedCos(sine) => write!(f, "cos beside {sine}"),
             Instruction::External(function, part, arguments) => {
                 match part {
-                    Part::Value => write!(f, "f{function}(")?,
-                    Part::First(i) => write!(f, "f{function}_{i}(")?,
-                    Part::Second(i, j) => write!(f, "f{function}_{i}_{j}(")?,
-                    Part::Higher { order, .. } => write!(f, "f{function}^{order}(")?,
+                    Partial::Value => write!(f, "f{function}(")?,
+                    Partial::First(i) => write!(f, "f{function}_{i}(")?,
+                    Partial::Second(i, j) => write!(f, "f{function}_{i}_{j}(")?,
+                    Partial::Higher { order, .. } => write!(f, "f{function}^{order}(")?,
                 }
                 write!(f, "{})", listed(arguments))
             }

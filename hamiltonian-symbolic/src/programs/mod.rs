@@ -7,7 +7,7 @@ mod balance;
 pub mod count;
 mod factor;
 pub mod forces;
-pub mod hold;
+pub mod hoist;
 pub mod interpret;
 mod listing;
 mod order;

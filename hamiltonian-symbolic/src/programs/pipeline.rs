@@ -3,10 +3,10 @@
 //! Input: a [`Model`] and the purposes wanted. Output: a [`Program`]. Invariant: deterministic;
 //! what no function needs is not in it.
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Part, Side, Stage, work};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Partial, Side, Stage, work};
 use crate::diff;
 use crate::forces;
-use crate::hold::Arrays;
+use crate::hoist::Arrays;
 use crate::index::{Affine, Index};
 use crate::model::{ExactFlow, Model, Motion, Piece, VectorEntry};
 use crate::op::Op;
@@ -51,7 +51,7 @@ pub enum NoProgram {
     },
 }
 
-/// H → requests → arrays held → factored → shared → scheduled.
+/// H → requests → hoisted → factored → shared → scheduled.
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgram> {
     let mut all = model.roots();
     balance(&mut model.dag, &mut all);
@@ -63,7 +63,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgra
         let mut request = request(model, purpose, &mut gradient)?;
         let mut roots = request.roots();
         refuse(model, purpose, &roots)?;
-        arrays.hold(&mut model.dag, &model.parameters, &mut roots);
+        arrays.hoist(&mut model.dag, &model.parameters, &mut roots);
         factor(&mut model.dag, &mut roots);
         in_range(&model.dag, &roots)?;
         share(&mut model.dag, &mut roots, Stage::Evaluation);
@@ -74,7 +74,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgra
         return Err(NoProgram::TooManyLoops);
     }
     let (wanted, images) = preparation(&mut model.dag, &mut requests);
-    let program = schedule(&model.dag, &requests, (&wanted, &images), arrays.held);
+    let program = schedule(&model.dag, &requests, (&wanted, &images), arrays.hoisted);
     program.validate().map_err(internal)?;
     for (function, request) in program.functions.iter().zip(&requests) {
         if stores(&function.evaluation) != request.stores.len() {
@@ -164,7 +164,7 @@ fn refuse(model: &Model, purpose: Purpose, roots: &[Node]) -> Result<(), NoProgr
         return Err(NoProgram::TooManyLoops);
     }
     for node in model.dag.reachable(roots) {
-        if let Kind::External(function, Part::Higher { .. }, _) = model.dag.kind(node) {
+        if let Kind::External(function, Partial::Higher { .. }, _) = model.dag.kind(node) {
             return Err(NoProgram::ThirdDerivative {
                 purpose,
                 function: model.externals[*function as usize].name.clone(),
@@ -251,9 +251,9 @@ fn request(
         Purpose::Push | Purpose::Linear | Purpose::Kick if !model.force.is_empty() => {
             let missing = |_| internal("this force has no exact flow".to_owned());
             let entries = match (purpose, forces::kick_of(model).map_err(missing)?) {
-                (Purpose::Push, forces::Kick::Single { damped, .. }) => damped,
-                (Purpose::Kick, forces::Kick::Single { rest, .. }) => rest,
-                (Purpose::Linear, forces::Kick::Coupled { linear }) => linear,
+                (Purpose::Push, forces::KickFlow::Single { damped, .. }) => damped,
+                (Purpose::Kick, forces::KickFlow::Single { rest, .. }) => rest,
+                (Purpose::Linear, forces::KickFlow::Coupled { linear }) => linear,
                 (purpose, _) => return Err(internal(format!("this force has no {purpose:?}"))),
             };
             request.stores.extend(entries.into_iter().map(added));

@@ -8,8 +8,8 @@
 
 #[cfg(doc)]
 use crate::dag::Side;
-use crate::dag::{Array, Column, Parameter, Part, Relation};
-use crate::hold::Held;
+use crate::dag::{Array, Column, Parameter, Partial, Relation};
+use crate::hoist::Hoisted;
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -72,7 +72,7 @@ pub enum Instruction {
     /// The cosine that belongs to a [`Instruction::PairedSin`] (named by its value).
     PairedCos(Value),
     /// A function written in Rust, or a derivative of it.
-    External(u16, Part, Vec<Value>),
+    External(u16, Partial, Vec<Value>),
     /// A comparison (a mask).
     Compare(Relation, Value, Value),
     /// Not (a mask).
@@ -144,7 +144,7 @@ pub enum Target {
     /// The derivative with respect to a parameter; arrays element by element.
     Parameter(Parameter),
     /// An array that preparation fills, by its number in the program.
-    Held(u16),
+    Hoisted(u16),
 }
 
 /// The update of an element.
@@ -265,7 +265,7 @@ pub struct Program {
     /// Work done once, from parameters alone, for all functions.
     pub prepare: Vec<Step>,
     /// The arrays that `prepare` fills, by number.
-    pub held: Vec<Held>,
+    pub hoisted: Vec<Hoisted>,
     /// The values of `prepare` that functions read, in order of computation.
     pub prepared: Vec<Value>,
     /// The functions that a run calls, each with its purpose.

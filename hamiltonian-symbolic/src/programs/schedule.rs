@@ -8,7 +8,7 @@
 mod instruct;
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
-use crate::hold::Held;
+use crate::hoist::Hoisted;
 use crate::index::{Domain, Index};
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
@@ -91,18 +91,18 @@ pub fn schedule(
     dag: &Dag,
     requests: &[Request],
     (wanted, images): (&[Node], &[Node]),
-    held: Vec<Held>,
+    hoisted: Vec<Hoisted>,
 ) -> Program {
     let mut program = Program::default();
     let nothing = Numbers::new(dag);
-    let fill = |(held, number): (&Held, u16)| Store {
-        target: Target::Held(number),
-        row: Index::of_loop(held.domain),
+    let fill = |(hoisted, number): (&Hoisted, u16)| Store {
+        target: Target::Hoisted(number),
+        row: Index::of_loop(hoisted.domain),
         column: None,
-        value: held.value,
+        value: hoisted.value,
         add: false,
     };
-    let fills: Vec<Store> = held.iter().zip(0..).map(fill).collect();
+    let fills: Vec<Store> = hoisted.iter().zip(0..).map(fill).collect();
     let (prepare, computed) = stage(
         dag,
         &mut program,
@@ -113,7 +113,7 @@ pub fn schedule(
         nothing.clone(),
     );
     program.prepare = prepare;
-    program.held = held;
+    program.hoisted = hoisted;
     // Only what is wanted is handed on, not what it was computed from.
     let mut prepared = nothing;
     for (&node, &image) in wanted.iter().zip(images) {
@@ -277,7 +277,7 @@ impl Placer<'_> {
         self.open.push(here);
         let needed = self.needed(wanted, stores);
         let mut level = Numbers::new(self.dag);
-        let mut nests: Vec<Nest> = Vec::new();
+        let mut nests: Vec<LoopWork> = Vec::new();
         let mut last = 0;
         for &node in &needed {
             let mut own = 0;
@@ -287,7 +287,7 @@ impl Placer<'_> {
                 && let Kind::Reduce(domain, _) = self.dag.kind(node)
             {
                 own += 1;
-                Nest::at(&mut nests, own, *domain).sums.push(node);
+                LoopWork::at(&mut nests, own, *domain).sums.push(node);
             }
             last = last.max(own);
             level.set(node, own);
@@ -303,7 +303,7 @@ impl Placer<'_> {
                 let Some(&next) = path.iter().find(|d| !self.open.contains(&Some(**d))) else {
                     continue;
                 };
-                Nest::at(&mut nests, own + 1, next).stores.push(store);
+                LoopWork::at(&mut nests, own + 1, next).stores.push(store);
                 last = last.max(own + 1);
             }
         }
@@ -342,7 +342,7 @@ impl Placer<'_> {
         needed
     }
 
-    fn nest(&mut self, nest: &Nest) -> Loop {
+    fn nest(&mut self, nest: &LoopWork) -> Loop {
         let range = self.dag.range(nest.domain).clone();
         let mut accumulators = Vec::new();
         for &sum in &nest.sums {
@@ -496,19 +496,23 @@ impl Placer<'_> {
 }
 
 /// The work of one level over one loop.
-struct Nest<'a> {
+struct LoopWork<'a> {
     level: u32,
     domain: Domain,
     sums: Vec<Node>,
     stores: Vec<&'a Store>,
 }
 
-impl<'a> Nest<'a> {
-    fn at<'n>(nests: &'n mut Vec<Nest<'a>>, level: u32, domain: Domain) -> &'n mut Nest<'a> {
-        let is_asked = |nest: &Nest| (nest.level, nest.domain) == (level, domain);
+impl<'a> LoopWork<'a> {
+    fn at<'n>(
+        nests: &'n mut Vec<LoopWork<'a>>,
+        level: u32,
+        domain: Domain,
+    ) -> &'n mut LoopWork<'a> {
+        let is_asked = |nest: &LoopWork| (nest.level, nest.domain) == (level, domain);
         let at = nests.iter().position(is_asked).unwrap_or(nests.len());
         if at == nests.len() {
-            nests.push(Nest {
+            nests.push(LoopWork {
                 level,
                 domain,
                 sums: Vec::new(),

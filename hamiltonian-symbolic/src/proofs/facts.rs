@@ -20,7 +20,7 @@ mod pairs;
 pub use domain::conditions;
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
-use crate::op::{At, Break, Far, Op, ValueSign};
+use crate::op::{Break, Far, Op, SingularSet, ValueSign};
 use crate::sort::Arrange;
 use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
 use pairs::{difference, is_pair};
@@ -123,11 +123,11 @@ impl Regular {
     }
 }
 
-/// A set that may be met: where a node, or two, are as [`At`] says.
+/// A set that may be met: where a node, or two, are as [`SingularSet`] says.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Locus {
     /// The condition on the nodes.
-    pub at: At,
+    pub at: SingularSet,
     /// The argument.
     pub x: Node,
     /// The second argument, or the first again.
@@ -281,11 +281,11 @@ impl Facts {
     /// The places where a condition switches.
     fn switches(&mut self, dag: &Dag, condition: Node) {
         for (a, b) in comparisons(dag, condition) {
-            self.note(At::Equal, a, b);
+            self.note(SingularSet::Equal, a, b);
         }
     }
 
-    fn note(&mut self, at: At, x: Node, y: Node) {
+    fn note(&mut self, at: SingularSet, x: Node, y: Node) {
         let locus = Locus { at, x, y };
         if !self.loci.contains(&locus) {
             self.loci.push(locus);
@@ -370,7 +370,7 @@ impl Facts {
         for &(base, n) in factors {
             let regular = self.get(base);
             if n < 0 && !regular.has_no_moving_zero {
-                self.note(At::Zero, base, base);
+                self.note(SingularSet::Zero, base, base);
             }
             let power = if n < 0 {
                 regular.recip(self.points)
@@ -400,13 +400,15 @@ impl Facts {
         let regularity = op.row().regularity;
         let all = x.iter().fold(Regular::ALL, |all, x| all.and(self.get(*x)));
         let (first, y) = (self.get(x[0]), *x.last().unwrap_or(&x[0]));
-        let misses = |at: At| match at {
-            At::Zero => first.has_no_moving_zero,
-            At::MinusOne => dag.is_nonnegative(x[0]),
-            At::Origin => self.have_no_common_zero(dag, x),
+        let misses = |at: SingularSet| match at {
+            SingularSet::Zero => first.has_no_moving_zero,
+            SingularSet::MinusOne => dag.is_nonnegative(x[0]),
+            SingularSet::Origin => self.have_no_common_zero(dag, x),
             // y = 0, x ≤ 0
-            At::Cut => first.has_no_zero && first.is_continuous,
-            At::Equal | At::One | At::Units | At::Cosine => false,
+            SingularSet::Cut => first.has_no_zero && first.is_continuous,
+            SingularSet::Equal | SingularSet::One | SingularSet::Units | SingularSet::Cosine => {
+                false
+            }
         };
         let jump = match regularity.breaks {
             Break::Jump(at) if !misses(at) => Some(at),
@@ -431,7 +433,7 @@ impl Facts {
         let is_bounded = op != Op::Pow || self.get(y).is_continuous;
         let has_no_zero = match op {
             Op::Sqrt | Op::Abs | Op::Cbrt => first.has_no_zero,
-            Op::Hypot => x.iter().any(|x| self.get(*x).has_no_zero) || misses(At::Origin),
+            Op::Hypot => x.iter().any(|x| self.get(*x).has_no_zero) || misses(SingularSet::Origin),
             // x^y, of finite x and y
             Op::Pow => first.has_no_zero && all.is_continuous,
             Op::Cosh => true,

@@ -285,7 +285,7 @@ impl Parser<'_> {
             if let Some(function) = self.model.externals.iter().position(|e| e.name == token) {
                 return self.model.dag.external(
                     function as u16,
-                    hamiltonian_symbolic::dag::Part::Value,
+                    hamiltonian_symbolic::dag::Partial::Value,
                     &arguments,
                 );
             }

@@ -73,5 +73,5 @@ pub enum Array {
     /// reads them.
     Velocity(Column),
     /// An array that preparation fills, by its number in the program.
-    Held(u16),
+    Hoisted(u16),
 }

@@ -33,9 +33,9 @@ pub enum ValueSign {
     OfBase,
 }
 
-/// A set of arguments at which something happens.
+/// A set of arguments at which a function is not analytic or not finite.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum At {
+pub enum SingularSet {
     /// x = 0
     Zero,
     /// x = 1
@@ -60,9 +60,9 @@ pub enum Break {
     /// Nowhere.
     Nowhere,
     /// It is continuous there.
-    Kink(At),
+    Kink(SingularSet),
     /// It is not continuous there.
-    Jump(At),
+    Jump(SingularSet),
 }
 
 /// The limit of a function as its argument grows beyond all bounds.
@@ -101,7 +101,7 @@ pub struct Regularity {
     /// The set at which it is not analytic.
     pub breaks: Break,
     /// The finite arguments at which |f| → ∞.
-    pub pole: Option<At>,
+    pub pole: Option<SingularSet>,
     /// Its limit at infinity.
     pub far: Far,
     /// True if it is one analytic function of all complex numbers, poles aside.
@@ -113,7 +113,7 @@ type Partials = fn(&mut Dag, &[Node], Node) -> Vec<Node>;
 
 /// A row of the table.
 #[derive(Debug)]
-pub struct Operation {
+pub struct OpRow {
     /// The name in the language, which is also the method of `Real`.
     pub name: &'static str,
     /// Its arguments as they are written: `atan2(y, x)`.
@@ -140,7 +140,7 @@ macro_rules! operations {
         }
 
         /// All rows, in the order of [`Op`].
-        pub static TABLE: &[Operation] = &[$(Operation {
+        pub static TABLE: &[OpRow] = &[$(OpRow {
             name: stringify!($name),
             arguments: &[$(stringify!($arg)),+],
             parity: Parity::$parity,
@@ -167,8 +167,8 @@ macro_rules! operations {
         Regularity {
             domain: NaturalDomain::$domain $(($from))?,
             range: ValueSign::$range,
-            breaks: Break::$breaks $((At::$at))?,
-            pole: $pole $((At::$of))?,
+            breaks: Break::$breaks $((SingularSet::$at))?,
+            pole: $pole $((SingularSet::$of))?,
             far: Far::$far,
             is_entire: operations!(@$kind),
         }
@@ -334,7 +334,7 @@ fn bell(dag: &mut Dag, x: Node, k: i64) -> Node {
 impl Op {
     /// The function's row.
     #[must_use]
-    pub fn row(self) -> &'static Operation {
+    pub fn row(self) -> &'static OpRow {
         &TABLE[self as usize]
     }
     /// The function of that name.

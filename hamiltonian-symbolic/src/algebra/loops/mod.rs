@@ -11,6 +11,6 @@ pub mod unroll;
 mod walk;
 
 pub use guard::guarded;
-pub use numeric::{Point, Sample, Signs, sample};
+pub use numeric::{Sample, SamplePoint, Signs, sample};
 pub(crate) use numeric::{Values, next_random};
 pub use unroll::{unroll, unroll_nodes, unrolled};

@@ -45,7 +45,7 @@ impl Signs {
 }
 
 /// A sample point: names with their values, in order of first use.
-pub type Point = Vec<(String, f64)>;
+pub type SamplePoint = Vec<(String, f64)>;
 
 /// The values of some nodes at a sample point, and the point; `None` if a loop runs too long.
 /// Some elements, and the time, may be given values of their own.
@@ -56,7 +56,7 @@ pub fn sample(
     sizes: &[i64],
     how: Sample,
     given: &[(Node, Ball)],
-) -> Option<(Vec<Ball>, Point)> {
+) -> Option<(Vec<Ball>, SamplePoint)> {
     let mut elements = Map::default();
     let mut time = None;
     for (node, value) in given {
@@ -148,7 +148,7 @@ struct Evaluator<'a> {
     given: Map<(Array, i64, i64), Ball>,
     time: Option<Ball>,
     read: Map<(Array, i64, i64), ()>,
-    point: Point,
+    point: SamplePoint,
     visits: usize,
 }
 
@@ -197,7 +197,7 @@ impl<'a> Evaluator<'a> {
             Array::Phase(Column { side: Side::P, .. }) => {
                 self.leaf(&key, self.how.p, self.how.signed)
             }
-            Array::Direction(_) | Array::Velocity(_) | Array::Held(_) => {
+            Array::Direction(_) | Array::Velocity(_) | Array::Hoisted(_) => {
                 self.leaf(&key, 0, self.how.signed)
             }
             Array::Parameter(parameter) => {
@@ -212,7 +212,7 @@ impl<'a> Evaluator<'a> {
                 Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
                     i64::from(at.column)
                 }
-                Array::Parameter(_) | Array::Held(_) => column,
+                Array::Parameter(_) | Array::Hoisted(_) => column,
             };
             let (name, extent) = (self.model.array_name(array), |e: &Affine| place.affine(e));
             let name = self.model.element(&name, array, [row, column], extent);

@@ -5,7 +5,7 @@
 //! of those or has its relation here.
 
 use super::polynomial::{Atom, Budget, Monomial, Poly, Undecided};
-use crate::dag::{Dag, Dependence, Map, Node, Part, Sign};
+use crate::dag::{Dag, Dependence, Map, Node, Partial, Sign};
 use crate::index::{Domain, Loops};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -34,7 +34,7 @@ pub(crate) enum Key {
     /// Any other function.
     Function(Op, Vec<Poly>),
     /// A function written in Rust, or a derivative of it.
-    External(u16, Part, Vec<Poly>),
+    External(u16, Partial, Vec<Poly>),
     /// A sum over a loop of a product that depends on its variable.
     Sum(Domain, Monomial),
 }
@@ -70,7 +70,7 @@ pub(crate) enum Scope {
 
 /// An atom with its facts.
 #[derive(Clone, Debug)]
-pub(crate) struct Entry {
+pub(crate) struct AtomEntry {
     /// The expression it stands for.
     pub(crate) key: Key,
     /// `atom^n = polynomial`
@@ -101,7 +101,7 @@ pub(super) struct Base {
 /// An algebra over the leaves of one arena.
 #[derive(Debug)]
 pub(crate) struct Algebra {
-    entries: Vec<Entry>,
+    entries: Vec<AtomEntry>,
     known: Map<Key, Atom>,
     pub(super) angles: Map<Monomial, Base>,
     pub(super) exponents: Map<Monomial, Base>,
@@ -143,7 +143,7 @@ impl Algebra {
     }
 
     /// The facts of an atom.
-    pub(crate) fn entry(&self, atom: Atom) -> &Entry {
+    pub(crate) fn entry(&self, atom: Atom) -> &AtomEntry {
         &self.entries[atom as usize]
     }
 
@@ -205,7 +205,7 @@ impl Algebra {
         }
         let atom = self.entries.len() as Atom;
         self.known.insert(key.clone(), atom);
-        self.entries.push(Entry {
+        self.entries.push(AtomEntry {
             key,
             relation: relation.map(|(n, poly)| (n, Rc::new(poly))),
             redefined: None,

@@ -5,7 +5,7 @@
 
 use super::atoms::{Algebra, Base, Key};
 use super::polynomial::{Monomial, Poly, Undecided};
-use crate::dag::{Part, Sign};
+use crate::dag::{Partial, Sign};
 use crate::op::{Op, Parity};
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -153,7 +153,7 @@ impl Algebra {
     pub(super) fn external(
         &mut self,
         function: u16,
-        part: Part,
+        part: Partial,
         x: &[Poly],
     ) -> Result<Poly, Undecided> {
         let mut arguments = Vec::with_capacity(x.len());

@@ -25,7 +25,7 @@ pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_po
 
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::index::LOOPS;
-use crate::loops::{Point, Sample, Signs, sample, unroll_nodes};
+use crate::loops::{Sample, SamplePoint, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
 use angles::{LARGEST_MULTIPLE, LONGEST_ANGLE};
@@ -53,7 +53,7 @@ pub enum Proof {
     /// It is not: its value at a point.
     NonZero {
         /// The names of what it depends on with their values; sizes included.
-        point: Point,
+        point: SamplePoint,
         /// Its value there.
         value: f64,
     },
@@ -250,7 +250,7 @@ pub(crate) fn witness(
     node: Node,
     effort: Effort,
     others: &[Node],
-) -> Option<(Point, f64)> {
+) -> Option<(SamplePoint, f64)> {
     let mut trials = trials(model, &[node]);
     let (seeds, ways) = match effort {
         Effort::Glance => (2, 1),
@@ -311,7 +311,7 @@ pub(crate) fn witness(
 }
 
 /// Sizes with their names, as the beginning of a point.
-pub(crate) fn named(model: &Model, sizes: &[i64]) -> Point {
+pub(crate) fn named(model: &Model, sizes: &[i64]) -> SamplePoint {
     let names = model.sizes.iter().cloned();
     names.zip(sizes.iter().map(|n| *n as f64)).collect()
 }

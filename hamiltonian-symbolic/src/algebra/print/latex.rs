@@ -4,7 +4,7 @@
 //! Greek letters become the letters; trailing digits and words after `_` become subscripts.
 
 use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
-use crate::dag::{Dag, Kind, Node, Part};
+use crate::dag::{Dag, Kind, Node, Partial};
 use crate::model::External;
 use crate::op::Op;
 use crate::product::Product;
@@ -198,21 +198,21 @@ fn is_name(dag: &Dag, node: Node) -> bool {
 }
 
 /// A function in Rust, or a derivative of it.
-fn external(of: &External, part: Part) -> String {
+fn external(of: &External, part: Partial) -> String {
     let name = indexed(&of.name, &[]);
     let argument = |at: u16| indexed(&of.arguments[usize::from(at)], &[]);
     let partial = |above: &str, below: String| format!("\\frac{{{above} {name}}}{{{below}}}");
     match (part, of.arguments.len()) {
-        (Part::Value, _) => name,
-        (Part::First(_), 1) => format!("{name}'"),
-        (Part::Second(..), 1) => format!("{name}''"),
-        (Part::First(i), _) => partial("\\partial", format!("\\partial {}", argument(i))),
-        (Part::Second(i, j), _) if i == j => {
+        (Partial::Value, _) => name,
+        (Partial::First(_), 1) => format!("{name}'"),
+        (Partial::Second(..), 1) => format!("{name}''"),
+        (Partial::First(i), _) => partial("\\partial", format!("\\partial {}", argument(i))),
+        (Partial::Second(i, j), _) if i == j => {
             partial("\\partial^{2}", format!("\\partial {}^{{2}}", argument(i)))
         }
-        (Part::Higher { order, .. }, 1) => format!("{name}^{{({order})}}"),
-        (Part::Higher { order, .. }, _) => format!("\\partial^{{{order}}} {name}"),
-        (Part::Second(i, j), _) => partial(
+        (Partial::Higher { order, .. }, 1) => format!("{name}^{{({order})}}"),
+        (Partial::Higher { order, .. }, _) => format!("\\partial^{{{order}}} {name}"),
+        (Partial::Second(i, j), _) => partial(
             "\\partial^{2}",
             format!("\\partial {} \\, \\partial {}", argument(i), argument(j)),
         ),

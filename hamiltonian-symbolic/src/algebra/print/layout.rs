@@ -6,7 +6,7 @@
 //! needs them.
 
 use super::names::LoopNames;
-use crate::dag::{Array, Dag, Kind, Node, Parameter, Part, Relation};
+use crate::dag::{Array, Dag, Kind, Node, Parameter, Partial, Relation};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{External, Model, Shape};
 use crate::op::Op;
@@ -92,7 +92,7 @@ pub(super) struct Style {
     pub(super) call: fn(&Writer<'_>, Op, &[Node]) -> Vec<Fragment>,
     pub(super) call_level: fn(Op) -> Level,
     /// The name of a function in Rust, or of a derivative of it.
-    pub(super) external: fn(&External, Part) -> String,
+    pub(super) external: fn(&External, Partial) -> String,
     /// A condition, and the two values.
     pub(super) select: fn(Node, Node, Node) -> Vec<Fragment>,
     /// `k·Π` with k ≥ 0.
@@ -378,7 +378,7 @@ impl<'a> Writer<'a> {
     fn indices(&self, array: Array, row: &Index, column: Option<&Index>) -> Vec<String> {
         let column = match array {
             Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => at.column.to_string(),
-            Array::Parameter(_) | Array::Held(_) => {
+            Array::Parameter(_) | Array::Hoisted(_) => {
                 column.map_or_else(String::new, |column| self.index(column))
             }
         };

@@ -3,7 +3,7 @@
 //! Input: a node. Output: pieces for the writer. Invariant: read back, the text is the expression.
 
 use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
-use crate::dag::{Dag, Kind, Node, Part};
+use crate::dag::{Dag, Kind, Node, Partial};
 use crate::model::External;
 use crate::op::Op;
 use crate::product::Product;
@@ -86,18 +86,18 @@ fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Fragment> {
 
 /// A function in Rust, or a derivative of it, which the language has no way to say: `f'(x)` of one
 /// argument, `(∂f/∂y)(x, y)` of several.
-fn external(of: &External, part: Part) -> String {
+fn external(of: &External, part: Partial) -> String {
     let name = &of.name;
     let argument = |at: u16| &of.arguments[usize::from(at)];
     match (part, of.arguments.len()) {
-        (Part::Value, _) => name.clone(),
-        (Part::First(_), 1) => format!("{name}'"),
-        (Part::Second(..), 1) => format!("{name}''"),
-        (Part::First(i), _) => format!("(∂{name}/∂{})", argument(i)),
-        (Part::Second(i, j), _) if i == j => format!("(∂²{name}/∂{}²)", argument(i)),
-        (Part::Higher { order, .. }, 1) => format!("{name}{}", "'".repeat(order.into())),
-        (Part::Higher { order, .. }, _) => format!("(∂^{order} {name})"),
-        (Part::Second(i, j), _) => format!("(∂²{name}/∂{}∂{})", argument(i), argument(j)),
+        (Partial::Value, _) => name.clone(),
+        (Partial::First(_), 1) => format!("{name}'"),
+        (Partial::Second(..), 1) => format!("{name}''"),
+        (Partial::First(i), _) => format!("(∂{name}/∂{})", argument(i)),
+        (Partial::Second(i, j), _) if i == j => format!("(∂²{name}/∂{}²)", argument(i)),
+        (Partial::Higher { order, .. }, 1) => format!("{name}{}", "'".repeat(order.into())),
+        (Partial::Higher { order, .. }, _) => format!("(∂^{order} {name})"),
+        (Partial::Second(i, j), _) => format!("(∂²{name}/∂{}∂{})", argument(i), argument(j)),
     }
 }
 

@@ -7,7 +7,7 @@
 
 use super::Space;
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::op::{At, Break, Op};
+use crate::op::{Break, Op, SingularSet};
 use crate::rational::Rational;
 use crate::sort::Arrange;
 
@@ -70,21 +70,21 @@ impl Space {
 }
 
 /// An expression that is 0 at a set of arguments.
-fn place(dag: &mut Dag, at: At, x: &[Node]) -> Option<Node> {
+fn place(dag: &mut Dag, at: SingularSet, x: &[Node]) -> Option<Node> {
     let first = *x.first()?;
     let second = x.get(1).copied().unwrap_or(first);
     let one = dag.integer(1);
     Some(match at {
-        At::Zero | At::Cut => first,
-        At::One => dag.sub(first, one),
-        At::MinusOne => dag.add(&[first, one]),
-        At::Units => {
+        SingularSet::Zero | SingularSet::Cut => first,
+        SingularSet::One => dag.sub(first, one),
+        SingularSet::MinusOne => dag.add(&[first, one]),
+        SingularSet::Units => {
             let square = dag.powi(first, 2);
             dag.sub(square, one)
         }
-        At::Cosine => dag.call(Op::Cos, &[first]),
-        At::Equal => dag.sub(first, second),
-        At::Origin => dag.sum_of_squares(&[first, second]),
+        SingularSet::Cosine => dag.call(Op::Cos, &[first]),
+        SingularSet::Equal => dag.sub(first, second),
+        SingularSet::Origin => dag.sum_of_squares(&[first, second]),
     })
 }
 

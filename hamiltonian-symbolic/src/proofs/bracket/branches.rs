@@ -4,7 +4,7 @@
 //! switch ([`known`]), an expression without its steps ([`smoothed`]). Invariant: agreement is an
 //! identity, proven by the normal form.
 
-use crate::dag::{Dag, Dependence, Kind, Node, Part};
+use crate::dag::{Dag, Dependence, Kind, Node, Partial};
 use crate::facts::{Facts, Given, comparisons};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
@@ -155,7 +155,7 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<N
         Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
             has_steps = true;
             let x = new[&x[0]];
-            dag.external(STEP, Part::Value, &[x])
+            dag.external(STEP, Partial::Value, &[x])
         }
         _ => dag.rebuild(node, &|child| new[&child]),
     });
@@ -170,7 +170,7 @@ fn weight(dag: &mut Dag, condition: Node) -> Node {
     let new = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
         Kind::Compare(_, a, b) => {
             let apart = dag.sub(b, a);
-            dag.external(STEP, Part::Value, &[apart])
+            dag.external(STEP, Partial::Value, &[apart])
         }
         Kind::Not(a) => {
             let a = new[&a];

@@ -12,7 +12,7 @@ use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::facts::{Facts, Given, Locus, Regular};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
-use crate::op::{At, Break, Op};
+use crate::op::{Break, Op, SingularSet};
 use crate::print;
 use crate::rational::Rational;
 
@@ -353,22 +353,22 @@ fn place(model: &mut Model, locus: Locus, part: Node) -> Option<String> {
     }
     let one = dag.integer(1);
     let zero = match locus.at {
-        At::Cut => {
+        SingularSet::Cut => {
             let why = "may jump, which no derivative shows; the angle of a point does where the point crosses the \
                  negative half of an axis";
             return Some(why.to_owned());
         }
-        At::Zero => locus.x,
-        At::One => dag.sub(locus.x, one),
-        At::MinusOne => dag.add(&[locus.x, one]),
-        At::Equal if dag.is_zero(locus.x) => locus.y,
-        At::Equal => dag.sub(locus.x, locus.y),
-        At::Cosine => dag.call(Op::Cos, &[locus.x]),
-        At::Units => {
+        SingularSet::Zero => locus.x,
+        SingularSet::One => dag.sub(locus.x, one),
+        SingularSet::MinusOne => dag.add(&[locus.x, one]),
+        SingularSet::Equal if dag.is_zero(locus.x) => locus.y,
+        SingularSet::Equal => dag.sub(locus.x, locus.y),
+        SingularSet::Cosine => dag.call(Op::Cos, &[locus.x]),
+        SingularSet::Units => {
             let square = dag.powi(locus.x, 2);
             dag.sub(square, one)
         }
-        At::Origin => return None,
+        SingularSet::Origin => return None,
     };
     let zero = print::text(model, zero);
     Some(format!("{BOTH_SIDES} where `{zero}` is 0"))

@@ -16,7 +16,7 @@ pub use pair::bracket;
 use crate::dag::{Dependence, Kind, Node};
 use crate::diff;
 use crate::legendre::Legendre;
-use crate::loops::{Point, unroll_nodes};
+use crate::loops::{SamplePoint, unroll_nodes};
 use crate::model::Model;
 use crate::normal_form::{self, Algebra, Answer, BUDGET, Effort, Scope, named, trials, witness};
 use crate::print;
@@ -34,7 +34,7 @@ pub enum Verdict {
         /// Its time derivative along the flow, {I, H} + ∂I/∂t, as text.
         residual: String,
         /// Sizes, parameters, coordinates and momenta with values at which the residual is not 0.
-        point: Point,
+        point: SamplePoint,
         /// The residual there.
         value: f64,
     },

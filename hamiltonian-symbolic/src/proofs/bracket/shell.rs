@@ -8,7 +8,7 @@
 
 use crate::algebra::ball::Ball;
 use crate::dag::{Array, Column, Dag, Kind, Node, Side, Sign};
-use crate::loops::{Point, Sample, Signs, sample};
+use crate::loops::{Sample, SamplePoint, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
 use crate::sort::Arrange;
@@ -128,7 +128,7 @@ pub(super) fn witness(
     residual: Node,
     shell: Node,
     others: &[Node],
-) -> Option<(Point, f64)> {
+) -> Option<(SamplePoint, f64)> {
     let below = model.dag.reachable(&[shell]);
     let of_side = |wanted: Side| -> Vec<Node> {
         let is_wanted = |node: &&Node| match model.dag.kind(**node) {
@@ -148,7 +148,7 @@ fn solved(
     shell: Node,
     others: &[Node],
     variables: &[Node],
-) -> Option<(Point, f64)> {
+) -> Option<(SamplePoint, f64)> {
     let mut all = vec![shell, residual];
     all.extend(others);
     let positive = (0..6).map(|seed| Sample {

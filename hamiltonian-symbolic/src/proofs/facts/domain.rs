@@ -3,7 +3,7 @@
 use super::{Facts, Given};
 use crate::dag::{Dependence, Kind, Node};
 use crate::model::Model;
-use crate::op::{At, NaturalDomain};
+use crate::op::{NaturalDomain, SingularSet};
 use crate::print;
 
 /// The conditions under which expressions have values, as text: "`q - a` is not 0".
@@ -49,7 +49,7 @@ pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
                     }
                     _ => {}
                 }
-                if regularity.pole == Some(At::Cosine) {
+                if regularity.pole == Some(SingularSet::Cosine) {
                     note(x[0], "is no odd multiple of pi/2");
                 }
             }

@@ -14,7 +14,7 @@ use crate::sort::Arrange;
 
 /// M and w.
 #[derive(Debug)]
-pub(super) struct Form {
+pub(super) struct QuadraticForm {
     pub(super) matrix: Vec<Vec<Node>>,
     pub(super) right: Vec<Node>,
     /// The loop over elements, if there is a matrix for each.
@@ -56,7 +56,7 @@ enum Pivot {
     Two(usize, usize),
 }
 
-impl Form {
+impl QuadraticForm {
     /// Solves the form.
     pub(super) fn solve(mut self, model: &mut Model) -> Result<Solved, Singular> {
         let count = self.right.len();

@@ -23,7 +23,7 @@ use crate::model::{Model, Shape};
 use crate::normal_form::{Proof, is_zero};
 use crate::print::{self, Notation};
 use crate::rational::Rational;
-use form::{Form, Singular};
+use form::{QuadraticForm, Singular};
 
 /// The help where arrays are coupled.
 const COUPLED: &str = "arrays of literal length, with at most 16 elements in all, may be coupled in any way: `L(q[4]; v[4])`; else give H(q; p)";
@@ -346,7 +346,7 @@ impl Transform<'_> {
     }
 
     /// M and p − b of a block.
-    fn form(&mut self, block: &Velocities) -> Result<Form, String> {
+    fn form(&mut self, block: &Velocities) -> Result<QuadraticForm, String> {
         let zero = self.model.dag.integer(0);
         let count = block.elements.len();
         let mut matrix = vec![vec![zero; count]; count];
@@ -376,7 +376,7 @@ impl Transform<'_> {
             let offset = at_rest(&mut self.model.dag, momentum);
             right.push(self.model.dag.sub(block.elements[i], offset));
         }
-        Ok(Form {
+        Ok(QuadraticForm {
             matrix,
             right,
             domain: block.domain,

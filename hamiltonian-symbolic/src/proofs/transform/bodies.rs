@@ -11,7 +11,7 @@ use crate::ranges::Ranges;
 
 /// A group of bodies whose number is a size.
 #[derive(Clone, Debug)]
-pub(super) struct Bodies {
+pub(super) struct SizedBodies {
     /// Its number in the old model.
     pub(super) old: u16,
     /// Its number in the new model.
@@ -20,16 +20,16 @@ pub(super) struct Bodies {
     columns: u16,
 }
 
-impl Bodies {
+impl SizedBodies {
     /// The group, if its number of rows is not literal; both loops over it are made in the arena,
     /// so that they have the same numbers in copies of it.
-    pub(super) fn new(model: &mut Model, old: u16, new: u16) -> Option<Bodies> {
+    pub(super) fn new(model: &mut Model, old: u16, new: u16) -> Option<SizedBodies> {
         let shape = &model.groups[usize::from(old)].shape;
         let (rows, columns) = (shape.rows()?.clone(), shape.columns());
         if rows.as_constant().is_some() {
             return None;
         }
-        let bodies = Bodies {
+        let bodies = SizedBodies {
             old,
             new,
             rows,
@@ -144,7 +144,7 @@ impl Bodies {
     pub(super) fn image(
         &self,
         dag: &mut Dag,
-        all: &[Bodies],
+        all: &[SizedBodies],
         (side, column): (Side, u16),
         row: &Index,
     ) -> Option<Node> {
@@ -192,7 +192,7 @@ impl Bodies {
         self.entries(dag, force.at, first, other).to_vec()
     }
 
-    /// The part of a force on old momenta ([`Bodies::apart`]) in that on the new ones:
+    /// The part of a force on old momenta ([`SizedBodies::apart`]) in that on the new ones:
     /// F_0 = Σ f_k, F_i = f_i; added to `found`.
     pub(super) fn force(&self, dag: &mut Dag, force: &VectorEntry, found: &mut Vec<VectorEntry>) {
         let others = self.others(dag);
@@ -223,7 +223,7 @@ impl Bodies {
 }
 
 /// A number that an index is never below, as there are bodies; `None` if it is not known.
-pub(super) fn least(dag: &Dag, index: &Affine, bodies: &[Bodies]) -> Option<i64> {
+pub(super) fn least(dag: &Dag, index: &Affine, bodies: &[SizedBodies]) -> Option<i64> {
     let counts_bodies = |size| bodies.iter().any(|of| of.rows == Affine::size(size));
     dag.extreme(index, End::Least)?.least(counts_bodies)
 }

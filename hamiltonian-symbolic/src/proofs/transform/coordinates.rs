@@ -5,9 +5,9 @@
 //! the new groups of a chart stand where its first old group stood.
 
 use super::NoTransform;
-use super::bodies::Bodies;
+use super::bodies::SizedBodies;
 use super::charts::{self, Chart, Masses, PhaseNodes, Replaced};
-use super::layout::{Layout, Placement, Slot, coordinate, placements};
+use super::layout::{GroupLayout, Placement, Slot, coordinate, placements};
 use super::peel::peel;
 use super::reduce::{self, Rules};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
@@ -33,7 +33,7 @@ pub struct Transformed {
     /// The places of the old variables in a state of the new shape: each element of
     /// phase space once. [`Transformed::forward_placed`] reads them there.
     pub places: Vec<Placement>,
-    bodies: Vec<Bodies>,
+    bodies: Vec<SizedBodies>,
     rules: Rules,
 }
 
@@ -43,7 +43,7 @@ impl Transformed {
     /// # Errors
     /// [`NoTransform`]
     pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Transformed, NoTransform> {
-        let layout = Layout::new(model, charts)?;
+        let layout = GroupLayout::new(model, charts)?;
         let mut source = model.clone();
         let bodies = bodies(&mut source, charts, &layout);
         for of in &bodies {
@@ -274,11 +274,11 @@ fn entries<'a>(
 }
 
 /// The groups of bodies that are mapped in loops.
-fn bodies(model: &mut Model, charts: &[Chart], layout: &Layout) -> Vec<Bodies> {
+fn bodies(model: &mut Model, charts: &[Chart], layout: &GroupLayout) -> Vec<SizedBodies> {
     let places = charts.iter().zip(&layout.places);
     places
         .filter_map(|(chart, place)| match chart {
-            Chart::Heliocentric(bodies) => Bodies::new(model, bodies.group, place.first),
+            Chart::Heliocentric(bodies) => SizedBodies::new(model, bodies.group, place.first),
             _ => None,
         })
         .collect()
@@ -288,8 +288,8 @@ fn bodies(model: &mut Model, charts: &[Chart], layout: &Layout) -> Vec<Bodies> {
 /// reads a replaced coordinate.
 fn written_out(
     model: &Model,
-    layout: &Layout,
-    bodies: &[Bodies],
+    layout: &GroupLayout,
+    bodies: &[SizedBodies],
 ) -> Result<(Model, Vec<Node>), NoTransform> {
     let roots = model.roots();
     let is_looped = |group: &u16| !bodies.iter().any(|b| b.old == *group);
@@ -329,7 +329,7 @@ fn images(
     roots: &[Node],
     inverse: &[VectorEntry],
     kept: &[(u16, u16)],
-    bodies: &[Bodies],
+    bodies: &[SizedBodies],
 ) -> Result<Map<Node, Node>, u16> {
     let mut images: Map<Node, Node> = Map::default();
     for entry in inverse {

@@ -1,6 +1,6 @@
 //! The groups that charts replace, and those in their places.
 //!
-//! Input: a model and charts, each of coordinates of the shape it is for. Output: [`Layout`], or why the charts do not fit. Invariant: the new
+//! Input: a model and charts, each of coordinates of the shape it is for. Output: [`GroupLayout`], or why the charts do not fit. Invariant: the new
 //! groups of a chart stand where its first old group stood; names are told apart.
 
 use super::NoTransform;
@@ -72,15 +72,15 @@ pub(super) struct Mapped {
 }
 
 /// The groups of the new model.
-pub(super) struct Layout {
+pub(super) struct GroupLayout {
     pub(super) groups: Vec<Group>,
     pub(super) places: Vec<Mapped>,
     pub(super) kept: Vec<(u16, u16)>,
     pub(super) replaced: Vec<u16>,
 }
 
-impl Layout {
-    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Layout, NoTransform> {
+impl GroupLayout {
+    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<GroupLayout, NoTransform> {
         let mut replaced: Vec<u16> = Vec::new();
         for chart in charts {
             if let Chart::Jacobi(bodies) = chart
@@ -148,7 +148,7 @@ impl Layout {
                 Mapped { blocks, first }
             })
             .collect();
-        Ok(Layout {
+        Ok(GroupLayout {
             groups,
             places,
             kept,

@@ -24,7 +24,7 @@ pub use time::{Retimed, retime};
 pub use verify::check;
 
 use crate::index::LOOPS;
-use crate::loops::Point;
+use crate::loops::SamplePoint;
 use crate::model::Model;
 use reduce::OPERATIONS;
 use std::fmt;
@@ -96,7 +96,7 @@ pub enum NoTransform {
     /// H in the new variables is not H in the old ones at a point.
     Unverified {
         /// The point, in the new variables.
-        point: Point,
+        point: SamplePoint,
         /// H in the old variables.
         old: f64,
         /// H in the new variables.

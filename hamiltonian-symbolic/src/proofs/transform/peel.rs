@@ -6,7 +6,7 @@
 //! leaves a group of bodies at least one row; other sizes may be 0.
 
 use super::NoTransform;
-use super::bodies::{Bodies, least};
+use super::bodies::{SizedBodies, least};
 use super::layout::coordinate;
 use crate::dag::{Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
@@ -31,7 +31,7 @@ pub(super) fn peel(
     model: &mut Model,
     roots: &[Node],
     written: &[u16],
-    bodies: &[Bodies],
+    bodies: &[SizedBodies],
 ) -> Result<Vec<Node>, NoTransform> {
     let mut roots = roots.to_vec();
     while let Some((node, step)) = candidate(&model.dag, &roots, written, bodies) {
@@ -96,7 +96,7 @@ fn candidate(
     dag: &Dag,
     roots: &[Node],
     written: &[u16],
-    bodies: &[Bodies],
+    bodies: &[SizedBodies],
 ) -> Option<(Node, Change)> {
     let mut found: Option<(usize, Node, Change)> = None;
     for node in dag.reachable(roots) {
@@ -119,7 +119,7 @@ fn step(
     domain: Domain,
     body: Node,
     written: &[u16],
-    bodies: &[Bodies],
+    bodies: &[SizedBodies],
 ) -> Option<Change> {
     let range = dag.range(domain);
     let literal = range.start.as_constant().zip(range.end.as_constant());

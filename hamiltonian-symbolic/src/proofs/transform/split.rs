@@ -6,7 +6,7 @@
 
 use crate::dag::work;
 use crate::dag::{Dag, Node};
-use crate::loops::Point;
+use crate::loops::SamplePoint;
 use crate::model::Model;
 use crate::normal_form::{self, Proof, Scope};
 use crate::print;
@@ -22,7 +22,7 @@ pub struct Difference {
     pub text: String,
     /// A point where it is not 0, and its value there; `None` where no point was found, so that
     /// the question is undecided.
-    pub point: Option<(Point, f64)>,
+    pub point: Option<(SamplePoint, f64)>,
     /// The rule or the limit that stopped the proof, as a clause; empty beside a point.
     pub why: String,
 }

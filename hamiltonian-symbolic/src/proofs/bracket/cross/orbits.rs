@@ -7,11 +7,11 @@
 use super::Claim;
 use crate::bracket::branches::STEP;
 use crate::bracket::derivative;
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Parameter, Part};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Parameter, Partial};
 use crate::facts::{Facts, Given};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
-use crate::op::{At, Far, Op};
+use crate::op::{Far, Op, SingularSet};
 use crate::rational::Rational;
 
 /// The constant that stands for the energy: no parameter of a definition has this number.
@@ -67,7 +67,7 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Lear
                 if is_constant(model, claim, node, given) {
                     given.constant.insert(node, ());
                     found = true;
-                } else if locus.at == At::Zero && is_wall(model, claim, node) {
+                } else if locus.at == SingularSet::Zero && is_wall(model, claim, node) {
                     given.nonzero.insert(node, ());
                     found = true;
                 }
@@ -139,7 +139,7 @@ fn is_constant(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> b
         return claim.is_still;
     }
     let dag = &mut model.dag;
-    let mut sum = dag.external(STEP, Part::Value, &[node]);
+    let mut sum = dag.external(STEP, Partial::Value, &[node]);
     for domain in dag.path(dag.home(node)).into_iter().rev() {
         sum = dag.reduce(domain, sum);
     }

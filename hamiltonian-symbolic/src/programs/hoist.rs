@@ -1,4 +1,4 @@
-//! Arrays of parameters alone that are computed once: `1/m[i]` is read where `p[i]/m[i]` is written.
+//! Loop-invariant expressions of parameter arrays, computed once: `1/m[i]` is read where `p[i]/m[i]` is written.
 //!
 //! Input: expressions of parameter arrays, before they are factored. Output: the same functions;
 //! what takes a division or a function and depends on one row of parameter arrays alone is read
@@ -14,7 +14,7 @@ use crate::rational::Rational;
 /// An array that preparation fills: element k has the value that `value` has where the loop
 /// `domain` is at k.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Held {
+pub struct Hoisted {
     /// The number of elements.
     pub rows: Affine,
     /// The loop over all of them.
@@ -24,7 +24,7 @@ pub struct Held {
 }
 
 /// An index, and how many rows the arrays have that it is of.
-type Access = (Index, Affine);
+type RowAccess = (Index, Affine);
 
 /// The dependences of an expression.
 #[derive(Clone, PartialEq)]
@@ -40,13 +40,13 @@ enum Reads {
 /// The arrays of a program.
 #[derive(Default)]
 pub(crate) struct Arrays {
-    pub(crate) held: Vec<Held>,
+    pub(crate) hoisted: Vec<Hoisted>,
     known: Map<Node, u16>,
 }
 
 impl Arrays {
     /// Rewrites the expressions the roots stand for.
-    pub(crate) fn hold(
+    pub(crate) fn hoist(
         &mut self,
         dag: &mut Dag,
         parameters: &[ParameterDeclaration],
@@ -66,7 +66,7 @@ impl Arrays {
             _ if known[&node].0 != Reads::More => node,
             Kind::Product(k, factors) if !dag.is_sealed(node) => {
                 let mut rest: Factors = Vec::new();
-                let mut groups: Vec<(Access, Factors)> = Vec::new();
+                let mut groups: Vec<(RowAccess, Factors)> = Vec::new();
                 for (base, n) in factors {
                     match row(base) {
                         None => rest.push((new[&base], n)),
@@ -123,16 +123,16 @@ impl Arrays {
             }
             _ => None,
         });
-        let next = self.held.len() as u16;
+        let next = self.hoisted.len() as u16;
         let number = *self.known.entry(value).or_insert(next);
         if number == next {
-            self.held.push(Held {
+            self.hoisted.push(Hoisted {
                 rows,
                 domain,
                 value,
             });
         }
-        dag.element(Array::Held(number), row.clone(), None)
+        dag.element(Array::Hoisted(number), row.clone(), None)
     }
 }
 

@@ -47,7 +47,7 @@ pub struct Ast {
     /// All expressions.
     pub nodes: Vec<Expr>,
     /// All loop variables, each a scope of its own.
-    pub scopes: Vec<Scope>,
+    pub scopes: Vec<LoopVariable>,
     /// All names.
     pub symbols: Symbols,
 }
@@ -73,12 +73,12 @@ pub struct Item {
     /// `const N: usize`.
     pub generics: Vec<Ident>,
     /// The entries between the braces.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<ParameterEntry>,
 }
 
 /// One entry between the braces of the struct.
 #[derive(Debug)]
-pub struct Parameter {
+pub struct ParameterEntry {
     /// Attributes and docs, each with its `#`.
     pub attributes: Vec<TokenStream>,
     /// The name, as the field is called.
@@ -302,13 +302,13 @@ pub enum ExprKind {
     /// A number.
     Number(Rational),
     /// A name, with the innermost loop variable around it.
-    Name(Symbol, Option<ScopeId>),
+    Name(Symbol, Option<LoopVariableId>),
     /// `-a`, `!a`
     Unary(UnaryOp, ExprId),
     /// `a + b` and so on
     Binary(BinaryOp, ExprId, ExprId),
     /// `f(a, …)`; `bracket(a, b)` too
-    Call(Symbol, Option<ScopeId>, Vec<ExprId>),
+    Call(Symbol, Option<LoopVariableId>, Vec<ExprId>),
     /// `base[index]`, `base[index % modulo]`
     Index {
         /// The indexed value.
@@ -323,7 +323,7 @@ pub enum ExprKind {
     /// `i in lower..upper`: binds a loop variable for the nodes up to its [`ExprKind::Sum`].
     Bind {
         /// The loop variable.
-        scope: ScopeId,
+        scope: LoopVariableId,
         /// The first value.
         lower: ExprId,
         /// One past the last value.
@@ -332,7 +332,7 @@ pub enum ExprKind {
     /// `sum(i in a..b, j in c..d) { body }`
     Sum {
         /// Its loop variables, outermost first.
-        scopes: Vec<ScopeId>,
+        scopes: Vec<LoopVariableId>,
         /// The summand.
         body: ExprId,
     },
@@ -420,9 +420,9 @@ impl BinaryOp {
 
 /// One loop variable of a sum.
 #[derive(Debug)]
-pub struct Scope {
+pub struct LoopVariable {
     /// The innermost loop variable around this one.
-    pub parent: Option<ScopeId>,
+    pub parent: Option<LoopVariableId>,
     /// The loop variable.
     pub name: Ident,
     /// The loop variable, interned.
@@ -431,7 +431,7 @@ pub struct Scope {
 
 /// The index of a loop variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ScopeId(pub u32);
+pub struct LoopVariableId(pub u32);
 
 /// A name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -9,10 +9,10 @@
 //! - Scopes, `let`s and functions are resolved: a `let` value is its node, and a `let` function is
 //!   instantiated at every call with the nodes of its arguments. Loop variables are leaves. Only
 //!   the names of the `let`s remain, in [`Checked::lets`].
-//! - Every node is well typed: the comments of [`Kind`] state operand and result types. [`Type`]
+//! - Every node is well typed: the comments of [`NodeKind`] state operand and result types. [`Type`]
 //!   extents are equal exactly if they are the same size.
 //! - Every [`Affine`] mentions only sizes and the loops around it. A loop's bounds
-//!   mention only loops outside it; a [`Kind::Sum`] lists its loops outermost first. A range with an
+//!   mention only loops outside it; a [`NodeKind::Sum`] lists its loops outermost first. A range with an
 //!   upper bound not above its lower one is empty, its sum zero.
 //! - Loops are not shared between sums, so a loop variable stands for one loop only.
 //! - A [`Domain`] is an index into [`Checked::loops`], a [`Size`] one into [`Checked::sizes`].
@@ -172,7 +172,7 @@ pub enum Variable {
 pub enum Definition {
     /// `H(q; p[; t]) = …`, a scalar
     Hamiltonian(NodeId),
-    /// `L(q; v[; t]) = …`, a scalar without [`Variable::Momentum`] and [`Kind::Hamiltonian`].
+    /// `L(q; v[; t]) = …`, a scalar without [`Variable::Momentum`] and [`NodeKind::Hamiltonian`].
     /// Elsewhere in such a definition [`Variable::Velocity`] means the velocity as a function of q, p.
     Lagrangian(NodeId),
 }
@@ -226,12 +226,12 @@ pub struct Reach {
     /// The form that must be ≥ 0 in all iterations.
     pub form: Affine,
     /// The values that the form may not reach.
-    pub limit: Limit,
+    pub limit: Bound,
 }
 
 /// The upper bound of a [`Reach`], excluded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Limit {
+pub enum Bound {
     /// The extent that an index goes into.
     Extent(Extent),
     /// None: the form is the first value of a range.
@@ -374,7 +374,7 @@ impl Type {
 #[derive(Debug)]
 pub struct Node {
     /// The operation, with its operands.
-    pub kind: Kind,
+    pub kind: NodeKind,
     /// The type of its value.
     pub ty: Type,
     /// From its first to its last token.
@@ -385,7 +385,7 @@ pub struct Node {
 
 /// The kind of a node. S is a scalar, V a vector, M a matrix, X any of the three, B a condition.
 #[derive(Debug)]
-pub enum Kind {
+pub enum NodeKind {
     /// S: an exact number.
     Number(Rational),
     /// S: π.
@@ -444,30 +444,30 @@ pub enum Kind {
     },
 }
 
-impl Kind {
+impl NodeKind {
     /// Calls `visit` with every child, in the order they are written.
     pub fn for_each_child(&self, mut visit: impl FnMut(NodeId)) {
         match self {
-            Kind::Number(_)
-            | Kind::Pi
-            | Kind::Phase(..)
-            | Kind::Time
-            | Kind::Parameter(_)
-            | Kind::Capture(_)
-            | Kind::Size(_)
-            | Kind::Loop(_)
-            | Kind::Hamiltonian => {}
-            Kind::Unary(_, a) => visit(*a),
-            Kind::Binary(_, a, b) | Kind::Bracket(a, b) => {
+            NodeKind::Number(_)
+            | NodeKind::Pi
+            | NodeKind::Phase(..)
+            | NodeKind::Time
+            | NodeKind::Parameter(_)
+            | NodeKind::Capture(_)
+            | NodeKind::Size(_)
+            | NodeKind::Loop(_)
+            | NodeKind::Hamiltonian => {}
+            NodeKind::Unary(_, a) => visit(*a),
+            NodeKind::Binary(_, a, b) | NodeKind::Bracket(a, b) => {
                 visit(*a);
                 visit(*b);
             }
-            Kind::Index { base, .. } => visit(*base),
-            Kind::Vector(items) | Kind::Call(_, items) | Kind::Function(_, items) => {
+            NodeKind::Index { base, .. } => visit(*base),
+            NodeKind::Vector(items) | NodeKind::Call(_, items) | NodeKind::Function(_, items) => {
                 items.iter().copied().for_each(visit);
             }
-            Kind::Sum { body, .. } => visit(*body),
-            Kind::If {
+            NodeKind::Sum { body, .. } => visit(*body),
+            NodeKind::If {
                 condition,
                 then,
                 otherwise,

@@ -13,7 +13,7 @@ mod operator;
 mod path;
 mod statement;
 
-use crate::ast::{Ast, Expr, ExprId, ExprKind, Expression, ScopeId};
+use crate::ast::{Ast, Expr, ExprId, ExprKind, Expression, LoopVariableId};
 use crate::names;
 use crate::report::{Report, Spans};
 use crate::tokens::{Token, TokenKind, Tokens};
@@ -62,7 +62,7 @@ struct Parser<'a> {
     separator_missing: Option<usize>,
     depth: u32,
     /// The innermost loop variable in scope.
-    scope: Option<ScopeId>,
+    scope: Option<LoopVariableId>,
     /// The limit of the group in which the condition of an `if` is being read.
     condition: Option<usize>,
     /// Operators that wait for their right operand.
@@ -196,8 +196,8 @@ impl<'a> Parser<'a> {
     }
 
     /// Enters the group at the cursor; the returned limit goes to [`Parser::leave`].
-    fn enter(&mut self) -> Limit {
-        let outer = Limit {
+    fn enter(&mut self) -> SavedLimit {
+        let outer = SavedLimit {
             limit: self.limit,
             close: self.tokens[self.position].close,
         };
@@ -206,7 +206,7 @@ impl<'a> Parser<'a> {
         outer
     }
 
-    fn leave(&mut self, outer: Limit) {
+    fn leave(&mut self, outer: SavedLimit) {
         self.position = outer.close + 1;
         self.limit = outer.limit;
     }
@@ -375,7 +375,7 @@ impl<'a> Parser<'a> {
 }
 
 /// The state [`Parser::leave`] goes back to.
-struct Limit {
+struct SavedLimit {
     limit: usize,
     close: usize,
 }

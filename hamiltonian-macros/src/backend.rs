@@ -17,7 +17,7 @@ use hamiltonian_language::check::SHARE_LOOPS;
 use hamiltonian_language::checked::{Checked, Definition};
 use hamiltonian_language::lower::{Beyond, ends, lower};
 use hamiltonian_language::report::{Report, Spans};
-use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
+use hamiltonian_symbolic::dag::{Kind, Node};
 use hamiltonian_symbolic::index::LOOPS;
 use hamiltonian_symbolic::legendre::Readable;
 use hamiltonian_symbolic::model::Model;
@@ -143,9 +143,9 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
 /// The operations of H by itself, each loop body counted once.
 fn operations(model: &Model) -> usize {
     let count = |node: &Node| match model.dag.kind(*node) {
-        NodeKind::Sum(_, terms) => terms.len().saturating_sub(1),
-        NodeKind::Product(_, factors) => factors.len().saturating_sub(1),
-        NodeKind::Call(..) | NodeKind::External(..) => 1,
+        Kind::Sum(_, terms) => terms.len().saturating_sub(1),
+        Kind::Product(_, factors) => factors.len().saturating_sub(1),
+        Kind::Call(..) | Kind::External(..) => 1,
         _ => 0,
     };
     model.dag.reachable(&[model.h()]).iter().map(count).sum()

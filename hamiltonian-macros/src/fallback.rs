@@ -7,7 +7,7 @@
 //! `compile_error!` is the value; in item form the type is an alias of a struct with the declared
 //! fields, one of whose const arguments is the last `compile_error!`.
 
-use hamiltonian_language::ast::{Ast, Header, Item, Parameter, ParameterKind};
+use hamiltonian_language::ast::{Ast, Header, Item, ParameterEntry, ParameterKind};
 use hamiltonian_language::names;
 use hamiltonian_language::report::Report;
 use hamiltonian_language::tokens::is_attribute;
@@ -49,7 +49,7 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
     let is_number =
         |kind: &ParameterKind| !matches!(kind, ParameterKind::Size | ParameterKind::Function(_));
     let is_function =
-        |parameter: &&&Parameter| matches!(parameter.kind, ParameterKind::Function(_));
+        |parameter: &&&ParameterEntry| matches!(parameter.kind, ParameterKind::Function(_));
     let functions = parameters.iter().filter(is_function);
     let functions: Vec<Ident> = functions
         .map(|parameter| format_ident!("__F{}", parameter.name))

@@ -6,7 +6,7 @@
 use super::Checker;
 use super::expr::Frame;
 use crate::ast::{BinaryOp, ExprId, ExprKind};
-use crate::checked::{Kind, NodeId};
+use crate::checked::{NodeId, NodeKind};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 
 /// The help for an index of no known form.
@@ -88,19 +88,19 @@ impl Checker<'_> {
             .map(|node| &self.out.nodes[node.0 as usize].kind);
         let form = |node: &NodeId| self.affines[node.0 as usize].as_ref();
         let (message, help) = match kind {
-            Some(Kind::Capture(_)) => (
+            Some(NodeKind::Capture(_)) => (
                 format!("`{name}` is a captured value, not a size"),
                 format!("write a number; sizes need the item form, with `{name}: usize`"),
             ),
-            Some(Kind::Parameter(_)) if !name.is_empty() => (
+            Some(NodeKind::Parameter(_)) if !name.is_empty() => (
                 format!("`{name}` is a parameter, not a size"),
                 format!("declare it as a size: `{name}: usize`"),
             ),
-            Some(Kind::Number(number)) if number.is_integer() => (
+            Some(NodeKind::Number(number)) if number.is_integer() => (
                 "this number is too large for an index or a range".into(),
                 format!("write one up to {}", i64::MAX),
             ),
-            Some(Kind::Binary(op @ (BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul), a, b))
+            Some(NodeKind::Binary(op @ (BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul), a, b))
                 if [a, b].iter().all(|side| form(side).is_some()) =>
             {
                 let forms = [a, b].map(form).into_iter().flatten();

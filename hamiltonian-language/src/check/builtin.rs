@@ -6,8 +6,8 @@
 use super::expr::Frame;
 use super::lookup::Found;
 use super::{Binding, Checker};
-use crate::ast::{BinaryOp, ExprId, ScopeId, Symbol};
-use crate::checked::{Extent, Kind, NodeId, Type};
+use crate::ast::{BinaryOp, ExprId, LoopVariableId, Symbol};
+use crate::checked::{Extent, NodeId, NodeKind, Type};
 use crate::names::{self, Builtin, Entry};
 use hamiltonian_symbolic::op::Op;
 
@@ -19,7 +19,7 @@ impl Checker<'_> {
         &mut self,
         raw: ExprId,
         symbol: Symbol,
-        scope: Option<ScopeId>,
+        scope: Option<LoopVariableId>,
         arguments: &[ExprId],
         frame: &Frame,
     ) -> Option<NodeId> {
@@ -41,7 +41,7 @@ impl Checker<'_> {
                 let shown = self.function_shown(binding);
                 self.arity(raw, arity, arguments.len(), &shown)?;
                 let values = self.scalars(name, arguments, frame)?;
-                self.push(raw, Kind::Function(id, values), Type::Scalar)
+                self.push(raw, NodeKind::Function(id, values), Type::Scalar)
             }
             Some(Found::Declared(Binding::Erroneous)) => None,
             Some(found) => {
@@ -163,7 +163,7 @@ impl Checker<'_> {
                 let values = self.scalars(entry.name, arguments, frame)?;
                 let kind = match (entry.function, values.as_slice()) {
                     (Builtin::Elementary(Op::Pow), [base, exponent]) => {
-                        Kind::Binary(BinaryOp::Pow, *base, *exponent)
+                        NodeKind::Binary(BinaryOp::Pow, *base, *exponent)
                     }
                     (Builtin::Bracket, [a, b]) => {
                         if !self.active.is_empty() {
@@ -173,16 +173,16 @@ impl Checker<'_> {
                                 "take the bracket of the whole sums: `bracket(sum(…) { … }, b)`",
                             );
                         }
-                        Kind::Bracket(*a, *b)
+                        NodeKind::Bracket(*a, *b)
                     }
-                    (function, _) => Kind::Call(function, values),
+                    (function, _) => NodeKind::Call(function, values),
                 };
                 self.push(raw, kind, Type::Scalar)
             }
             Builtin::Dot | Builtin::Norm | Builtin::NormSquared => {
                 let values = self.vectors(entry, arguments, frame)?;
                 self.equal_extents(raw, entry, &values)?;
-                self.push(raw, Kind::Call(entry.function, values), Type::Scalar)
+                self.push(raw, NodeKind::Call(entry.function, values), Type::Scalar)
             }
             Builtin::Cross => {
                 let values = self.vectors(entry, arguments, frame)?;
@@ -206,7 +206,7 @@ impl Checker<'_> {
                         return None;
                     }
                 }
-                self.push(raw, Kind::Call(entry.function, values), space)
+                self.push(raw, NodeKind::Call(entry.function, values), space)
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use super::Checker;
 use crate::ast::StatementKind;
-use crate::checked::{self, Extent, GroupId, Limit, Reach, Type, Variable};
+use crate::checked::{self, Bound, Extent, GroupId, Reach, Type, Variable};
 use crate::names;
 use crate::report::Spans;
 use hamiltonian_symbolic::dag::Parameter;
@@ -69,7 +69,7 @@ impl Checker<'_> {
                 span: positions.span(),
                 loops: Vec::new(),
                 form: Affine::constant(0),
-                limit: Limit::Extent(bodies),
+                limit: Bound::Extent(bodies),
             });
         }
     }

@@ -6,7 +6,7 @@
 use super::{Binding, Checker};
 use crate::ast::{ExprKind, Expression, Function, ParameterKind, Size, StatementKind};
 use crate::checked::{
-    Extent, Field, FunctionId, Kind, NodeId, Parameter, ParameterId, SizeDeclaration, Type,
+    Extent, Field, FunctionId, NodeId, NodeKind, Parameter, ParameterId, SizeDeclaration, Type,
 };
 use hamiltonian_symbolic::index;
 use proc_macro2::{Ident, Span};
@@ -181,12 +181,12 @@ impl Checker<'_> {
         while let Some(id) = pending.pop() {
             let node = self.out.node(id);
             match &node.kind {
-                Kind::Number(_)
-                | Kind::Pi
-                | Kind::Unary(..)
-                | Kind::Binary(..)
-                | Kind::Vector(_)
-                | Kind::Call(..) => node.kind.for_each_child(|child| pending.push(child)),
+                NodeKind::Number(_)
+                | NodeKind::Pi
+                | NodeKind::Unary(..)
+                | NodeKind::Binary(..)
+                | NodeKind::Vector(_)
+                | NodeKind::Call(..) => node.kind.for_each_child(|child| pending.push(child)),
                 _ => {
                     let message = format!("the default of `{name}` is not made of numbers alone");
                     let help = "write a number, such as `0.5`, `2/3` or `pi/4`";
@@ -198,7 +198,7 @@ impl Checker<'_> {
         let mut numbers = Vec::new();
         for row in rows {
             match &self.out.node(row).kind {
-                Kind::Vector(items) => numbers.extend(items),
+                NodeKind::Vector(items) => numbers.extend(items),
                 _ if ty == Type::Scalar => numbers.push(row),
                 _ => {
                     let message = format!("the default of `{name}` is not a list of numbers");

@@ -7,8 +7,8 @@
 //! [`Checked`]: crate::checked::Checked
 
 use super::Checker;
-use crate::ast::{BinaryOp, ExprId, ExprKind, Expression, ScopeId, Symbol, UnaryOp};
-use crate::checked::{Extent, Kind, Node, NodeId, Type, Variable};
+use crate::ast::{BinaryOp, ExprId, ExprKind, Expression, LoopVariableId, Symbol, UnaryOp};
+use crate::checked::{Extent, Node, NodeId, NodeKind, Type, Variable};
 use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::Affine;
@@ -163,14 +163,14 @@ impl Checker<'_> {
         None
     }
 
-    pub(super) fn push(&mut self, raw: ExprId, kind: Kind, ty: Type) -> Option<NodeId> {
+    pub(super) fn push(&mut self, raw: ExprId, kind: NodeKind, ty: Type) -> Option<NodeId> {
         self.push_affine(raw, kind, ty, None)
     }
 
     pub(super) fn push_affine(
         &mut self,
         raw: ExprId,
-        kind: Kind,
+        kind: NodeKind,
         ty: Type,
         affine: Option<Affine>,
     ) -> Option<NodeId> {
@@ -195,7 +195,7 @@ impl Checker<'_> {
                     Some((whole, 1)) => Some(Affine::constant(whole)),
                     _ => None,
                 };
-                self.push_affine(raw, Kind::Number(number.clone()), Type::Scalar, affine)
+                self.push_affine(raw, NodeKind::Number(number.clone()), Type::Scalar, affine)
             }
             ExprKind::Name(symbol, scope) => self.name(raw, *symbol, *scope, frame),
             ExprKind::Unary(op, operand) => self.unary(raw, *op, *operand, frame),
@@ -239,11 +239,11 @@ impl Checker<'_> {
                 let affine = self.affines[value.0 as usize]
                     .as_ref()
                     .and_then(|a| Affine::default().checked_plus(-1, a));
-                self.push_affine(raw, Kind::Unary(op, value), ty, affine)
+                self.push_affine(raw, NodeKind::Unary(op, value), ty, affine)
             }
             UnaryOp::Not => {
                 let value = self.condition(operand, frame)?;
-                self.push(raw, Kind::Unary(op, value), Type::Bool)
+                self.push(raw, NodeKind::Unary(op, value), Type::Bool)
             }
         }
     }
@@ -259,7 +259,7 @@ impl Checker<'_> {
         if matches!(op, BinaryOp::And | BinaryOp::Or) {
             let (a, b) = (self.condition(left, frame), self.condition(right, frame));
             let (a, b) = (a?, b?);
-            return self.push(raw, Kind::Binary(op, a, b), Type::Bool);
+            return self.push(raw, NodeKind::Binary(op, a, b), Type::Bool);
         }
         let (a, b) = (self.number(left, frame), self.number(right, frame));
         let ((a, left_type), (b, right_type)) = (a?, b?);
@@ -290,7 +290,7 @@ impl Checker<'_> {
         let Some(ty) = ty else {
             return self.shapes_differ(raw, op, (left, left_type), (right, right_type));
         };
-        self.push_affine(raw, Kind::Binary(op, a, b), ty, affine)
+        self.push_affine(raw, NodeKind::Binary(op, a, b), ty, affine)
     }
 
     /// Refuses two operands whose shapes the operator cannot combine.
@@ -360,10 +360,10 @@ impl Checker<'_> {
 
     /// Returns true for a parameter, and for an element of one.
     fn is_of_parameter(&self, mut node: NodeId) -> bool {
-        while let Kind::Index { base, .. } = self.out.nodes[node.0 as usize].kind {
+        while let NodeKind::Index { base, .. } = self.out.nodes[node.0 as usize].kind {
             node = base;
         }
-        matches!(self.out.nodes[node.0 as usize].kind, Kind::Parameter(_))
+        matches!(self.out.nodes[node.0 as usize].kind, NodeKind::Parameter(_))
     }
 
     /// An operand that is a number or an array.
@@ -450,11 +450,11 @@ impl Checker<'_> {
                     _ => "a scalar has no components".into(),
                 };
                 let help = match self.out.nodes[value.0 as usize].kind {
-                    Kind::Capture(_) => {
+                    NodeKind::Capture(_) => {
                         "captured names are scalars: write a parameter `name: [N]` in item form"
                     }
-                    Kind::Parameter(_) => "declare it as an array: `name: [N]`",
-                    Kind::Phase(Variable::Coordinate | Variable::Momentum, _) => {
+                    NodeKind::Parameter(_) => "declare it as an array: `name: [N]`",
+                    NodeKind::Phase(Variable::Coordinate | Variable::Momentum, _) => {
                         "declare it with its extent: `H(q[N]; p[N])`"
                     }
                     _ => "remove the index",
@@ -463,7 +463,7 @@ impl Checker<'_> {
             }
         };
         let index = self.checked_index(value, index, frame, extent)?;
-        self.push(raw, Kind::Index { base: value, index }, ty)
+        self.push(raw, NodeKind::Index { base: value, index }, ty)
     }
 
     fn vector(&mut self, raw: ExprId, items: &[ExprId], frame: &Frame) -> Option<NodeId> {
@@ -484,13 +484,13 @@ impl Checker<'_> {
             (message, help)
         })?;
         let ty = Type::Vector(Extent::Literal(values.len() as u64));
-        self.push(raw, Kind::Vector(values), ty)
+        self.push(raw, NodeKind::Vector(values), ty)
     }
 
     fn sum(
         &mut self,
         raw: ExprId,
-        scopes: &[ScopeId],
+        scopes: &[LoopVariableId],
         body: ExprId,
         frame: &Frame,
     ) -> Option<NodeId> {
@@ -507,7 +507,7 @@ impl Checker<'_> {
         let first = loops[0].0;
         self.push(
             raw,
-            Kind::Sum {
+            NodeKind::Sum {
                 loops: first..first + loops.len() as u32,
                 body,
             },
@@ -538,7 +538,7 @@ impl Checker<'_> {
         }
         self.push(
             raw,
-            Kind::If {
+            NodeKind::If {
                 condition,
                 then,
                 otherwise,

@@ -6,7 +6,7 @@
 
 use super::Checker;
 use crate::ast::{ExprKind, Expression, Signature, Size, Statement};
-use crate::checked::{Kind, Loop, Type};
+use crate::checked::{Loop, NodeKind, Type};
 use crate::names::listed;
 use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
@@ -138,7 +138,7 @@ impl Checker<'_> {
             });
             self.out.force_rows.push(id);
             let index = Some(Affine::variable(id));
-            let row = self.push_affine(value.root, Kind::Loop(id), Type::Scalar, index);
+            let row = self.push_affine(value.root, NodeKind::Loop(id), Type::Scalar, index);
             arguments.extend(symbol.map(|symbol| (symbol, row)));
         }
         let root = value.root;

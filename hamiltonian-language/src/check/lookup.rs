@@ -5,8 +5,8 @@
 
 use super::expr::Frame;
 use super::{Binding, Checker, Position};
-use crate::ast::{ExprId, ScopeId, StatementKind, Symbol};
-use crate::checked::{CaptureId, Kind, NodeId, Type, Variable};
+use crate::ast::{ExprId, LoopVariableId, StatementKind, Symbol};
+use crate::checked::{CaptureId, NodeId, NodeKind, Type, Variable};
 use crate::names;
 use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
@@ -24,7 +24,7 @@ impl Checker<'_> {
     pub(super) fn find(
         &self,
         symbol: Symbol,
-        scope: Option<ScopeId>,
+        scope: Option<LoopVariableId>,
         frame: &Frame,
     ) -> Option<Found> {
         let mut inner = scope;
@@ -55,7 +55,7 @@ impl Checker<'_> {
         &mut self,
         raw: ExprId,
         symbol: Symbol,
-        scope: Option<ScopeId>,
+        scope: Option<LoopVariableId>,
         frame: &Frame,
     ) -> Option<NodeId> {
         let binding = match self.find(symbol, scope, frame) {
@@ -63,7 +63,7 @@ impl Checker<'_> {
                 let id = id?;
                 return self.push_affine(
                     raw,
-                    Kind::Loop(id),
+                    NodeKind::Loop(id),
                     Type::Scalar,
                     Some(Affine::variable(id)),
                 );
@@ -75,13 +75,16 @@ impl Checker<'_> {
         match binding {
             Binding::Value(value) => value,
             Binding::Erroneous => None,
-            Binding::Time => self.push(raw, Kind::Time, Type::Scalar),
-            Binding::Size(id) => {
-                self.push_affine(raw, Kind::Size(id), Type::Scalar, Some(Affine::size(id)))
-            }
+            Binding::Time => self.push(raw, NodeKind::Time, Type::Scalar),
+            Binding::Size(id) => self.push_affine(
+                raw,
+                NodeKind::Size(id),
+                Type::Scalar,
+                Some(Affine::size(id)),
+            ),
             Binding::Parameter(id) => {
                 let ty = self.out.parameters[id.0 as usize].ty;
-                self.push(raw, Kind::Parameter(id), ty)
+                self.push(raw, NodeKind::Parameter(id), ty)
             }
             Binding::Phase(Variable::Momentum, id)
                 if self.is_lagrangian() && self.place != Position::After =>
@@ -99,7 +102,7 @@ impl Checker<'_> {
             }
             Binding::Phase(variable, id) => {
                 let ty = self.out.groups[id.0 as usize].ty;
-                self.push(raw, Kind::Phase(variable, id), ty)
+                self.push(raw, NodeKind::Phase(variable, id), ty)
             }
             Binding::LetFunction(_) | Binding::Function(_) => {
                 let name = self.ast.symbols.name(symbol);
@@ -127,7 +130,7 @@ impl Checker<'_> {
         let ast = self.ast;
         let name = ast.symbols.name(symbol);
         if name == "pi" {
-            return self.push(raw, Kind::Pi, Type::Scalar);
+            return self.push(raw, NodeKind::Pi, Type::Scalar);
         }
         if name == "H" {
             return self.hamiltonian(raw);
@@ -135,7 +138,7 @@ impl Checker<'_> {
         if let Some((group, variable, chart)) = self.new_of_bodies(name) {
             if self.in_split {
                 let ty = self.out.groups[group.0 as usize].ty;
-                return self.push(raw, Kind::Phase(variable, group), ty);
+                return self.push(raw, NodeKind::Phase(variable, group), ty);
             }
             let message = format!(
                 "`{name}` is a variable of `coordinates {chart}`, which only `split` reads"
@@ -283,7 +286,7 @@ impl Checker<'_> {
     /// `H` as a value.
     fn hamiltonian(&mut self, raw: ExprId) -> Option<NodeId> {
         match (self.place, self.is_lagrangian()) {
-            (Position::After, _) => self.push(raw, Kind::Hamiltonian, Type::Scalar),
+            (Position::After, _) => self.push(raw, NodeKind::Hamiltonian, Type::Scalar),
             (Position::Within, false) => self.refuse(
                 raw,
                 "`H` is defined in terms of itself",
@@ -312,6 +315,10 @@ impl Checker<'_> {
                 .push(Ident::new(name, self.ast.nodes[raw.0 as usize].at.start));
             self.out.captures.len() - 1
         });
-        self.push(raw, Kind::Capture(CaptureId(index as u32)), Type::Scalar)
+        self.push(
+            raw,
+            NodeKind::Capture(CaptureId(index as u32)),
+            Type::Scalar,
+        )
     }
 }

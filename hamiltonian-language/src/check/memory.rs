@@ -6,7 +6,7 @@
 
 use super::Checker;
 use crate::ast::ExprId;
-use crate::checked::{Extent, Limit, Reach};
+use crate::checked::{Bound, Extent, Reach};
 use hamiltonian_symbolic::index::{Affine, End, Size};
 use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Span;
@@ -43,7 +43,7 @@ impl Checker<'_> {
             span,
             loops: Vec::new(),
             form: form.clone(),
-            limit: Limit::Memory,
+            limit: Bound::Memory,
         });
     }
 

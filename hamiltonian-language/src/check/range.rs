@@ -6,7 +6,7 @@
 use super::Checker;
 use super::expr::Frame;
 use super::lookup::Found;
-use crate::ast::{ExprId, ScopeId, Symbol};
+use crate::ast::{ExprId, LoopVariableId, Symbol};
 use crate::checked::Loop;
 use hamiltonian_symbolic::index::Domain;
 
@@ -19,7 +19,7 @@ impl Checker<'_> {
     pub(super) fn bind(
         &mut self,
         raw: ExprId,
-        scope: ScopeId,
+        scope: LoopVariableId,
         bounds: (ExprId, ExprId),
         frame: &Frame,
     ) {
@@ -46,7 +46,13 @@ impl Checker<'_> {
         self.active.push(id);
     }
 
-    fn loop_name_is_new(&mut self, raw: ExprId, scope: ScopeId, symbol: Symbol, frame: &Frame) {
+    fn loop_name_is_new(
+        &mut self,
+        raw: ExprId,
+        scope: LoopVariableId,
+        symbol: Symbol,
+        frame: &Frame,
+    ) {
         let around = self.ast.scopes[scope.0 as usize].parent;
         let what = match self.find(symbol, around, frame) {
             None => None,

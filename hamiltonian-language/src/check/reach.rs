@@ -11,7 +11,7 @@ use super::Checker;
 use super::MANY_SIZES;
 use super::expr::Frame;
 use crate::ast::ExprId;
-use crate::checked::{Extent, Kind, Limit, Loop, NodeId, Reach, Variable};
+use crate::checked::{Bound, Extent, Loop, NodeId, NodeKind, Reach, Variable};
 use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
 use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Ident;
@@ -117,7 +117,7 @@ impl Checker<'_> {
             span: self.ast.nodes[raw.0 as usize].spans.start,
             loops: self.with_bounds(self.own_loops(&index.affine)),
             form,
-            limit: Limit::Extent(extent),
+            limit: Bound::Extent(extent),
         });
     }
 
@@ -157,7 +157,7 @@ impl Checker<'_> {
     /// The name of the indexed value, as far as it has one.
     fn base_shown(&self, base: NodeId) -> String {
         match &self.out.nodes[base.0 as usize].kind {
-            Kind::Phase(variable, group) => {
+            NodeKind::Phase(variable, group) => {
                 let names = &self.out.groups[group.0 as usize];
                 let name = match variable {
                     Variable::Coordinate => Some(&names.coordinate),
@@ -170,10 +170,10 @@ impl Checker<'_> {
                     .or_else(|| self.new_name(*group, *variable));
                 name.expect("a group has a name for what is read of it")
             }
-            Kind::Parameter(parameter) => {
+            NodeKind::Parameter(parameter) => {
                 self.out.parameters[parameter.0 as usize].name.to_string()
             }
-            Kind::Index { base, index } => {
+            NodeKind::Index { base, index } => {
                 format!("{}[{}]", self.base_shown(*base), self.index_shown(index))
             }
             _ => "(…)".to_owned(),
@@ -255,7 +255,7 @@ impl Checker<'_> {
             span: self.ast.nodes[raw.0 as usize].spans.start,
             loops: self.with_bounds(own),
             form: lower.clone(),
-            limit: Limit::Nothing,
+            limit: Bound::Nothing,
         });
     }
 

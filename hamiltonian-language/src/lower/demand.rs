@@ -7,7 +7,7 @@
 use super::LARGEST;
 use super::loops::Loops;
 use crate::ast::BinaryOp;
-use crate::checked::{Checked, Extent, Kind, NodeId, Type};
+use crate::checked::{Checked, Extent, NodeId, NodeKind, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::dag::Dag;
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
@@ -238,8 +238,8 @@ impl<'a> Demands<'a> {
         let mut at = node;
         loop {
             let (first, second, negative) = match &self.checked.node(at).kind {
-                Kind::Binary(BinaryOp::Add, a, b) => (*a, *b, false),
-                Kind::Binary(BinaryOp::Sub, a, b) => (*a, *b, true),
+                NodeKind::Binary(BinaryOp::Add, a, b) => (*a, *b, false),
+                NodeKind::Binary(BinaryOp::Sub, a, b) => (*a, *b, true),
                 _ => break,
             };
             terms.push((negative, second));
@@ -277,36 +277,38 @@ impl<'a> Demands<'a> {
             }
         };
         match &this.kind {
-            Kind::Binary(BinaryOp::Mul, a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
-                (Type::Matrix(_, columns), Type::Vector(_)) => {
-                    for k in self.run(dag, node, &[*b], columns, demand).indices() {
-                        let row = &demand.indices[0];
-                        wanted.push((*a, demand.with(vec![row.clone(), k.clone()])));
-                        wanted.push((*b, demand.with(vec![k])));
+            NodeKind::Binary(BinaryOp::Mul, a, b) => {
+                match (checked.node(*a).ty, checked.node(*b).ty) {
+                    (Type::Matrix(_, columns), Type::Vector(_)) => {
+                        for k in self.run(dag, node, &[*b], columns, demand).indices() {
+                            let row = &demand.indices[0];
+                            wanted.push((*a, demand.with(vec![row.clone(), k.clone()])));
+                            wanted.push((*b, demand.with(vec![k])));
+                        }
                     }
+                    _ => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
                 }
-                _ => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
-            },
-            Kind::Unary(_, a) => wanted.push((*a, same(*a))),
-            Kind::Binary(BinaryOp::Add | BinaryOp::Sub, ..) => {
+            }
+            NodeKind::Unary(_, a) => wanted.push((*a, same(*a))),
+            NodeKind::Binary(BinaryOp::Add | BinaryOp::Sub, ..) => {
                 wanted.extend(
                     self.terms(node)
                         .into_iter()
                         .map(|(_, term)| (term, same(term))),
                 );
             }
-            Kind::Binary(_, a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
-            Kind::Index { base, index } => {
+            NodeKind::Binary(_, a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
+            NodeKind::Index { base, index } => {
                 let mut indices = vec![index.substitute(|id| self.variable(dag, id, demand))];
                 indices.extend(demand.indices.iter().cloned());
                 wanted.push((*base, demand.with(indices)));
             }
-            Kind::Vector(items) => {
+            NodeKind::Vector(items) => {
                 if let Some(at) = demand.number(0, items.len()) {
                     wanted.push((items[at], demand.scalar()));
                 }
             }
-            Kind::Call(Builtin::Cross, items) => {
+            NodeKind::Call(Builtin::Cross, items) => {
                 if let Some(at) = demand.number(0, 3) {
                     let (i, j) = ((at as i64 + 1) % 3, (at as i64 + 2) % 3);
                     for (item, component) in
@@ -316,7 +318,7 @@ impl<'a> Demands<'a> {
                     }
                 }
             }
-            Kind::Call(Builtin::Dot | Builtin::Norm | Builtin::NormSquared, items) => {
+            NodeKind::Call(Builtin::Dot | Builtin::Norm | Builtin::NormSquared, items) => {
                 let Type::Vector(extent) = checked.node(items[0]).ty else {
                     return Ok(wanted);
                 };
@@ -327,7 +329,7 @@ impl<'a> Demands<'a> {
                     }
                 }
             }
-            Kind::Sum { .. }
+            NodeKind::Sum { .. }
                 if demand
                     .indices
                     .iter()
@@ -338,11 +340,11 @@ impl<'a> Demands<'a> {
                     "choose the component inside the sum: `sum(i in 0..n) { w[i][k] }`",
                 ));
             }
-            Kind::Sum { loops, body } => {
+            NodeKind::Sum { loops, body } => {
                 let all = self.unrolled_values(dag, loops.clone(), demand)?;
                 wanted.extend(all.into_iter().map(|one| (*body, one)));
             }
-            Kind::If {
+            NodeKind::If {
                 condition,
                 then,
                 otherwise,

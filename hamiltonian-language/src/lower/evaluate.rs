@@ -8,7 +8,7 @@ use super::domain;
 use super::velocity;
 use super::{Beyond, LARGEST};
 use crate::ast::{BinaryOp, Comparison, UnaryOp};
-use crate::checked::{Checked, Definition, Kind, NodeId, Type, Variable};
+use crate::checked::{Checked, Definition, NodeId, NodeKind, Type, Variable};
 use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
@@ -168,8 +168,8 @@ impl<'a> Evaluator<'a> {
                 if self.refused {
                     return None;
                 }
-                if let Kind::Phase(Variable::Coordinate | Variable::Momentum, _)
-                | Kind::Parameter(_) = &self.checked.node(node).kind
+                if let NodeKind::Phase(Variable::Coordinate | Variable::Momentum, _)
+                | NodeKind::Parameter(_) = &self.checked.node(node).kind
                 {
                     self.derived.wrote(value);
                 }
@@ -242,13 +242,13 @@ impl<'a> Evaluator<'a> {
         let this = checked.node(node);
         let dag = &mut model.dag;
         match (&this.kind, values) {
-            (Kind::Number(value), _) => dag.constant(value.clone()),
-            (Kind::Pi, _) => dag.pi(),
-            (Kind::Phase(variable, group), _) => {
+            (NodeKind::Number(value), _) => dag.constant(value.clone()),
+            (NodeKind::Pi, _) => dag.pi(),
+            (NodeKind::Phase(variable, group), _) => {
                 self.phase(model, node, *variable, group.0 as u16, demand)
             }
-            (Kind::Time, _) => dag.time(),
-            (Kind::Parameter(parameter), _) => {
+            (NodeKind::Time, _) => dag.time(),
+            (NodeKind::Parameter(parameter), _) => {
                 let parameter = Parameter(parameter.0 as u16);
                 let shape = &model.parameters[usize::from(parameter.0)].shape;
                 let (row, column) = match demand.indices.as_slice() {
@@ -258,21 +258,21 @@ impl<'a> Evaluator<'a> {
                 };
                 dag.element(Array::Parameter(parameter), row, column)
             }
-            (Kind::Capture(capture), _) => dag.parameter(Parameter(
+            (NodeKind::Capture(capture), _) => dag.parameter(Parameter(
                 (checked.parameters.len() + capture.0 as usize) as u16,
             )),
-            (Kind::Size(size), _) => dag.extent(*size),
-            (Kind::Loop(id), _) => match demand.value(*id) {
+            (NodeKind::Size(size), _) => dag.extent(*size),
+            (NodeKind::Loop(id), _) => match demand.value(*id) {
                 Some(value) => dag.integer(value),
                 None => {
                     let domain = self.demands.domain(dag, *id, demand);
                     dag.variable(domain)
                 }
             },
-            (Kind::Hamiltonian, _) => model.h(),
-            (Kind::Unary(UnaryOp::Neg, _), [a]) => dag.neg(*a),
-            (Kind::Unary(UnaryOp::Not, _), [a]) => dag.not(*a),
-            (Kind::Binary(BinaryOp::Add | BinaryOp::Sub, ..), values) => {
+            (NodeKind::Hamiltonian, _) => model.h(),
+            (NodeKind::Unary(UnaryOp::Neg, _), [a]) => dag.neg(*a),
+            (NodeKind::Unary(UnaryOp::Not, _), [a]) => dag.not(*a),
+            (NodeKind::Binary(BinaryOp::Add | BinaryOp::Sub, ..), values) => {
                 let signs =
                     self.demands
                         .terms(node)
@@ -284,24 +284,24 @@ impl<'a> Evaluator<'a> {
                 let terms: Vec<(Rational, Node)> = signs.zip(values.iter().copied()).collect();
                 dag.linear(&Rational::ZERO, &terms)
             }
-            (Kind::Binary(BinaryOp::Div, _, divisor), [a, b]) => {
+            (NodeKind::Binary(BinaryOp::Div, _, divisor), [a, b]) => {
                 if is_zero(dag, *b) {
                     let spans = checked.node(*divisor).spans;
                     self.refuse(spans, "division by 0", "write a divisor other than 0");
                 }
                 dag.div(*a, *b)
             }
-            (Kind::Binary(BinaryOp::Pow, base, _), [a, b]) => {
+            (NodeKind::Binary(BinaryOp::Pow, base, _), [a, b]) => {
                 self.refuse_outside(model, Op::Pow, *base, demand, values);
                 model.dag.pow(*a, *b)
             }
-            (Kind::Binary(BinaryOp::And, ..), [a, b]) => dag.and(*a, *b),
-            (Kind::Binary(BinaryOp::Or, ..), [a, b]) => dag.or(*a, *b),
-            (Kind::Binary(BinaryOp::Compare(comparison), ..), [a, b]) => {
+            (NodeKind::Binary(BinaryOp::And, ..), [a, b]) => dag.and(*a, *b),
+            (NodeKind::Binary(BinaryOp::Or, ..), [a, b]) => dag.or(*a, *b),
+            (NodeKind::Binary(BinaryOp::Compare(comparison), ..), [a, b]) => {
                 compare(dag, *comparison, *a, *b)
             }
-            (Kind::Bracket(..), [a, b]) => self.bracket(model, node, *a, *b),
-            (Kind::Binary(BinaryOp::Mul, a, b), values) => {
+            (NodeKind::Bracket(..), [a, b]) => self.bracket(model, node, *a, *b),
+            (NodeKind::Binary(BinaryOp::Mul, a, b), values) => {
                 match (checked.node(*a).ty, checked.node(*b).ty) {
                     (Type::Matrix(_, columns), Type::Vector(_)) => {
                         let run = self.demands.run(dag, node, &[*b], columns, demand);
@@ -310,19 +310,19 @@ impl<'a> Evaluator<'a> {
                     _ => dag.mul(values),
                 }
             }
-            (Kind::Index { .. } | Kind::Vector(_), [value, ..]) => *value,
-            (Kind::Call(Builtin::Elementary(op), items), values) => {
+            (NodeKind::Index { .. } | NodeKind::Vector(_), [value, ..]) => *value,
+            (NodeKind::Call(Builtin::Elementary(op), items), values) => {
                 self.refuse_outside(model, *op, items[0], demand, values);
                 model.dag.call(*op, values)
             }
-            (Kind::Call(function, items), values) => {
+            (NodeKind::Call(function, items), values) => {
                 self.call(&mut model.dag, node, *function, items, demand, values)
             }
-            (Kind::Function(function, _), values) => {
+            (NodeKind::Function(function, _), values) => {
                 dag.external(function.0 as u16, Partial::Value, values)
             }
-            (Kind::Sum { loops, .. }, values) => self.sum(dag, loops.clone(), demand, values),
-            (Kind::If { .. }, [condition, then, otherwise]) => {
+            (NodeKind::Sum { loops, .. }, values) => self.sum(dag, loops.clone(), demand, values),
+            (NodeKind::If { .. }, [condition, then, otherwise]) => {
                 dag.select(*condition, *then, *otherwise)
             }
             _ => self.fault(node, "its operands are not of its form"),

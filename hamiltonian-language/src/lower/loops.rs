@@ -8,7 +8,7 @@
 //! necessary to evaluate it, including those of its operands, except the loops of its own sums.
 
 use crate::ast::{BinaryOp, UnaryOp};
-use crate::checked::{Checked, Extent, Kind, Node, NodeId, Type};
+use crate::checked::{Checked, Extent, Node, NodeId, NodeKind, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::index::Domain;
 
@@ -75,7 +75,7 @@ impl Loops {
             }
         }
         for (at, node) in checked.nodes.iter().enumerate().rev() {
-            if let Kind::Sum { loops: own, .. } = &node.kind {
+            if let NodeKind::Sum { loops: own, .. } = &node.kind {
                 let mut parent = loops.deepest(loops.free[at].without(loops.unrolled));
                 for id in own.clone().map(Domain) {
                     let number = id.0 as usize;
@@ -100,9 +100,9 @@ impl Loops {
         let mut set = Set::default();
         node.kind.for_each_child(|child| set |= self.free(child));
         match &node.kind {
-            Kind::Loop(id) => set |= Set::of(*id),
-            Kind::Index { index, .. } => set |= index.variables(),
-            Kind::Sum { loops, .. } => {
+            NodeKind::Loop(id) => set |= Set::of(*id),
+            NodeKind::Index { index, .. } => set |= index.variables(),
+            NodeKind::Sum { loops, .. } => {
                 for id in loops.clone() {
                     let one = &checked.loops[id as usize];
                     set |= one.lower.variables() | one.upper.variables();
@@ -118,29 +118,33 @@ impl Loops {
         let of = |child: NodeId| self.by_number[child.0 as usize];
         match &node.kind {
             // Columns of coordinates are separate arrays.
-            Kind::Phase(_, group) => {
+            NodeKind::Phase(_, group) => {
                 let is_lattice = checked.groups[group.0 as usize].is_lattice;
                 matches!(node.ty, Type::Matrix(..)) && !is_lattice
             }
-            Kind::Vector(_) | Kind::Call(Builtin::Cross, _) => true,
-            Kind::Index { base, index } => {
+            NodeKind::Vector(_) | NodeKind::Call(Builtin::Cross, _) => true,
+            NodeKind::Index { base, index } => {
                 let base_by_number = of(*base);
                 if base_by_number && matches!(checked.node(*base).ty, Type::Vector(_)) {
                     self.unrolled |= index.variables();
                 }
                 base_by_number
             }
-            Kind::Binary(BinaryOp::Mul, a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
-                (Type::Matrix(..), Type::Vector(_)) => false,
-                _ => of(*a) || of(*b),
-            },
-            Kind::Unary(UnaryOp::Neg, a) => of(*a),
-            Kind::Binary(BinaryOp::Add | BinaryOp::Sub | BinaryOp::Div, a, b) => of(*a) || of(*b),
+            NodeKind::Binary(BinaryOp::Mul, a, b) => {
+                match (checked.node(*a).ty, checked.node(*b).ty) {
+                    (Type::Matrix(..), Type::Vector(_)) => false,
+                    _ => of(*a) || of(*b),
+                }
+            }
+            NodeKind::Unary(UnaryOp::Neg, a) => of(*a),
+            NodeKind::Binary(BinaryOp::Add | BinaryOp::Sub | BinaryOp::Div, a, b) => {
+                of(*a) || of(*b)
+            }
             // A sum is formed for each component.
-            Kind::Sum { body, .. } => {
+            NodeKind::Sum { body, .. } => {
                 of(*body) || matches!(node.ty, Type::Vector(Extent::Literal(_)))
             }
-            Kind::If {
+            NodeKind::If {
                 then, otherwise, ..
             } => of(*then) || of(*otherwise),
             _ => false,

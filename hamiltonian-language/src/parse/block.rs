@@ -5,7 +5,7 @@
 //! it is read.
 
 use super::{Abort, Parser, Result};
-use crate::ast::{ExprId, ExprKind, Scope, ScopeId};
+use crate::ast::{ExprId, ExprKind, LoopVariable, LoopVariableId};
 use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
 use proc_macro2::Delimiter;
@@ -183,7 +183,7 @@ impl Parser<'_> {
     }
 
     /// `i in a..b`; from here on `i` is in scope.
-    fn binder(&mut self, form: &str) -> Result<ScopeId> {
+    fn binder(&mut self, form: &str) -> Result<LoopVariableId> {
         let is_loop = matches!(self.kind(), Some(TokenKind::Ident))
             && self.peek_at(1).is_some_and(|token| token.text == "in");
         if !is_loop {
@@ -220,9 +220,9 @@ impl Parser<'_> {
         }
         let upper = self.bound("where it ends", form)?;
         let symbol = self.ast.symbols.intern(&name.to_string());
-        let scope = ScopeId(self.ast.scopes.len() as u32);
+        let scope = LoopVariableId(self.ast.scopes.len() as u32);
         let span = name.span();
-        self.ast.scopes.push(Scope {
+        self.ast.scopes.push(LoopVariable {
             parent: self.scope,
             name,
             symbol,

@@ -5,7 +5,7 @@
 //! parameter does not hide the next one.
 
 use super::{Parser, Result};
-use crate::ast::{AXES, Expression, Header, Item, Parameter, ParameterKind, Size};
+use crate::ast::{AXES, Expression, Header, Item, ParameterEntry, ParameterKind, Size};
 use crate::report::Spans;
 use crate::tokens::TokenKind;
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
@@ -199,7 +199,7 @@ impl Parser<'_> {
     }
 
     /// One parameter, up to its comma.
-    fn parameter(&mut self) -> Result<Parameter> {
+    fn parameter(&mut self) -> Result<ParameterEntry> {
         const FORM: &str =
             "write `name = 1.0`, `name`, `name: usize`, `name: [N]` or `name: fn(x)`";
         let attributes = self.attributes();
@@ -249,7 +249,7 @@ impl Parser<'_> {
             .into_iter()
             .map(|attribute| attribute.tokens)
             .collect();
-        Ok(Parameter {
+        Ok(ParameterEntry {
             attributes,
             name,
             kind,

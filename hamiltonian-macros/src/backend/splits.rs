@@ -6,7 +6,7 @@
 
 use super::Part;
 use crate::emit::Reason;
-use hamiltonian_language::checked::{self, Checked, Kind, Variable};
+use hamiltonian_language::checked::{self, Checked, NodeKind, Variable};
 use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::{Model, Piece};
@@ -43,7 +43,7 @@ pub fn decide(
     let is_new = |node: &checked::Node| {
         matches!(
             node.kind,
-            Kind::Phase(Variable::NewCoordinate | Variable::NewMomentum, _)
+            NodeKind::Phase(Variable::NewCoordinate | Variable::NewMomentum, _)
         )
     };
     let is_in_these = checked.charts.is_empty() || checked.nodes.iter().any(is_new);

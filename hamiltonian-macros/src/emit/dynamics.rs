@@ -7,7 +7,7 @@
 
 use super::construct::{as_slice, set_by_new};
 use super::context::Context;
-use super::function::{Bodies, Body};
+use super::function::{Body, BodyWriter};
 use super::halves::are_apart;
 use super::holder::{Holder, Receiver, shape};
 use super::layout::{Layout, Slice};
@@ -28,7 +28,7 @@ pub fn implementations(context: Context) -> [String; 3] {
     let mut emission = Emission {
         context,
         prepared: prepared(context),
-        bodies: Bodies {
+        bodies: BodyWriter {
             context,
             parts: String::new(),
         },
@@ -69,7 +69,7 @@ fn prepared(context: Context) -> Holder {
 pub(super) struct Emission<'a> {
     pub(super) context: Context<'a>,
     pub(super) prepared: Holder,
-    pub(super) bodies: Bodies<'a>,
+    pub(super) bodies: BodyWriter<'a>,
     /// The type of coordinates and of momenta.
     pub(super) vector: String,
     pub(super) out: String,

@@ -34,14 +34,14 @@ pub struct Body<'a> {
 
 /// Writes bodies, and gathers their parts.
 #[derive(Debug)]
-pub struct Bodies<'a> {
+pub struct BodyWriter<'a> {
     /// Their context.
     pub context: Context<'a>,
     /// The parts of long ones: free functions.
     pub parts: String,
 }
 
-impl Bodies<'_> {
+impl BodyWriter<'_> {
     /// Binds sizes and slices.
     pub(super) fn bind(&self, out: &mut String, receiver: Receiver, mut slices: Vec<Slice>) {
         let context = self.context;

@@ -16,7 +16,7 @@ use hamiltonian_symbolic::program::{Loop, Step, Target};
 use std::fmt::Write;
 
 /// A loop, and the name of the flag that is true if the loop is executed.
-type Part<'a> = (&'a Loop, Option<String>);
+type GuardedLoop<'a> = (&'a Loop, Option<String>);
 
 impl Writer<'_> {
     /// Returns how many of the loops, from the first on, can be fused; 0 for fewer than two.
@@ -88,7 +88,7 @@ impl Writer<'_> {
     }
 
     /// Writes fused loops; for outermost loops in slabs, the rows of one slab.
-    pub(super) fn join(&mut self, loops: &[Part], slab: Option<Domain>) {
+    pub(super) fn join(&mut self, loops: &[GuardedLoop], slab: Option<Domain>) {
         let known = self.same.len();
         let first = loops[0].0.domain;
         self.same
@@ -119,7 +119,7 @@ impl Writer<'_> {
     }
 
     /// Writes fused loops that contain loops.
-    fn outer(&mut self, loops: &[Part], slab: Option<Domain>) {
+    fn outer(&mut self, loops: &[GuardedLoop], slab: Option<Domain>) {
         let d = loops[0].0.domain.0;
         match slab {
             Some(slab) => line!(self, "for _o{d} in _r{} {{", slab.0),
@@ -149,7 +149,7 @@ impl Writer<'_> {
     }
 
     /// Writes fused innermost loops: the common range in lanes, the other iterations one by one.
-    fn inner(&mut self, loops: &[Part]) {
+    fn inner(&mut self, loops: &[GuardedLoop]) {
         let d = loops[0].0.domain.0;
         let mut parts = Vec::with_capacity(loops.len());
         for (inner, _) in loops {
@@ -232,7 +232,7 @@ impl Writer<'_> {
 }
 
 /// The expression of the least or the largest of several bounds.
-fn of_all(loops: &[Part], end: char, which: &str) -> String {
+fn of_all(loops: &[GuardedLoop], end: char, which: &str) -> String {
     let (first, others) = (loops[0].0.domain.0, &loops[1..]);
     others
         .iter()

@@ -5,7 +5,7 @@
 //! function, because its time grows faster than their number.
 
 use super::block::{self, operand};
-use super::function::{Bodies, Body};
+use super::function::{Body, BodyWriter};
 use super::inline::{Binding, Inlined};
 use super::scan::{Scan, scan};
 use super::together::neighbours;
@@ -46,7 +46,7 @@ fn weight(program: &Program, step: &Step) -> usize {
     }
 }
 
-impl Bodies<'_> {
+impl BodyWriter<'_> {
     /// Writes a body after `let _self = …;`. Returns the texts of its `results`.
     pub fn write(&mut self, out: &mut String, body: Body) -> Vec<String> {
         let context = self.context;

@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::{lex, located};
-use hamiltonian_language::checked::{Extent, Limit, Reach, Type};
+use hamiltonian_language::checked::{Bound, Extent, Reach, Type};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 use hamiltonian_symbolic::sort::Arrange;
 use proc_macro2::TokenStream;
@@ -29,8 +29,8 @@ fn sizes(reach: &Reach) -> Vec<Vec<Size>> {
 /// Returns true if a size that is set at run time has a say.
 fn is_run_time(reach: &Reach, context: Context) -> bool {
     let extent = match reach.limit {
-        Limit::Extent(extent) => extent.affine(),
-        Limit::Nothing | Limit::Memory => Affine::default(),
+        Bound::Extent(extent) => extent.affine(),
+        Bound::Nothing | Bound::Memory => Affine::default(),
     };
     let mut sizes = sizes(reach).into_iter().flatten().chain(extent.all_sizes());
     sizes.any(|size| context.is_run_time[usize::from(size.0)])
@@ -107,7 +107,7 @@ pub fn compiled(context: Context) -> TokenStream {
     for (number, reach) in questions(context) {
         let (value, shown) = (value(reach, context), &reach.shown);
         let (condition, message) = match reach.limit {
-            Limit::Extent(extent) => {
+            Bound::Extent(extent) => {
                 let last = match extent {
                     Extent::Literal(value) => value.saturating_sub(1).to_string(),
                     _ => format!("{} - 1", written(extent, context)),
@@ -119,11 +119,11 @@ pub fn compiled(context: Context) -> TokenStream {
                     ),
                 )
             }
-            Limit::Nothing => (
+            Bound::Nothing => (
                 "begins_at_0()".to_owned(),
                 format!("`{shown}` begins below 0 for these sizes"),
             ),
-            Limit::Memory => (
+            Bound::Memory => (
                 "fits()".to_owned(),
                 format!("`{shown}` does not fit into memory: the sizes are too large"),
             ),
@@ -161,11 +161,11 @@ pub fn constructed(context: Context) -> [String; 2] {
     for reach in reaches.filter(|reach| is_run_time(reach, context)) {
         let (value, shown) = (value(reach, context), &reach.shown);
         let check = match reach.limit {
-            Limit::Extent(extent) => format!("check({shown:?}, {})", bound(extent, context)),
-            Limit::Nothing => format!("check_range({shown:?})"),
-            Limit::Memory => format!("check_memory({shown:?})"),
+            Bound::Extent(extent) => format!("check({shown:?}, {})", bound(extent, context)),
+            Bound::Nothing => format!("check_range({shown:?})"),
+            Bound::Memory => format!("check_memory({shown:?})"),
         };
-        let later = usize::from(reach.limit != Limit::Memory);
+        let later = usize::from(reach.limit != Bound::Memory);
         let _ = writeln!(out[later], "{value}.{check}?;");
     }
     out

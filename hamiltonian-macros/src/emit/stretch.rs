@@ -34,7 +34,7 @@ pub(super) struct Stretch {
     results: Vec<Value>,
     /// The columns that are written.
     columns: Vec<String>,
-    stores: Vec<Store>,
+    stores: Vec<ColumnStore>,
     /// Sums that are added to.
     sums: Vec<Value>,
     /// The number of a sum and that of a result added to it, in order.
@@ -45,7 +45,7 @@ pub(super) struct Stretch {
 
 /// A store of an iteration.
 #[derive(Clone)]
-struct Store {
+struct ColumnStore {
     column: usize,
     change: &'static str,
     by: [usize; 2],
@@ -167,7 +167,7 @@ impl Writer<'_> {
                         made.takes(program.instruction(value), value)?;
                     }
                     let by = [a, b].map(|value| number(&mut made.results, value));
-                    made.stores.push(Store {
+                    made.stores.push(ColumnStore {
                         column,
                         change,
                         by,
@@ -297,7 +297,7 @@ impl Writer<'_> {
         }
         if !stretch.stores.is_empty() {
             line!(self, "const STORES: &'static [__h::Store] = &[");
-            for Store {
+            for ColumnStore {
                 column,
                 change,
                 by: [a, b],
@@ -468,7 +468,7 @@ impl Stretch {
             let column = cut.map_or(column.clone(), |cut: usize| {
                 format!("_x{}_{}", domain.0, places[cut])
             });
-            self.stores.push(Store {
+            self.stores.push(ColumnStore {
                 column: number(&mut self.columns, column),
                 by: store.by.map(|by| before + by),
                 ..store.clone()

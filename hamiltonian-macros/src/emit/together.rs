@@ -103,7 +103,7 @@ pub fn neighbours(context: Context, steps: &[Step]) -> Vec<Step> {
 }
 
 /// The function of a call, and the number of calls before it on the longest way there.
-type Kind = (Option<Op>, usize);
+type CallKind = (Option<Op>, usize);
 
 struct Order<'a> {
     program: &'a Program,
@@ -127,7 +127,7 @@ impl Order<'_> {
             out: Vec::with_capacity(steps.len()),
         };
         let mut depths = vec![0usize; steps.len()];
-        let mut groups: Vec<(Kind, Vec<usize>)> = Vec::new();
+        let mut groups: Vec<(CallKind, Vec<usize>)> = Vec::new();
         for (place, step) in steps.iter().enumerate() {
             let Step::Let(value) = step else { continue };
             order.at.insert(*value, place);

@@ -3,7 +3,7 @@
 use super::{accept, read};
 use hamiltonian_language::ast::BinaryOp;
 use hamiltonian_language::checked::{
-    Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, Type, Variable,
+    Checked, Definition, Extent, Field, NodeId, NodeKind, ParameterId, Type, Variable,
 };
 use hamiltonian_symbolic::index::Size;
 use hamiltonian_symbolic::transform::Chart;
@@ -95,16 +95,16 @@ fn every_construct_is_accepted() {
     }
 }
 
-/// Children precede parents; types are as the comments of [`Kind`] say for the plainest kinds.
+/// Children precede parents; types are as the comments of [`NodeKind`] say for the plainest kinds.
 fn in_order(checked: &Checked) {
     for (index, node) in checked.nodes.iter().enumerate() {
         node.kind
             .for_each_child(|child| assert!((child.0 as usize) < index));
-        if let Kind::Binary(BinaryOp::Add | BinaryOp::Sub, a, b) = node.kind {
+        if let NodeKind::Binary(BinaryOp::Add | BinaryOp::Sub, a, b) = node.kind {
             assert_eq!(checked.node(a).ty, node.ty);
             assert_eq!(checked.node(b).ty, node.ty);
         }
-        if let Kind::Sum { loops, body } = &node.kind {
+        if let NodeKind::Sum { loops, body } = &node.kind {
             assert_eq!(checked.node(*body).ty, node.ty);
             for id in loops.clone() {
                 let bounds = &checked.loops[id as usize];
@@ -179,7 +179,7 @@ fn functions_are_instantiated_for_each_call() {
     let powers = checked
         .nodes
         .iter()
-        .filter(|node| matches!(node.kind, Kind::Binary(BinaryOp::Pow, ..)))
+        .filter(|node| matches!(node.kind, NodeKind::Binary(BinaryOp::Pow, ..)))
         .count();
     assert_eq!(powers, 3);
     assert!(checked.captures.is_empty());
@@ -188,7 +188,7 @@ fn functions_are_instantiated_for_each_call() {
     let momenta = checked
         .nodes
         .iter()
-        .filter(|node| matches!(node.kind, Kind::Phase(Variable::Momentum, _)))
+        .filter(|node| matches!(node.kind, NodeKind::Phase(Variable::Momentum, _)))
         .count();
     assert_eq!(momenta, 1);
 }
@@ -215,7 +215,7 @@ fn lagrangians_have_momenta_elsewhere() {
         checked
             .nodes
             .iter()
-            .any(|node| matches!(node.kind, Kind::Parameter(_)))
+            .any(|node| matches!(node.kind, NodeKind::Parameter(_)))
     );
 }
 
@@ -225,7 +225,7 @@ fn time_factors_and_charts_are_taken_apart() {
     let (factor, _) = checked.time_factor.expect("it has one");
     assert!(matches!(
         checked.node(factor).kind,
-        Kind::Binary(BinaryOp::Mul, ..)
+        NodeKind::Binary(BinaryOp::Mul, ..)
     ));
     let checked = accept("H(q[2]; p[2]) = norm_squared(p); coordinates polar(q)");
     assert!(matches!(&checked.charts[0].kind, Chart::Polar([x, y])

@@ -182,7 +182,7 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         return TokenStream::new();
     }
     let groups = context.groups.iter().filter_map(|g| context.room(g));
-    let [products, questions] = reach::constructed(context);
+    let [products, bounds] = reach::constructed(context);
     let room = products + &groups.collect::<String>();
     let mut allow = allowances(&names);
     if names.len() > 7 {
@@ -196,14 +196,14 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
     let new = format_ident!("new", span = definition.type_name(item).span());
     let sets = defaults_set(context, item, &names).map(|text| quote! { #[doc = #text] });
     let method = if context.has_run_time_sizes() {
-        let more = (!questions.is_empty()).then(|| {
+        let more = (!bounds.is_empty()).then(|| {
             quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
         });
         let memory = (!room.is_empty()).then(|| {
             quote! { #[doc = " `Error::Memory` if arrays of these sizes do not fit into memory."] }
         });
         // Sizes that do not fit explain arrays that do not, and indices are in range up to sizes that do.
-        let checks = lex(&(room.clone() + &questions + &checks + &numbers));
+        let checks = lex(&(room.clone() + &bounds + &checks + &numbers));
         quote! {
             /// The system of these sizes and parameters: the sizes first, then functions, then the parameters
             /// without a default, in the order of their declaration.

@@ -110,7 +110,7 @@ impl<'a> Emission<'a> {
             "#[inline(always)]\nfn prepare(&self) -> Self::Prepared {{"
         );
         let start = self.out.len();
-        self.out.push_str(&reach::asked(context));
+        self.out.push_str(&reach::asserted(context));
         let results: Vec<_> = self.prepared.values().collect();
         let arguments = self.held();
         let read: Vec<Slice> = (self.prepared.arrays.iter().copied())

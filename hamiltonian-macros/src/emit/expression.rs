@@ -33,7 +33,7 @@ pub fn generate(context: Context) -> TokenStream {
     let implementations = lex(&text);
     let externals = externals::wrappers(context);
     let inherent = inherent(context);
-    let questions = reach::compiled(context);
+    let checks = reach::compiled(context);
     quote! {
         {
             #[derive(#root::private::Clone, #root::private::fmt::Debug)]
@@ -43,7 +43,7 @@ pub fn generate(context: Context) -> TokenStream {
                 use #root::private as __h;
                 #externals
                 #implementations
-                #questions
+                #checks
                 #inherent
             };
             #name { #(#fields: #captures),* }

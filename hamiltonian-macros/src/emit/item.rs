@@ -34,7 +34,7 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     let functions = lex(&functions);
     let externals = externals::wrappers(context);
     let inherent = inherent(context, item, &gradient);
-    let questions = reach::compiled(context);
+    let checks = reach::compiled(context);
     quote! {
         #declaration
         #[allow(clippy::approx_constant)]
@@ -43,7 +43,7 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
             #externals
             #implementations
             #functions
-            #questions
+            #checks
             #inherent
         };
     }

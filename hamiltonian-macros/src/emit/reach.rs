@@ -1,7 +1,7 @@
-//! Questions to the sizes: whether indices stay in range.
+//! Checks that indices stay in range for the sizes.
 //!
-//! Input: [`Reach`]es. Output: statements that ask. Invariant: questions to const generics are asked
-//! when the code is compiled, the rest in `new`; nothing is asked where anything is evaluated.
+//! Input: [`Reach`]es. Output: statements that check them. Invariant: rustc checks those of const generics when
+//! it compiles the code, `new` checks those of run-time sizes; evaluations check nothing.
 
 use super::context::Context;
 use super::{lex, located};
@@ -13,7 +13,7 @@ use quote::quote;
 use std::fmt::Write;
 use std::iter;
 
-/// The sizes, and products of sizes, in the forms of a question.
+/// The sizes, and products of sizes, in the forms of a check.
 fn sizes(reach: &Reach) -> Vec<Vec<Size>> {
     let ranges = reach.loops.iter().flat_map(|(_, range)| range);
     let mut sizes: Vec<Vec<Size>> = Vec::new();
@@ -26,7 +26,7 @@ fn sizes(reach: &Reach) -> Vec<Vec<Size>> {
     sizes
 }
 
-/// Returns true if a size that is set at run time has a say.
+/// Returns true if the check depends on a size that is set at run time.
 fn is_run_time(reach: &Reach, context: Context) -> bool {
     let extent = match reach.limit {
         Bound::Extent(extent) => extent.affine(),
@@ -36,7 +36,7 @@ fn is_run_time(reach: &Reach, context: Context) -> bool {
     sizes.any(|size| context.is_run_time[usize::from(size.0)])
 }
 
-/// The value that knows the answer. Forms are `[constant, factor of each size…, factor of each
+/// The value whose methods do the check. Forms are `[constant, factor of each size…, factor of each
 /// loop…]`, those of a range in the loops before it.
 fn value(reach: &Reach, context: Context) -> String {
     let sizes = sizes(reach);
@@ -100,11 +100,11 @@ pub fn declared(name: &str, ty: Type, context: Context) -> String {
     name.to_owned() + &shown.collect::<String>()
 }
 
-/// The questions asked when the code is compiled for certain sizes: a constant for each, which
-/// rustc shows at the index if it fails.
+/// The checks that rustc makes when it compiles the code for certain sizes: a constant for each, which it shows
+/// at the index if the check fails.
 pub fn compiled(context: Context) -> TokenStream {
     let mut constants = TokenStream::new();
-    for (number, reach) in questions(context) {
+    for (number, reach) in constant(context) {
         let (value, shown) = (value(reach, context), &reach.shown);
         let (condition, message) = match reach.limit {
             Bound::Extent(extent) => {
@@ -141,20 +141,21 @@ pub fn compiled(context: Context) -> TokenStream {
     quote! { #[allow(long_running_const_eval)] #header { #constants } }
 }
 
-/// The statements that have [`compiled`] asked.
-pub fn asked(context: Context) -> String {
-    let numbers = questions(context);
+/// The statements that evaluate the constants of [`compiled`].
+pub fn asserted(context: Context) -> String {
+    let numbers = constant(context);
     numbers
         .map(|(number, _)| format!("let () = Self::__REACH{number};\n"))
         .collect()
 }
 
-fn questions(context: Context<'_>) -> impl Iterator<Item = (usize, &Reach)> {
+/// The checks that depend on const generics alone, with their numbers.
+fn constant(context: Context<'_>) -> impl Iterator<Item = (usize, &Reach)> {
     let all = context.definition.checked.reaches.iter().enumerate();
     all.filter(move |(_, reach)| !is_run_time(reach, context))
 }
 
-/// The questions asked when a system is made: whether products of sizes fit into memory, and, once they do, the others.
+/// The checks that `new` makes: first that products of sizes fit into memory, then the others.
 pub fn constructed(context: Context) -> [String; 2] {
     let mut out = [const { String::new() }; 2];
     let reaches = context.definition.checked.reaches.iter();

@@ -12,7 +12,7 @@ use hamiltonian_symbolic::program::{Loop, Step, Target};
 use std::fmt::Write;
 
 impl Writer<'_> {
-    /// Writes loops in slabs; whether that was done.
+    /// Writes loops in slabs, if they allow it. Returns true if they do.
     pub(super) fn in_slabs(&mut self, loops: &[&Loop]) -> bool {
         let mut columns = Vec::new();
         let are_rows = loops.iter().all(|outer| {

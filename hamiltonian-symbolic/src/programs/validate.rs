@@ -1,7 +1,7 @@
 //! Checks that a program can be emitted.
 //!
-//! Input: a program. Output: nothing, or what is wrong with it, which is a fault of the engine.
-//! Invariant: knows the form of programs only, nothing of how they are made.
+//! Input: a program. Output: nothing, or the first fault of the program, which is a fault of the engine.
+//! Invariant: the checks depend on the program alone, not on the passes that made it.
 
 use crate::dag::{Array, Map};
 use crate::index::Index;
@@ -13,11 +13,11 @@ type Known = Map<Value, ()>;
 type Stored = Map<(Target, Index, Option<Index>), ()>;
 
 impl Program {
-    /// Every value is computed once and before its uses, no number is handed on by name, and an element
-    /// that is overwritten is stored once.
+    /// Checks that every value is computed once and before its uses, that no number is handed on by name, and
+    /// that an element that is overwritten is stored once.
     ///
     /// # Errors
-    /// The first thing that is not so.
+    /// The first violation.
     pub fn validate(&self) -> Result<(), String> {
         let mut computed = Known::default();
         let mut scope = Known::default();

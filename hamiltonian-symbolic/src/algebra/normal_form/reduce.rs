@@ -112,8 +112,8 @@ impl Algebra {
         sum.finish(&self.budget)
     }
 
-    /// Powers of an atom that its relation replaces: those from its degree on, and negative ones
-    /// where that takes no divisor. Whether there were any.
+    /// Applies an atom's relation to its powers from the degree of the relation on, and to negative powers
+    /// if that takes no divisor. Returns true if there were any.
     fn lower(&mut self, poly: &mut Poly, atom: Atom) -> Result<bool, Undecided> {
         if let Key::Sign(of) = self.entry(atom).key.clone() {
             return self.lower_sign(poly, atom, &of);

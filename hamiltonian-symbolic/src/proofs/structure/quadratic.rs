@@ -1,6 +1,6 @@
 //! The degree in the momenta: quadratic forms, and what is at most quadratic beside a kick.
 //!
-//! Input: parts of H. Output: whether they are, or the term that is not. Invariant: degrees are read
+//! Input: parts of H. Output: nothing, or the first term of another degree. Invariant: degrees are read
 //! off the expression as it stands, or multiplied out; no number decides.
 
 use super::expand::MOST;
@@ -73,11 +73,11 @@ fn term_with_time(model: &Model, part: Node) -> Option<String> {
 enum Outside {
     /// The first such term, multiplied out.
     Term(Node),
-    /// A term as it was written, of which too many terms would be made to know.
+    /// A term as it was written. Multiplied out it has too many terms, so its degrees are not known.
     Long(Node),
 }
 
-/// The reason where a term cannot be multiplied out.
+/// The reason if a term cannot be multiplied out.
 fn too_long(model: &Model, term: Node) -> String {
     let term = print::text(model, term);
     format!(

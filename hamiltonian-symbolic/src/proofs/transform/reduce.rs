@@ -283,7 +283,7 @@ fn parted(dag: &Dag, term: &Product) -> (Factors, Factors) {
         .partition(|(node, _)| dag.stage(*node) < Stage::Evaluation)
 }
 
-/// A term by the rules, into a collection; whether any rule applied.
+/// Adds a term, rewritten by the rules, to a collection. Returns true if a rule applied.
 fn rewrite(term: &Product, rules: &Rules, keeps_sines: bool, into: &mut Collected) -> bool {
     let mut terms = vec![term.clone()];
     let mut rewritten = false;
@@ -306,7 +306,7 @@ fn rewrite(term: &Product, rules: &Rules, keeps_sines: bool, into: &mut Collecte
 }
 
 /// Writes powers of `gone`^`step` = a − b as powers of the difference, aⁿ⁻ᵏbᵏ being the powers that
-/// are given for n and k; whether there was any.
+/// are given for n and k. Returns true if there were any.
 fn exchange(
     terms: &mut Vec<Product>,
     (gone, step): (Node, i32),

@@ -4,6 +4,7 @@
 //! (`split::join`), and each question in it has limits of its own: the flow of one sum of terms, or whether one
 //! expression is zero.
 
+use crate::dag::{Dag, Node};
 use std::fmt;
 
 /// The most comparisons for one flow; those of the systems in the tests take 18 at most.
@@ -49,6 +50,11 @@ pub(crate) const SUBEXPRESSIONS: usize = 1000;
 
 /// The most pairs, so that a set of variables is a word.
 pub(crate) const PAIRS: usize = 32;
+
+/// Returns true if an expression has more subexpressions than are searched.
+pub(crate) fn is_large(dag: &Dag, node: Node) -> bool {
+    dag.reachable(&[node]).len() > SUBEXPRESSIONS
+}
 
 /// A limit at which the search for exact flows ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -6,16 +6,11 @@
 
 use super::sweep::side;
 use super::{NoFlow, Parts, searched, units};
-use crate::dag::{Dag, Node, Side};
-use crate::flows::limits::{Limit, SUBEXPRESSIONS};
+use crate::dag::{Node, Side};
+use crate::flows::limits::{Limit, is_large};
 use crate::flows::solve::shear;
 use crate::flows::space::Space;
 use crate::model::Model;
-
-/// Returns true if an expression has more subexpressions than are searched.
-pub(super) fn is_large(dag: &Dag, node: Node) -> bool {
-    dag.reachable(&[node]).len() > SUBEXPRESSIONS
-}
 
 /// The parts of a group.
 ///

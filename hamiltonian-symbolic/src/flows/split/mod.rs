@@ -14,6 +14,7 @@ pub use crate::flows::limits::{Limit, MOST, NODES};
 pub use crate::flows::solve::rows::{ROWS, Row};
 
 use crate::dag::{Dag, Kind, Node};
+use crate::flows::limits::is_large;
 use crate::flows::solve::rows::is_constant_form;
 use crate::flows::solve::{self, units};
 use crate::flows::space::Space;
@@ -147,10 +148,10 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
                 ..refusal
             });
         }
-        Ok(_) if groups.len() < 2 && large::is_large(&model.dag, h) => large::parts(model, h)?,
+        Ok(_) if groups.len() < 2 && is_large(&model.dag, h) => large::parts(model, h)?,
         Ok(mut space) if groups.len() < 2 => searched(model, &mut space, h)?,
         whole => {
-            let whole = whole.ok().filter(|_| !large::is_large(&model.dag, h));
+            let whole = whole.ok().filter(|_| !is_large(&model.dag, h));
             let together = whole.and_then(|mut space| {
                 let flow = any_flow(&mut space, h)?;
                 model.dag = space.model.dag;
@@ -167,7 +168,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
                         let mut space = Space::new(model, &[group])
                             .map_err(|limit| NoFlow::of(model, group, limit))?;
                         let label = space.label(group);
-                        let parts = match large::is_large(&model.dag, group) {
+                        let parts = match is_large(&model.dag, group) {
                             true => large::parts(model, group)?,
                             false => searched(model, &mut space, group)?,
                         };

@@ -5,11 +5,10 @@
 //! iterations that are proven to commute are exact in any order, others are swept one way down and the
 //! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
 
-use super::large::is_large;
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
-use crate::flows::limits::{Limit, ROWS};
+use crate::flows::limits::{Limit, ROWS, is_large};
 use crate::flows::solve::units::{LoopedTerm, terms};
 use crate::flows::space::Space;
 use crate::index::{Domain, Index};

@@ -11,7 +11,7 @@ pub use event::Event;
 
 use crate::checkpoint::Memory;
 use crate::error::{Error, Known};
-use crate::observe::{FollowVisitor, Observer, Section, View, one_trajectory};
+use crate::observe::{FollowVisitor, MemberSection, Observer, View, one_trajectory};
 use crate::root::{Sample, dip, root, side};
 use crate::state::State;
 use crate::system::{Dynamics, Observable, System};
@@ -406,7 +406,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
             let Some(observable) = history.observable else {
                 return false;
             };
-            visitor.section(Section {
+            visitor.section(MemberSection {
                 observable,
                 period: event.period,
                 value: history.value,

@@ -1,7 +1,7 @@
 //! Values that are computed before an evaluation, and held by a prepared system, a field or a flow.
 //!
 //! Input: numbers and conditions of a definition, and its sizes, functions and arrays. Output: [`Held`], which
-//! emitted bodies read. Invariant: each of them can be [`Carried`] into the lanes of a pack.
+//! emitted bodies read. Invariant: each of them is a [`LaneValue`], which the lanes of a pack can hold.
 
 use crate::function::Function;
 use crate::system::Arithmetic;
@@ -32,7 +32,7 @@ impl<T: Real, const N: usize, const M: usize, D> Held<T, N, M, D> {
 }
 
 /// A value of a member that can be placed in a lane of a pack, or is the same for all lanes.
-pub trait Carried<T: Real>: Clone + Debug + Send + Sync + 'static {
+pub trait LaneValue<T: Real>: Clone + Debug + Send + Sync + 'static {
     /// The same over another scalar.
     type Over<U: Real>;
     /// Gathers the values of members into lanes.
@@ -41,11 +41,11 @@ pub trait Carried<T: Real>: Clone + Debug + Send + Sync + 'static {
     fn fits(&self, _: &Self) -> bool {
         true
     }
-    /// Returns true if both are equal, provided that they [fit](Carried::fits).
+    /// Returns true if both are equal, provided that they [fit](LaneValue::fits).
     fn equals(&self, other: &Self) -> bool;
 }
 
-impl<T: Real, const N: usize, const M: usize, D: Carried<T>> Carried<T> for Held<T, N, M, D> {
+impl<T: Real, const N: usize, const M: usize, D: LaneValue<T>> LaneValue<T> for Held<T, N, M, D> {
     type Over<U: Real> = Held<U, N, M, D::Over<U>>;
     #[inline(always)]
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>> {
@@ -71,7 +71,7 @@ fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N
 
 /// Gathers a part of each member into its lane.
 #[inline(always)]
-pub fn gathered<'a, T: Real, P: Pack, W, D: Carried<T>>(
+pub fn gathered<'a, T: Real, P: Pack, W, D: LaneValue<T>>(
     members: &[&'a W],
     of: impl Fn(&'a W) -> &'a D,
 ) -> D::Over<T::Over<P>> {
@@ -101,11 +101,11 @@ macro_rules! same {
     };
 }
 
-impl<T: Real> Carried<T> for Arithmetic {
+impl<T: Real> LaneValue<T> for Arithmetic {
     same!(Arithmetic, _one, _other, true);
 }
 
-impl<T: Real> Carried<T> for usize {
+impl<T: Real> LaneValue<T> for usize {
     same!(usize, one, other, one == other);
 }
 
@@ -113,11 +113,11 @@ impl<T: Real> Carried<T> for usize {
 #[derive(Debug, Clone)]
 pub struct Given<F, const N: usize>(pub F);
 
-impl<T: Real, F: Function<N>, const N: usize> Carried<T> for Given<F, N> {
+impl<T: Real, F: Function<N>, const N: usize> LaneValue<T> for Given<F, N> {
     same!(Given<F, N>, one, other, one.0.fingerprint() == other.0.fingerprint());
 }
 
-impl<V: Vector> Carried<V::Scalar> for V {
+impl<V: Vector> LaneValue<V::Scalar> for V {
     type Over<U: Real> = V::Over<U>;
     #[inline(always)]
     fn gather<P: Pack>(members: &[&Self]) -> V::Over<<V::Scalar as Real>::Over<P>> {
@@ -129,7 +129,7 @@ impl<V: Vector> Carried<V::Scalar> for V {
 }
 
 /// Holders of a run share an array of run-time size.
-impl<V: Vector> Carried<V::Scalar> for Arc<V> {
+impl<V: Vector> LaneValue<V::Scalar> for Arc<V> {
     type Over<U: Real> = Arc<V::Over<U>>;
     #[inline(always)]
     fn gather<P: Pack>(members: &[&Self]) -> Arc<V::Over<<V::Scalar as Real>::Over<P>>> {
@@ -140,12 +140,12 @@ impl<V: Vector> Carried<V::Scalar> for Arc<V> {
     }
 }
 
-impl<T: Real> Carried<T> for () {
+impl<T: Real> LaneValue<T> for () {
     same!((), _one, _other, true);
 }
 
 /// One value, and the rest.
-impl<T: Real, A: Carried<T>, B: Carried<T>> Carried<T> for (A, B) {
+impl<T: Real, A: LaneValue<T>, B: LaneValue<T>> LaneValue<T> for (A, B) {
     type Over<U: Real> = (A::Over<U>, B::Over<U>);
     #[inline(always)]
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>> {

@@ -1,6 +1,6 @@
 //! The contract of kernels: bodies that a definition gives, and the fields, flows and pieces made of them.
 //!
-//! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`Motion`] and [`Field`] for a
+//! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`Motion`] and [`FieldBody`] for a
 //! prepared system, one for each kind. Output: [`Kernel`], the vector field, the flow and the piece of each kind.
 //! Invariant: a body has two stages. The first computes the held values from the prepared system and a coefficient, once
 //! for each map. The second computes the change of a point from the held values and the point.
@@ -57,7 +57,7 @@ pub trait Origin<T: Real>: Dynamics<T> {
 }
 
 /// A body that adds the values of a vector field at a point.
-pub trait Field<K, T: Real>: Dynamics<T> {
+pub trait FieldBody<K, T: Real>: Dynamics<T> {
     /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
     /// Computes these values.
@@ -73,7 +73,7 @@ pub trait Field<K, T: Real>: Dynamics<T> {
     );
 }
 
-impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> Field<Halves, T> for D {
+impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
     type Held = (<D as Shift<Kick, T>>::Held, <D as Shift<Drift, T>>::Held);
     #[inline(always)]
     fn fold(&self, c: T) -> Self::Held {
@@ -96,7 +96,7 @@ impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> Field<Halves, T> for D {
     }
 }
 
-impl<T: Real, D: Dynamics<T>> Field<OfGradient, T> for D {
+impl<T: Real, D: Dynamics<T>> FieldBody<OfGradient, T> for D {
     type Held = (D, T);
     #[inline(always)]
     fn fold(&self, c: T) -> Self::Held {
@@ -162,7 +162,7 @@ pub struct Shifts<K>(K);
 /// The [`Motion`] of a kind.
 #[derive(Debug)]
 pub struct Moves<K>(K);
-/// The [`Field`] of a kind.
+/// The [`FieldBody`] of a kind.
 #[derive(Debug)]
 pub struct Adds<K>(K);
 /// The [`Motion`] of a kind as a matrix of `N` rows.
@@ -206,8 +206,8 @@ impl<D, K, H: Debug> Debug for Kernel<D, K, H> {
 pub type ShiftOf<D, K, T> = Kernel<D, Shifts<K>, <D as Shift<K, T>>::Held>;
 /// The flow of the [`Motion`] of kind `K`.
 pub type MotionOf<D, K, T> = Kernel<D, Moves<K>, <D as Motion<K, T>>::Held>;
-/// The [`Field`] of kind `K`.
-pub type FieldOf<D, K, T> = Kernel<D, Adds<K>, <D as Field<K, T>>::Held>;
+/// The [`FieldBody`] of kind `K`.
+pub type FieldOf<D, K, T> = Kernel<D, Adds<K>, <D as FieldBody<K, T>>::Held>;
 
 impl<V, D, K, H> Flow<Point<V>> for Kernel<D, Shifts<K>, H>
 where
@@ -251,7 +251,7 @@ where
 impl<V, D, K, H> VectorField<V> for Kernel<D, Adds<K>, H>
 where
     V: Vector,
-    D: Field<K, V::Scalar, Vector = V, Held = H>,
+    D: FieldBody<K, V::Scalar, Vector = V, Held = H>,
     H: Clone + Debug,
 {
     #[inline(always)]
@@ -265,7 +265,7 @@ impl<D, K, H> Kernel<D, Adds<K>, H> {
     #[inline(always)]
     pub fn fold<T: Real>(prepared: &D, c: T) -> Self
     where
-        D: Field<K, T, Held = H>,
+        D: FieldBody<K, T, Held = H>,
     {
         Kernel::holding(prepared.fold(c))
     }
@@ -318,7 +318,7 @@ piece!(
 piece!(
     Pushed,
     [],
-    [Field<Rates, T> + Field<Linear, T>],
+    [FieldBody<Rates, T> + FieldBody<Linear, T>],
     Coupled<FieldOf<D, Rates, T>, FieldOf<D, Linear, T>>,
     |prepared, c| Coupled {
         field: Kernel::fold(prepared, c),
@@ -328,7 +328,7 @@ piece!(
 piece!(
     Stepped,
     [],
-    [Field<Rates, T>],
+    [FieldBody<Rates, T>],
     SubStep<FieldOf<D, Rates, T>>,
     |prepared, c| SubStep(Kernel::fold(prepared, c))
 );

@@ -67,9 +67,9 @@ impl Change {
     }
 }
 
-/// A store of an iteration.
+/// A store of an iteration to a column.
 #[derive(Debug, Clone, Copy)]
-pub struct Store {
+pub struct ColumnStore {
     /// The number of the column that is written.
     column: usize,
     /// How its element is changed.
@@ -80,11 +80,11 @@ pub struct Store {
     is_shared: bool,
 }
 
-impl Store {
+impl ColumnStore {
     /// The only store to a column.
     #[must_use]
-    pub const fn to(column: usize, change: Change, by: [usize; 2]) -> Store {
-        Store {
+    pub const fn to(column: usize, change: Change, by: [usize; 2]) -> ColumnStore {
+        ColumnStore {
             column,
             change,
             by,
@@ -93,8 +93,8 @@ impl Store {
     }
     /// One of the stores to several elements of a column.
     #[must_use]
-    pub const fn among(column: usize, change: Change, by: [usize; 2]) -> Store {
-        Store {
+    pub const fn among(column: usize, change: Change, by: [usize; 2]) -> ColumnStore {
+        ColumnStore {
             column,
             change,
             by,
@@ -109,7 +109,7 @@ pub trait Body<const G: usize, const R: usize, const W: usize> {
     /// True if the number of the iteration is read.
     const COUNTS: bool = false;
     /// The stores, in order.
-    const STORES: &'static [Store] = &[];
+    const STORES: &'static [ColumnStore] = &[];
     /// The sums that results are added to, in order: number of the sum, number of the result.
     const SUMS: &'static [(usize, usize)] = &[];
 
@@ -234,7 +234,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     /// The iterations through lanes. Where the stretch is followed, the elements that its last iterations
     /// share with those after it were changed before.
     fn dispatch<B: Body<G, R, W>, const W: usize>(self, is_followed: bool) {
-        dispatch(InLanes::<_, B, G, R, C, S, A, W> {
+        dispatch(StretchKernel::<_, B, G, R, C, S, A, W> {
             stretch: self,
             is_followed,
             body: core::marker::PhantomData,
@@ -405,8 +405,8 @@ fn changed<T: Real>(change: Change, place: T, [a, b]: [T; 2]) -> T {
     }
 }
 
-/// The way into a level.
-struct InLanes<
+/// A stretch as a kernel that enters a level.
+struct StretchKernel<
     'a,
     T,
     B,
@@ -431,7 +431,7 @@ impl<
     const S: usize,
     const A: usize,
     const W: usize,
-> Kernel for InLanes<'_, T, B, G, R, C, S, A, W>
+> Kernel for StretchKernel<'_, T, B, G, R, C, S, A, W>
 {
     type Output = ();
     #[inline(always)]
@@ -446,7 +446,7 @@ impl<
 }
 
 /// Returns true if results of any store wait.
-const fn has_shared(stores: &[Store]) -> bool {
+const fn has_shared(stores: &[ColumnStore]) -> bool {
     let mut s = 0;
     while s < stores.len() {
         if stores[s].is_shared {
@@ -458,7 +458,7 @@ const fn has_shared(stores: &[Store]) -> bool {
 }
 
 /// Returns true if no earlier store is to the same column.
-const fn is_first_of_column(stores: &[Store], at: usize) -> bool {
+const fn is_first_of_column(stores: &[ColumnStore], at: usize) -> bool {
     let mut s = 0;
     while s < at {
         if stores[s].column == stores[at].column {

@@ -18,7 +18,7 @@ pub(crate) use follow::LaneDrift;
 pub use follow::{FollowVisitor, FollowedQuantities};
 #[doc(hidden)]
 pub use quantity::Quantity;
-pub(crate) use section::{LaneSection, Section};
+pub(crate) use section::{LaneSection, MemberSection};
 
 use crate::checkpoint::Memory;
 use crate::error::Error;

@@ -25,9 +25,9 @@ pub enum Triangle {
     Above,
 }
 
-/// A row in a tile.
+/// A row of a tile.
 #[derive(Debug)]
-pub struct Row<'a, T, const C: usize> {
+pub struct TileRow<'a, T, const C: usize> {
     /// Its number.
     pub number: usize,
     /// Its columns in this tile.
@@ -47,7 +47,7 @@ pub fn pairs<T: Real, const C: usize>(
     triangle: Triangle,
     arithmetic: Arithmetic,
     arrays: [&mut [T]; C],
-    work: impl Fn(Row<'_, T, C>) + Copy + Sync,
+    work: impl Fn(TileRow<'_, T, C>) + Copy + Sync,
 ) {
     let all = Tiles { count, triangle };
     if T::WIDENS {
@@ -60,7 +60,7 @@ pub fn pairs<T: Real, const C: usize>(
 }
 
 /// The work on a row in a tile.
-type Work<'a, T, const C: usize> = dyn Fn(Row<'_, T, C>) + Sync + 'a;
+type RowBody<'a, T, const C: usize> = dyn Fn(TileRow<'_, T, C>) + Sync + 'a;
 
 /// The elements of some blocks, in each array.
 type Parts<'a, T, const C: usize> = [&'a mut [T]; C];
@@ -111,7 +111,7 @@ impl Tiles {
         self,
         arithmetic: Arithmetic,
         mut arrays: Parts<'_, T, C>,
-        work: &Work<'_, T, C>,
+        work: &RowBody<'_, T, C>,
     ) {
         if !has_threads(arithmetic) {
             return self.one_by_one(arrays, work);
@@ -128,7 +128,7 @@ impl Tiles {
 
     /// Takes rows of tiles in order.
     #[inline(always)]
-    fn one_by_one<T: Real, const C: usize, W: Fn(Row<'_, T, C>) + ?Sized>(
+    fn one_by_one<T: Real, const C: usize, W: Fn(TileRow<'_, T, C>) + ?Sized>(
         self,
         mut arrays: Parts<'_, T, C>,
         work: &W,
@@ -156,7 +156,7 @@ impl Tiles {
         self,
         [first, last]: [usize; 2],
         parts: Parts<'_, T, C>,
-        work: &Work<'_, T, C>,
+        work: &RowBody<'_, T, C>,
     ) {
         let count = (last - first).div_ceil(2);
         let [lows, rest] = split(parts, count * TILE);
@@ -190,7 +190,7 @@ impl Tiles {
         count: usize,
         lows: Parts<'_, T, C>,
         highs: Parts<'_, T, C>,
-        work: &Work<'_, T, C>,
+        work: &RowBody<'_, T, C>,
     ) {
         match count {
             0 => return,
@@ -219,7 +219,7 @@ impl Tiles {
 
     /// Takes the tile of two blocks; on the diagonal `highs` has the elements of both.
     #[inline(always)]
-    fn tile<T: Real, const C: usize, W: Fn(Row<'_, T, C>) + ?Sized>(
+    fn tile<T: Real, const C: usize, W: Fn(TileRow<'_, T, C>) + ?Sized>(
         self,
         [low, high]: [usize; 2],
         mut lows: Parts<'_, T, C>,
@@ -253,7 +253,7 @@ impl Tiles {
                     [after(lows, at), highs]
                 }
             };
-            work(Row {
+            work(TileRow {
                 number,
                 columns: columns.clone(),
                 is_first,
@@ -285,7 +285,7 @@ mod tests {
         count: usize,
         triangle: Triangle,
         threads: usize,
-        work: impl Fn(Row<'_, f64, 2>) + Copy + Sync,
+        work: impl Fn(TileRow<'_, f64, 2>) + Copy + Sync,
     ) -> [Vec<f64>; 2] {
         let mut arrays = [(); 2].map(|()| alloc::vec![0.0; count]);
         let arithmetic = Arithmetic {
@@ -302,7 +302,7 @@ mod tests {
         for triangle in [Triangle::Below, Triangle::Above] {
             for count in [1, TILE - 1, TILE, TILE + 1, 3 * TILE - 2] {
                 let [rows, columns] = result(count, triangle, 1, |row| {
-                    let Row { own, others, .. } = row;
+                    let TileRow { own, others, .. } = row;
                     let [met, _] = own;
                     let [_, others] = others;
                     *met += row.columns.len() as f64 + if row.is_first { 0.5 } else { 0.0 };
@@ -327,8 +327,8 @@ mod tests {
     fn threads_meet_the_tiles_of_an_element_in_the_order_of_one() {
         // No other order leaves the same number.
         let after = |x: f64, tile: usize| (x * 1.25 + tile as f64).sin();
-        let work = |row: Row<'_, f64, 2>| {
-            let Row { own, others, .. } = row;
+        let work = |row: TileRow<'_, f64, 2>| {
+            let TileRow { own, others, .. } = row;
             let [element, _] = own;
             let [others, _] = others;
             *element = after(*element, row.columns.start);

@@ -119,7 +119,7 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
                 known: known.map(|known| known.name).collect(),
             });
         }
-        let search = Search {
+        let search = OrbitSearch {
             system,
             scheme,
             section,
@@ -178,8 +178,8 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
     }
 }
 
-/// The constants of the search.
-struct Search<'a, S, M> {
+/// The constants of the search for a periodic orbit.
+struct OrbitSearch<'a, S, M> {
     system: &'a S,
     scheme: M,
     section: Option<&'a str>,
@@ -196,7 +196,7 @@ struct At {
     matrix: DMatrix<f64>,
 }
 
-impl<S, M, V> Search<'_, S, M>
+impl<S, M, V> OrbitSearch<'_, S, M>
 where
     V: Vector<Scalar = f64>,
     S: System<f64, Vector = V> + System<Dual<f64>>,

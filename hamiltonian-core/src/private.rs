@@ -26,9 +26,9 @@ pub use crate::error::Error;
 pub use crate::exponential::Exponential;
 use crate::flow::{Flow, Piece, Pieces};
 pub use crate::function::Function;
-pub use crate::held::{Carried, Given, Held, gathered};
+pub use crate::held::{Given, Held, LaneValue, gathered};
 pub use crate::kernel::{
-    Adds, Damped, Drift, Field, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
+    Adds, Damped, Drift, FieldBody, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
     Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
 };
 use crate::lattice::write_indices;
@@ -36,9 +36,9 @@ pub use crate::lattice::{
     Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
 };
 pub use crate::loops::{
-    Body, Change, LONG, Mode, Nest, STRIDE, Store, Stretch, nest, total, worth, wrapped,
+    Body, Change, ColumnStore, LONG, Mode, Nest, STRIDE, Stretch, nest, total, worth, wrapped,
 };
-pub use crate::pairs::{Row, TILED, Triangle, pairs};
+pub use crate::pairs::{TILED, TileRow, Triangle, pairs};
 pub use crate::push::Coupled;
 pub use crate::reach::{Reach, product};
 pub use crate::slabs::rows;
@@ -300,10 +300,10 @@ macro_rules! __prepared {
                 $name($crate::private::gathered::<T, __P, _, _>(_of, |_one| &_one.0))
             }
             fn fits(&self, _other: &Self) -> $crate::private::bool {
-                $crate::private::Carried::fits(&self.0, &_other.0)
+                $crate::private::LaneValue::fits(&self.0, &_other.0)
             }
             fn equals(&self, _other: &Self) -> $crate::private::bool {
-                self.fits(_other) && $crate::private::Carried::equals(&self.0, &_other.0)
+                self.fits(_other) && $crate::private::LaneValue::equals(&self.0, &_other.0)
             }
         }
     };

@@ -135,8 +135,8 @@ pub struct SubStep<F>(pub F);
 /// The number of iterations after which an unsolved sub-step is an error.
 const LIMIT: u32 = 100;
 
-/// Δp ↦ c·(f − ∂V/∂q)(q, p + Δp/2)
-struct Change<'a, V: Vector, F> {
+/// The fixed-point equation Δp ↦ c·(f − ∂V/∂q)(q, p + Δp/2)
+struct MomentumEquation<'a, V: Vector, F> {
     field: &'a F,
     t: V::Scalar,
     point: &'a Point<V>,
@@ -145,7 +145,7 @@ struct Change<'a, V: Vector, F> {
     drift: &'a mut V,
 }
 
-impl<V: Vector, F: VectorField<V>> Contraction<V> for Change<'_, V, F> {
+impl<V: Vector, F: VectorField<V>> Contraction<V> for MomentumEquation<'_, V, F> {
     #[inline(always)]
     fn map(&mut self, change: &V, next: &mut V) {
         self.middle.copy_from(&self.point.p);
@@ -168,7 +168,7 @@ impl<V: Vector, F: VectorField<V>> Flow<Point<V>> for SubStep<F> {
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, Momenta(work): &mut Momenta<V>) {
         let [change, next, middle, drift] = work;
         change.set_zero();
-        let mut equation = Change {
+        let mut equation = MomentumEquation {
             field: &self.0,
             t,
             point: x,

@@ -66,7 +66,7 @@ pub fn rows<T: Real, const C: usize>(
 }
 
 /// The body of a loop: it receives a range of iterations and their elements.
-type Work<'a, T, const C: usize> = dyn Fn(Range<usize>, [&mut [T]; C]) + Sync + 'a;
+type SlabBody<'a, T, const C: usize> = dyn Fn(Range<usize>, [&mut [T]; C]) + Sync + 'a;
 
 /// Some iterations in so many slabs.
 #[inline(never)]
@@ -74,7 +74,7 @@ fn cut<T: Real, const C: usize>(
     range: Range<usize>,
     slabs: usize,
     columns: [(&mut [T], usize); C],
-    work: &Work<'_, T, C>,
+    work: &SlabBody<'_, T, C>,
 ) {
     if slabs < 2 {
         return work(range, columns.map(|(column, _)| column));

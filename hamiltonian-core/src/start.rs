@@ -25,7 +25,7 @@ use crate::state::State;
 use crate::system::{Dynamics, Group, System};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
-use search::{FINEST, Sample, Search, polished};
+use search::{EnergySample, FINEST, MomentumSearch, polished};
 
 /// The choice among several momenta with H = E.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -178,13 +178,13 @@ fn solve_momentum<T: Real, D: Dynamics<T>>(
     momentum: usize,
     energy: T,
     branch: Branch,
-) -> Result<T, Sample<T>> {
+) -> Result<T, EnergySample<T>> {
     let mut p = state.p.clone();
     let mut at = |x: T| {
         *p.component_mut(momentum) = x;
         let f = prepared.energy(state.t, &state.q, &p) - energy;
         prepared.gradient_p(state.t, &state.q, &p, slopes);
-        Sample {
+        EnergySample {
             x,
             f,
             slope: slopes.component(momentum),
@@ -209,7 +209,7 @@ fn solve_momentum<T: Real, D: Dynamics<T>>(
     if !guess.f.is_finite() {
         return Err(guess);
     }
-    let mut search = Search {
+    let mut search = MomentumSearch {
         at: &mut at,
         size: &mut size,
         roots: [None; 5],
@@ -220,14 +220,14 @@ fn solve_momentum<T: Real, D: Dynamics<T>>(
     }
     search.walk(guess, T::one());
     search.walk(guess, -T::one());
-    let fits = |root: &Sample<T>| match branch {
+    let fits = |root: &EnergySample<T>| match branch {
         Branch::Nearest => true,
         Branch::Forward => !is_negative(root.slope),
         Branch::Backward => !is_negative(-root.slope),
     };
-    let mut best: Option<Sample<T>> = None;
+    let mut best: Option<EnergySample<T>> = None;
     for root in search.roots.iter().flatten().filter(|root| fits(root)) {
-        let distance = |root: &Sample<T>| Real::abs((root.x - guess.x).to_f64());
+        let distance = |root: &EnergySample<T>| Real::abs((root.x - guess.x).to_f64());
         let closer = best.is_none_or(|best| {
             let (new, old) = (distance(root), distance(&best));
             new < old || (new == old && best.x.lt(root.x).all())
@@ -330,7 +330,11 @@ fn check_component(index: usize, count: usize) -> Result<(), Error> {
     }
 }
 
-fn no_momentum<T: Real, S: System<T>>(momentum: usize, energy: T, closest: &Sample<T>) -> Error {
+fn no_momentum<T: Real, S: System<T>>(
+    momentum: usize,
+    energy: T,
+    closest: &EnergySample<T>,
+) -> Error {
     Error::NoMomentum {
         name: name::<T, S>(momentum, |group| group.momentum),
         index: momentum,

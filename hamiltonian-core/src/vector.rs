@@ -403,7 +403,7 @@ pub mod shape {
     pub struct Array;
     /// `[[T; C]; N]`
     #[derive(Debug, Clone, Copy)]
-    pub struct Rows;
+    pub struct ArrayOfRows;
     /// `Vec<T>`
     #[derive(Debug, Clone, Copy)]
     pub struct Sequence;
@@ -432,7 +432,7 @@ impl<T: Real, const N: usize> IntoVector<shape::Array> for [T; N] {
     }
 }
 
-impl<T: Real, const N: usize, const C: usize> IntoVector<shape::Rows> for [[T; C]; N] {
+impl<T: Real, const N: usize, const C: usize> IntoVector<shape::ArrayOfRows> for [[T; C]; N] {
     type Vector = SMatrix<T, N, C>;
     fn into_vector(self) -> SMatrix<T, N, C> {
         SMatrix::from_fn(|row, column| self[row][column])

@@ -12,23 +12,23 @@ use crate::system::{Dynamics, System, declared_energy_at};
 use crate::vector::Vector;
 use hamiltonian_lanes::{KernelAt, Level, Mask, Real};
 
-/// Times of lanes that have made different numbers of steps: `start + (k + ahead)·interval`.
+/// The clock of lanes that have made different numbers of steps: `start + (k + ahead)·interval`.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Times<U> {
+pub(crate) struct LaneClock<U> {
     pub(crate) start: U,
     pub(crate) interval: U,
     /// The number of steps that a lane had made when the count began.
     pub(crate) ahead: U,
 }
 
-impl<U: Real> map::Times<U> for Times<U> {
+impl<U: Real> map::Times<U> for LaneClock<U> {
     #[inline(always)]
     fn at(&self, k: u64) -> U {
-        Times::at(self, k)
+        LaneClock::at(self, k)
     }
 }
 
-impl<U: Real> Times<U> {
+impl<U: Real> LaneClock<U> {
     /// Returns the times `k` steps after the count began. As for
     /// [`Clock::at`](crate::schemes::author::Clock::at), the compiler removes the call if the system does not
     /// depend on time.
@@ -153,7 +153,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
     fn go_on_with_sections<L: Level, R: Map<Carried: Carried<Vector = S::Vector, Scalar = U>>>(
         &mut self,
         map: &R,
-        (times, mut k, end): (&Times<U>, u64, u64),
+        (times, mut k, end): (&LaneClock<U>, u64, u64),
         z: &mut R::Carried,
         work: &mut R::Work,
         marks: &mut Marks<R::Carried, U::Mask>,
@@ -238,7 +238,7 @@ impl<L: Level, C: Vector, M: Mask> KernelAt<L> for Mark<'_, C, M> {
 /// A block of steps of all lanes.
 pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: System<U>> {
     pub(crate) map: &'a R,
-    pub(crate) times: &'a Times<U>,
+    pub(crate) times: &'a LaneClock<U>,
     /// Steps since the count of times began.
     pub(crate) made: u64,
     pub(crate) n: u64,

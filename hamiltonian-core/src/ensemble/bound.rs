@@ -3,7 +3,7 @@
 //! Input: a scheme and a system. Output: [`Ensembles`], which enters the level of the CPU and drives members
 //! there. Invariant: a scheme that does not take the system is rejected with the message of [`Scheme`].
 
-use super::drive::InPack;
+use super::drive::PackScheme;
 use super::drive::deviations::Deviations;
 use super::host::Host;
 use crate::error::Error;
@@ -68,12 +68,12 @@ where
     T: Real,
     S: System<T>,
     M: Scheme<T, S>
-        + InPack<T, S, L::Wide>
-        + InPack<T, S, L::Several>
-        + InPack<T, S, Nf<L::Several>>
-        + InPack<T, S, W2<L>>
-        + InPack<T, S, Nf<W2<L>>>,
-    W: Work<T, S>,
+        + PackScheme<T, S, L::Wide>
+        + PackScheme<T, S, L::Several>
+        + PackScheme<T, S, Nf<L::Several>>
+        + PackScheme<T, S, W2<L>>
+        + PackScheme<T, S, Nf<W2<L>>>,
+    W: MemberWork<T, S>,
 {
     type Output = ();
     #[inline(always)]
@@ -95,7 +95,7 @@ impl<T, S, M, W> WorkAtLevel<'_, T, S, M, W>
 where
     T: Real,
     S: System<T>,
-    W: Work<T, S>,
+    W: MemberWork<T, S>,
 {
     /// Does the work in one of two packs. Levels without fused products have only one arithmetic.
     #[inline(always)]
@@ -104,7 +104,7 @@ where
         L: Level,
         Fused: Pack,
         Unfused: Pack,
-        M: InPack<T, S, Fused> + InPack<T, S, Unfused>,
+        M: PackScheme<T, S, Fused> + PackScheme<T, S, Unfused>,
     {
         if self.fuses || const { !L::FUSES } {
             self.work.at::<L, Fused, M>(self.scheme);
@@ -124,21 +124,21 @@ pub struct DriveMembers<'a, T: Real, S: System<T>>(&'a mut dyn Host<T, S>);
 pub struct DeviateMembers<'a, 'r, T: Real, S: System<T>>(&'a mut Deviations<'r, T, S>);
 
 /// Work on members in the lanes of one pack type.
-pub trait Work<T: Real, S: System<T>> {
+pub trait MemberWork<T: Real, S: System<T>> {
     /// Does the work inside the level `L` of the pack.
-    fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M);
+    fn at<L: Level, P: Pack, M: PackScheme<T, S, P>>(self, scheme: &M);
 }
 
-impl<T: Real, S: System<T>> Work<T, S> for DriveMembers<'_, T, S> {
+impl<T: Real, S: System<T>> MemberWork<T, S> for DriveMembers<'_, T, S> {
     #[inline(always)]
-    fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M) {
+    fn at<L: Level, P: Pack, M: PackScheme<T, S, P>>(self, scheme: &M) {
         scheme.drive::<L>(self.0);
     }
 }
 
-impl<T: Real, S: System<T>> Work<T, S> for DeviateMembers<'_, '_, T, S> {
+impl<T: Real, S: System<T>> MemberWork<T, S> for DeviateMembers<'_, '_, T, S> {
     #[inline(always)]
-    fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M) {
+    fn at<L: Level, P: Pack, M: PackScheme<T, S, P>>(self, scheme: &M) {
         scheme.deviate::<L>(self.0);
     }
 }

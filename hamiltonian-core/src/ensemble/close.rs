@@ -3,7 +3,7 @@
 //! Input: the carried values of the lanes. Output: the closed states. Invariant: the carried values are not
 //! changed.
 
-use super::block::Times;
+use super::block::LaneClock;
 use crate::flow::Scratch;
 use crate::map::Map;
 use crate::state::{Carried, Point};
@@ -15,7 +15,7 @@ use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
 /// the duration of a step.
 pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Real, P: Pack> {
     pub(crate) map: &'a R,
-    pub(crate) times: &'a Times<T::Over<P>>,
+    pub(crate) times: &'a LaneClock<T::Over<P>>,
     /// Steps since the count of times began. A number that is negative as an `i64` is a step before.
     pub(crate) made: u64,
     pub(crate) carried: &'a R::Carried,
@@ -56,7 +56,7 @@ where
 
 /// Writes a closed copy of the carried value to rows of lanes, as [`Close`] does.
 pub(crate) struct WriteRows<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> {
-    pub(crate) times: &'a Times<T::Over<P>>,
+    pub(crate) times: &'a LaneClock<T::Over<P>>,
     pub(crate) made: u64,
     pub(crate) carried: &'a C,
     pub(crate) shown: &'a C,

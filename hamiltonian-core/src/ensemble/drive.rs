@@ -12,14 +12,14 @@ mod sections;
 use self::deviations::Deviations;
 use self::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use self::scalar::{explain, pass_to_host};
-use super::block::{Block, Followed, LaneSchedule, Opening, Times};
+use super::block::{Block, Followed, LaneClock, LaneSchedule, Opening};
 use super::close::{Close, WriteRows};
 use super::host::{Host, MemberRun};
 use super::marks::{LastThree, Marks};
 use super::occupants::Occupants;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
-use crate::observe::{LaneDrift, LaneSection, Quantity, Section};
+use crate::observe::{LaneDrift, LaneSection, MemberSection, Quantity};
 use crate::scheme::Scheme;
 use crate::state::Carried;
 use crate::system::System;
@@ -33,7 +33,7 @@ use hamiltonian_lanes::{Level, Mask, Pack, Real};
 const BLOCK: u64 = 1024;
 
 /// A scheme that drives members of `S` in the lanes of `P`.
-pub trait InPack<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
+pub trait PackScheme<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
     /// Drives all members of the host to their ends, inside the level `L` of the pack.
     fn drive<L: Level>(&self, host: &mut dyn Host<T, S>);
     /// Advances members with deviations to their ends, inside the level `L` of the pack.
@@ -47,7 +47,7 @@ pub(super) type CarriedIn<T, S, P, M> = <MapIn<T, S, P, M> as Map>::Carried;
 /// The lane mask of the scalar.
 type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;
 
-impl<T, S, P, M> InPack<T, S, P> for M
+impl<T, S, P, M> PackScheme<T, S, P> for M
 where
     T: Real,
     P: Pack,
@@ -168,7 +168,7 @@ where
     before: CarriedIn<T, S, P, M>,
     /// The closed state.
     shown: CarriedIn<T, S, P, M>,
-    times: Times<T::Over<P>>,
+    times: LaneClock<T::Over<P>>,
     opening: Opening<MaskIn<T, P>>,
     /// Steps since the occupants last changed.
     made: u64,
@@ -179,7 +179,7 @@ where
     sections: Vec<LaneSection<T::Over<P>>>,
     sections_before: Vec<LaneSection<T::Over<P>>>,
     /// The same functions over the members' scalar.
-    member_sections: Vec<Section<T>>,
+    member_sections: Vec<MemberSection<T>>,
     /// The lanes whose observers follow signs.
     section_lanes: MaskIn<T, P>,
     marks: Marks<CarriedIn<T, S, P, M>, MaskIn<T, P>>,
@@ -241,7 +241,7 @@ where
             rows: vec![T::default(); carried.len() * P::LANES as usize],
             numbers: Vec::with_capacity(runs.len()),
             carried,
-            times: Times::default(),
+            times: LaneClock::default(),
             opening: Opening::Open,
             prepared,
             drifts: Vec::new(),
@@ -289,7 +289,7 @@ where
         self.load_sections::<L>(&runs);
         self.marks.replace(&self.carried);
         self.made = 0;
-        let Times {
+        let LaneClock {
             start,
             interval,
             ahead,

@@ -3,12 +3,12 @@
 //! Input: a system and a start for each index, a scheme, a step. Output: the Lyapunov exponents, MEGNO or GALI of each
 //! member. Invariant: neither the number of threads nor the other members change a bit of a member.
 
-use super::Member;
 use super::bound::Ensembles;
 use super::drive::deviations::{DeviatedMember, Deviations, Indicator};
 use super::guard::guard;
 use super::ordered::in_order;
 use super::threads;
+use super::{MakeMember, Member};
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::state::State;
@@ -24,9 +24,6 @@ use hamiltonian_lanes::Dual;
 
 /// A number and its derivative.
 type D = Dual<f64>;
-/// Makes the system and the start of a member.
-type Make<'a, S> =
-    Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
 
 /// Computes Lyapunov exponents, MEGNO or GALI of many starts, in the lanes of packs and on threads.
 ///
@@ -59,7 +56,7 @@ type Make<'a, S> =
 /// [`Tangent`](crate::tangents::Tangent) on every CPU.
 pub struct Lyapunov<'a, S: System<f64>, M> {
     count: usize,
-    make: Make<'a, S>,
+    make: MakeMember<'a, S>,
     scheme: M,
     step: f64,
     steps: u64,

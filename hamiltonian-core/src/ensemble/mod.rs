@@ -41,6 +41,11 @@ pub use lyapunov::Lyapunov;
 pub use record::{End, Record, Row, Status};
 pub use sweep::Sweep;
 
+use crate::error::Error;
+use crate::state::State;
+use crate::system::System;
+use alloc::boxed::Box;
+
 /// A member of an ensemble: its index and its seed, from which its system and its start are made.
 ///
 /// ```
@@ -71,6 +76,10 @@ impl Member {
         Member { index, seed }
     }
 }
+
+/// Makes the system and the start of a member.
+type MakeMember<'a, S> =
+    Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
 
 /// The odd number nearest to 2⁶⁴ divided by the golden ratio.
 const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;

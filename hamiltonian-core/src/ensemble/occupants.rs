@@ -23,7 +23,7 @@ pub(crate) struct Occupants<T: Real, S: System<T>> {
     has_more: bool,
     /// True if any member so far has an observer whose quantities the lanes evaluate.
     any_followed: bool,
-    change: Option<Change>,
+    change: Option<OccupantChange>,
 }
 
 /// The occupation of a lane.
@@ -64,7 +64,7 @@ fn divisor(a: u64, b: u64) -> u64 {
 
 /// The differences between the occupants and the previous ones.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Change {
+pub(crate) struct OccupantChange {
     /// Parameters may differ.
     pub(crate) parameters: bool,
     /// At least one member is at its start.
@@ -140,7 +140,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
     }
 
     /// Returns the change of the occupants since the last call, if there is one.
-    pub(crate) fn changed(&mut self) -> Option<Change> {
+    pub(crate) fn changed(&mut self) -> Option<OccupantChange> {
         let mut change = self.change.take()?;
         change.all_at_start = true;
         for (run, status) in self.runs.iter_mut().zip(&self.status) {

@@ -47,12 +47,12 @@ mod parallel {
         stop: bool,
     }
 
-    struct Shared<B> {
+    struct SharedQueue<B> {
         queue: Mutex<Queue<B>>,
         changed: Condvar,
     }
 
-    impl<B> Shared<B> {
+    impl<B> SharedQueue<B> {
         fn lock(&self) -> MutexGuard<'_, Queue<B>> {
             // A poisoned lock is usable: no change of the queue can panic half-way.
             self.queue.lock().unwrap_or_else(PoisonError::into_inner)
@@ -64,7 +64,7 @@ mod parallel {
     }
 
     /// Stops all threads when dropped, so that none waits for a thread that has panicked.
-    struct Stop<'a, B>(&'a Shared<B>);
+    struct Stop<'a, B>(&'a SharedQueue<B>);
 
     impl<B> Drop for Stop<'_, B> {
         fn drop(&mut self) {
@@ -79,7 +79,7 @@ mod parallel {
         work: impl Fn(usize) -> B + Sync,
         mut take: impl FnMut(usize, B) -> ControlFlow<()>,
     ) {
-        let shared = Shared {
+        let shared = SharedQueue {
             queue: Mutex::new(Queue {
                 next: 0,
                 taken: 0,

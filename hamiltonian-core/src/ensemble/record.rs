@@ -107,7 +107,7 @@ pub struct Row<'r> {
 
 /// How a member ended, with the range of its values.
 #[derive(Debug)]
-pub(crate) struct Outcome {
+pub(crate) struct MemberOutcome {
     pub(crate) status: Status,
     pub(crate) time: f64,
     pub(crate) steps: u64,
@@ -123,7 +123,7 @@ pub(crate) struct Outcome {
 pub(crate) struct Batch {
     pub(crate) first: usize,
     pub(crate) columns: usize,
-    pub(crate) outcomes: Vec<Outcome>,
+    pub(crate) outcomes: Vec<MemberOutcome>,
     pub(crate) values: Vec<f64>,
     /// True if the sweep was cancelled, so that members may be missing.
     pub(crate) cancelled: bool,

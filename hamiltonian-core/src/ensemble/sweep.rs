@@ -5,11 +5,11 @@
 
 mod host;
 
-use super::Member;
 use super::bound::{Ensembles, ErasedScheme};
 use super::ordered::in_order;
 use super::record::{Batch, End, Record, Row};
 use super::threads;
+use super::{MakeMember, Member};
 use crate::error::Error;
 use crate::observe::{Observer, Unobserved};
 use crate::shard::Shard;
@@ -24,9 +24,6 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
 use host::SweepHost;
 
-/// Makes the system and the start of a member.
-type Make<'a, S> =
-    Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
 /// A closure that returns a number for each member.
 type PerMember<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
 
@@ -70,7 +67,7 @@ pub(crate) enum EndPoint<'a> {
 pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
     pub(crate) count: usize,
     pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
-    pub(crate) make: Make<'a, S>,
+    pub(crate) make: MakeMember<'a, S>,
     pub(crate) step: f64,
     pub(crate) step_each: Option<PerMember<'a>>,
     pub(crate) end: EndPoint<'a>,

@@ -1,7 +1,7 @@
 //! The messages of [`Error`], in the order of its variants.
 
 use super::Error;
-use super::words::{Known, Lane, Number, Numbers, Part, Remedy, Within};
+use super::words::{DerivativePart, Known, Lane, Number, Numbers, StartRemedy, Within};
 use core::fmt::{self, Display, Formatter};
 
 impl Display for Error {
@@ -67,13 +67,13 @@ impl Display for Error {
             } => write!(
                 f,
                 "{}{name} is {}{} at the start {clock} = {}, q = {}, p = {}: {}",
-                Part(*derivative),
+                DerivativePart(*derivative),
                 Number(*value),
                 Lane(*lane),
                 Number(*time),
                 Numbers(q),
                 Numbers(p),
-                Remedy(parameter, *derivative)
+                StartRemedy(parameter, *derivative)
             ),
             Self::Parameter { name } => {
                 write!(f, "the parameter `{name}` is NaN, and must be a number")

@@ -56,8 +56,8 @@ impl Display for ShardError {
             } => write!(
                 f,
                 "shard {index}/{count}{} does not exist\nhelp: {}",
-                Origin(variable),
-                Parts(*count)
+                FromVariable(variable),
+                ValidShards(*count)
             ),
             Self::Form {
                 variable,
@@ -90,9 +90,9 @@ impl From<ShardError> for Error {
 }
 
 /// ` (from …)` for a variable.
-struct Origin<'a>(&'a Option<&'static str>);
+struct FromVariable<'a>(&'a Option<&'static str>);
 
-impl Display for Origin<'_> {
+impl Display for FromVariable<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(variable) => write!(f, " (from `{variable}`)"),
@@ -113,10 +113,10 @@ impl Display for Named<'_> {
     }
 }
 
-/// The parts that exist.
-struct Parts(u64);
+/// The shards that exist.
+struct ValidShards(u64);
 
-impl Display for Parts {
+impl Display for ValidShards {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             0 => write!(f, "a sweep has at least one shard, 0/1"),

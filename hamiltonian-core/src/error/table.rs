@@ -49,7 +49,11 @@ impl Display for TableError {
                 name,
                 nearest,
                 known,
-            } => write!(f, "there is no column `{name}`{}", Remedy(nearest, known)),
+            } => write!(
+                f,
+                "there is no column `{name}`{}",
+                ColumnRemedy(nearest, known)
+            ),
             Self::Twice { name } => write!(
                 f,
                 "two columns have the name `{name}`\nhelp: give each column a name of its own"
@@ -86,16 +90,16 @@ impl TableError {
     }
 }
 
-/// The nearest name, or all names.
-struct Remedy<'a>(&'a Option<String>, &'a [String]);
+/// The remedy for an unknown column: the nearest name, or all names.
+struct ColumnRemedy<'a>(&'a Option<String>, &'a [String]);
 
-impl Display for Remedy<'_> {
+impl Display for ColumnRemedy<'_> {
     #[inline]
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Remedy(Some(nearest), _) => write!(f, "\nhelp: did you mean `{nearest}`?"),
-            Remedy(None, []) => write!(f, "\nhelp: the table has no columns"),
-            Remedy(None, known) => Known("the columns are", known).fmt(f),
+            ColumnRemedy(Some(nearest), _) => write!(f, "\nhelp: did you mean `{nearest}`?"),
+            ColumnRemedy(None, []) => write!(f, "\nhelp: the table has no columns"),
+            ColumnRemedy(None, known) => Known("the columns are", known).fmt(f),
         }
     }
 }

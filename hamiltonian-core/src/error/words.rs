@@ -51,9 +51,9 @@ impl Display for Numbers<'_> {
 }
 
 /// `the derivative part of …`, if it is one.
-pub(super) struct Part(pub(super) bool);
+pub(super) struct DerivativePart(pub(super) bool);
 
-impl Display for Part {
+impl Display for DerivativePart {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         f.write_str(if self.0 {
             "the derivative part of "
@@ -64,9 +64,9 @@ impl Display for Part {
 }
 
 /// The remedy for a start without values, or without derivative parts.
-pub(super) struct Remedy<'a>(pub(super) &'a Option<Box<str>>, pub(super) bool);
+pub(super) struct StartRemedy<'a>(pub(super) &'a Option<Box<str>>, pub(super) bool);
 
-impl Display for Remedy<'_> {
+impl Display for StartRemedy<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self.0 {
             Some(parameter) => write!(f, "the parameter `{parameter}` must be finite"),

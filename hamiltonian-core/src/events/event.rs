@@ -27,14 +27,15 @@ use hamiltonian_lanes::Real;
 /// ```
 pub struct Event<V: Vector> {
     pub(super) name: String,
-    pub(super) function: Option<Function<V>>,
+    pub(super) function: Option<StateFunction<V>>,
     /// The required sign of the slope; 0 for both.
     pub(super) slope: i8,
     pub(super) period: Option<V::Scalar>,
     pub(super) ends_after: Option<u64>,
 }
 
-type Function<V> = Arc<dyn Fn(&State<V>) -> <V as Vector>::Scalar + Send + Sync>;
+/// A function of the state.
+type StateFunction<V> = Arc<dyn Fn(&State<V>) -> <V as Vector>::Scalar + Send + Sync>;
 
 impl<V: Vector> Event<V> {
     /// Creates an event at the roots of the event, monitor or invariant of this name.

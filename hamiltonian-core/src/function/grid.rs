@@ -3,7 +3,7 @@
 //! Input: values at the points of a grid. Output: [`Grid`], a sum of products of B-splines. Invariant: the
 //! function passes through each value, and its second derivatives are continuous.
 
-use super::line::{Row, solve, solve_around};
+use super::line::{TridiagonalRow, solve, solve_around};
 use super::{Function, fingerprint, floor};
 use crate::error::KnotError;
 use alloc::sync::Arc;
@@ -144,23 +144,23 @@ impl Grid {
 /// the point before the grid.
 #[inline]
 fn factors(count: usize, values: &[f64], is_periodic: bool) -> Vec<f64> {
-    let inner = |right: f64| Row {
+    let inner = |right: f64| TridiagonalRow {
         lower: 1.0,
         middle: 4.0,
         upper: 1.0,
         right: 6.0 * right,
     };
     if is_periodic {
-        let rows: Vec<Row> = values.iter().map(|value| inner(*value)).collect();
+        let rows: Vec<TridiagonalRow> = values.iter().map(|value| inner(*value)).collect();
         let around = solve_around(&rows);
         return (0..count + 3)
             .map(|i| around[(i + count - 1) % count])
             .collect();
     }
     // cᵢ₋₁ − 2cᵢ + cᵢ₊₁ = 0 at the ends, where therefore cᵢ = vᵢ.
-    let mut rows: Vec<Row> = values.iter().map(|value| inner(*value)).collect();
+    let mut rows: Vec<TridiagonalRow> = values.iter().map(|value| inner(*value)).collect();
     for at in [0, count - 1] {
-        rows[at] = Row {
+        rows[at] = TridiagonalRow {
             lower: 0.0,
             middle: 1.0,
             upper: 0.0,

@@ -6,10 +6,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A row: the factors of the unknown before it, its own and the one after it, and the right side.
+/// A row of a tridiagonal system: the factors of the unknown before it, its own and the one after it, and the right side.
 /// The factor of an unknown that does not exist is not read.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
+pub(super) struct TridiagonalRow {
     pub lower: f64,
     pub middle: f64,
     pub upper: f64,
@@ -18,7 +18,7 @@ pub(super) struct Row {
 
 /// The solution (L. H. Thomas's elimination).
 #[inline]
-pub(super) fn solve(rows: &[Row]) -> Vec<f64> {
+pub(super) fn solve(rows: &[TridiagonalRow]) -> Vec<f64> {
     let mut x = vec![0.0; rows.len()];
     let mut above = vec![0.0; rows.len()];
     let (mut factor, mut right) = (0.0, 0.0);
@@ -38,7 +38,7 @@ pub(super) fn solve(rows: &[Row]) -> Vec<f64> {
 /// The solution of at least three rows if the first and the last unknown are neighbours (J. Sherman
 /// and W. J. Morrison, *Ann. Math. Stat.* 21, 124, 1950, doi:10.1214/aoms/1177729893).
 #[inline]
-pub(super) fn solve_around(rows: &[Row]) -> Vec<f64> {
+pub(super) fn solve_around(rows: &[TridiagonalRow]) -> Vec<f64> {
     let last = rows.len() - 1;
     let (corner, other) = (rows[0].lower, rows[last].upper);
     let gamma = -rows[0].middle;

@@ -3,7 +3,7 @@
 //! Input: knots, values at them, and a condition at the ends. Output: [`Spline`]. Invariant: the spline passes
 //! through each value, and its second derivative is continuous.
 
-use super::line::{Row, solve, solve_around};
+use super::line::{TridiagonalRow, solve, solve_around};
 use super::{Function, fingerprint, floor};
 use crate::error::KnotError;
 use alloc::sync::Arc;
@@ -29,11 +29,11 @@ use hamiltonian_lanes::Real;
 /// # Ok::<(), hamiltonian::errors::KnotError>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Spline(Arc<Pieces>);
+pub struct Spline(Arc<PiecewiseCubic>);
 
-/// The knots, and a polynomial for each interval.
+/// A piecewise cubic: the knots, and a polynomial for each interval.
 #[derive(Debug)]
-struct Pieces {
+struct PiecewiseCubic {
     knots: Vec<f64>,
     /// The coefficients of powers of (x − left knot), the constant first.
     polynomials: Vec<[f64; 4]>,
@@ -41,9 +41,9 @@ struct Pieces {
     fingerprint: u64,
 }
 
-/// The condition at the ends.
+/// The condition at the ends of a spline.
 #[derive(Debug, Clone, Copy)]
-enum Ends {
+enum EndCondition {
     Natural,
     Clamped([f64; 2]),
     Periodic,
@@ -57,7 +57,7 @@ impl Spline {
     /// finite, or if the knots do not increase.
     #[inline]
     pub fn natural(knots: &[f64], values: &[f64]) -> Result<Spline, KnotError> {
-        Spline::through(knots, values, Ends::Natural)
+        Spline::through(knots, values, EndCondition::Natural)
     }
 
     /// The spline with given slopes at the first and the last knot. It needs two knots.
@@ -67,7 +67,7 @@ impl Spline {
     #[inline]
     pub fn clamped(knots: &[f64], values: &[f64], slopes: [f64; 2]) -> Result<Spline, KnotError> {
         KnotError::check_finite("slope", &slopes)?;
-        Spline::through(knots, values, Ends::Clamped(slopes))
+        Spline::through(knots, values, EndCondition::Clamped(slopes))
     }
 
     /// The periodic spline: its period is the distance of the last knot from the first, and the last value is
@@ -91,18 +91,18 @@ impl Spline {
     /// differ.
     #[inline]
     pub fn periodic(knots: &[f64], values: &[f64]) -> Result<Spline, KnotError> {
-        Spline::through(knots, values, Ends::Periodic)
+        Spline::through(knots, values, EndCondition::Periodic)
     }
 
     #[inline]
-    fn through(knots: &[f64], values: &[f64], ends: Ends) -> Result<Spline, KnotError> {
+    fn through(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Spline, KnotError> {
         if knots.len() != values.len() {
             return Err(KnotError::Lengths {
                 knots: knots.len(),
                 values: values.len(),
             });
         }
-        let is_periodic = matches!(ends, Ends::Periodic);
+        let is_periodic = matches!(ends, EndCondition::Periodic);
         KnotError::check_count(if is_periodic { 4 } else { 2 }, knots.len())?;
         KnotError::check_finite("knot", knots)?;
         KnotError::check_finite("value", values)?;
@@ -131,12 +131,12 @@ impl Spline {
             })
             .collect();
         let kind = match ends {
-            Ends::Natural => [0.0, 0.0, 0.0],
-            Ends::Clamped([left, right]) => [1.0, left, right],
-            Ends::Periodic => [2.0, 0.0, 0.0],
+            EndCondition::Natural => [0.0, 0.0, 0.0],
+            EndCondition::Clamped([left, right]) => [1.0, left, right],
+            EndCondition::Periodic => [2.0, 0.0, 0.0],
         };
         let numbers = kind.iter().chain(knots).chain(values);
-        Ok(Spline(Arc::new(Pieces {
+        Ok(Spline(Arc::new(PiecewiseCubic {
             fingerprint: fingerprint(numbers.copied()),
             knots: knots.to_vec(),
             polynomials,
@@ -147,37 +147,37 @@ impl Spline {
 
 /// The second derivatives at the knots.
 #[inline]
-fn curvatures(knots: &[f64], values: &[f64], ends: Ends) -> Vec<f64> {
+fn curvatures(knots: &[f64], values: &[f64], ends: EndCondition) -> Vec<f64> {
     let last = knots.len() - 1;
     let width = |i: usize| knots[i + 1] - knots[i];
     let slope = |i: usize| (values[i + 1] - values[i]) / width(i);
     // The slopes of two neighbouring polynomials agree at their knot.
-    let joint = |before: usize, after: usize| Row {
+    let joint = |before: usize, after: usize| TridiagonalRow {
         lower: width(before),
         middle: 2.0 * (width(before) + width(after)),
         upper: width(after),
         right: 6.0 * (slope(after) - slope(before)),
     };
-    let end = |at: usize, change: f64| Row {
+    let end = |at: usize, change: f64| TridiagonalRow {
         lower: width(at),
         middle: 2.0 * width(at),
         upper: width(at),
         right: 6.0 * change,
     };
-    let straight = Row {
+    let straight = TridiagonalRow {
         lower: 0.0,
         middle: 1.0,
         upper: 0.0,
         right: 0.0,
     };
     let (first_row, last_row) = match ends {
-        Ends::Natural => (straight, straight),
-        Ends::Clamped([left, right]) => (
+        EndCondition::Natural => (straight, straight),
+        EndCondition::Clamped([left, right]) => (
             end(0, slope(0) - left),
             end(last - 1, right - slope(last - 1)),
         ),
-        Ends::Periodic => {
-            let mut rows: Vec<Row> = (1..last).map(|i| joint(i - 1, i)).collect();
+        EndCondition::Periodic => {
+            let mut rows: Vec<TridiagonalRow> = (1..last).map(|i| joint(i - 1, i)).collect();
             rows.insert(0, joint(last - 1, 0));
             let mut around = solve_around(&rows);
             around.push(around[0]);
@@ -191,7 +191,7 @@ fn curvatures(knots: &[f64], values: &[f64], ends: Ends) -> Vec<f64> {
     solve(&rows)
 }
 
-impl Pieces {
+impl PiecewiseCubic {
     /// The left knot of the interval around x and the polynomial there; NaN outside the knots.
     #[inline]
     fn around(&self, x: f64) -> [f64; 5] {

@@ -14,7 +14,7 @@ use hamiltonian_lanes::Real;
 use nalgebra::{Dim, Dyn, Matrix, RawStorage, VecStorage};
 
 /// A list of `R` levels.
-pub trait Nested<const R: usize> {
+pub trait NestedList<const R: usize> {
     /// The type of its numbers.
     type Scalar: Real;
     /// The extents of the parts of the first level, and the elements.
@@ -24,7 +24,7 @@ pub trait Nested<const R: usize> {
     fn flat(self, elements: &mut Vec<Self::Scalar>) -> Result<[usize; R], Uneven>;
 }
 
-impl<T: Real> Nested<1> for Vec<T> {
+impl<T: Real> NestedList<1> for Vec<T> {
     type Scalar = T;
     fn flat(mut self, elements: &mut Vec<T>) -> Result<[usize; 1], Uneven> {
         let length = self.len();
@@ -33,7 +33,7 @@ impl<T: Real> Nested<1> for Vec<T> {
     }
 }
 
-impl<T: Real, const N: usize> Nested<1> for [T; N] {
+impl<T: Real, const N: usize> NestedList<1> for [T; N] {
     type Scalar = T;
     fn flat(self, elements: &mut Vec<T>) -> Result<[usize; 1], Uneven> {
         elements.extend(self);
@@ -42,7 +42,7 @@ impl<T: Real, const N: usize> Nested<1> for [T; N] {
 }
 
 /// Concatenates lists of one level less.
-fn stacked<B: Nested<R>, const R: usize, const S: usize>(
+fn stacked<B: NestedList<R>, const R: usize, const S: usize>(
     parts: impl ExactSizeIterator<Item = B>,
     elements: &mut Vec<B::Scalar>,
 ) -> Result<[usize; S], Uneven> {
@@ -72,13 +72,13 @@ fn stacked<B: Nested<R>, const R: usize, const S: usize>(
 
 macro_rules! levels {
     ($($inner:literal $outer:literal),*) => { $(
-        impl<B: Nested<$inner>> Nested<$outer> for Vec<B> {
+        impl<B: NestedList<$inner>> NestedList<$outer> for Vec<B> {
             type Scalar = B::Scalar;
             fn flat(self, elements: &mut Vec<B::Scalar>) -> Result<[usize; $outer], Uneven> {
                 stacked::<B, $inner, $outer>(self.into_iter(), elements)
             }
         }
-        impl<B: Nested<$inner>, const N: usize> Nested<$outer> for [B; N] {
+        impl<B: NestedList<$inner>, const N: usize> NestedList<$outer> for [B; N] {
             type Scalar = B::Scalar;
             fn flat(self, elements: &mut Vec<B::Scalar>) -> Result<[usize; $outer], Uneven> {
                 stacked::<B, $inner, $outer>(self.into_iter(), elements)
@@ -90,7 +90,7 @@ macro_rules! levels {
 levels!(1 2, 2 3, 3 4);
 
 /// The lattice of a nested list.
-pub fn lattice<N: Nested<R>, const R: usize>(list: N) -> Lattice<N::Scalar, R> {
+pub fn lattice<N: NestedList<R>, const R: usize>(list: N) -> Lattice<N::Scalar, R> {
     let mut elements = Vec::new();
     let (extents, uneven) = match list.flat(&mut elements) {
         Ok(extents) => (extents, None),
@@ -115,13 +115,13 @@ impl<T: Real> IntoVector<shape::Nested<2>> for Vec<Vec<T>> {
 
 macro_rules! vectors {
     ($($inner:literal $outer:literal),*) => { $(
-        impl<B: Nested<$inner>> IntoVector<shape::Nested<$outer>> for Vec<B> {
+        impl<B: NestedList<$inner>> IntoVector<shape::Nested<$outer>> for Vec<B> {
             type Vector = Lattice<B::Scalar, $outer>;
             fn into_vector(self) -> Self::Vector {
                 lattice(self)
             }
         }
-        impl<B: Nested<$inner>, const N: usize> IntoVector<shape::Nested<$outer>> for [B; N] {
+        impl<B: NestedList<$inner>, const N: usize> IntoVector<shape::Nested<$outer>> for [B; N] {
             type Vector = Lattice<B::Scalar, $outer>;
             fn into_vector(self) -> Self::Vector {
                 lattice(self)
@@ -157,7 +157,7 @@ impl<T: Real, R: Dim> MatrixOf<shape::Same, T, R> for Wide<T, R> {
     }
 }
 
-impl<T: Real, R: Dim, N: Nested<2, Scalar = T>> MatrixOf<shape::Nested<2>, T, R> for N
+impl<T: Real, R: Dim, N: NestedList<2, Scalar = T>> MatrixOf<shape::Nested<2>, T, R> for N
 where
     VecStorage<T, R, Dyn>: RawStorage<T, R, Dyn>,
 {

@@ -109,7 +109,7 @@ pub fn nest<
     arithmetic: Arithmetic,
 ) {
     if T::WIDENS && arithmetic.lanes && is_long {
-        dispatch(InLanes::<T, N, G, R, C, Z> {
+        dispatch(NestKernel::<T, N, G, R, C, Z> {
             given,
             reads,
             columns,
@@ -122,8 +122,8 @@ pub fn nest<
     }
 }
 
-/// The nest in the level of the CPU.
-struct InLanes<'a, T, N, const G: usize, const R: usize, const C: usize, const Z: usize> {
+/// A nest as a kernel that enters a level.
+struct NestKernel<'a, T, N, const G: usize, const R: usize, const C: usize, const Z: usize> {
     given: [T; G],
     reads: [&'a [T]; R],
     columns: [&'a mut [T]; C],
@@ -139,12 +139,12 @@ impl<
     const R: usize,
     const C: usize,
     const Z: usize,
-> Kernel for InLanes<'_, T, N, G, R, C, Z>
+> Kernel for NestKernel<'_, T, N, G, R, C, Z>
 {
     type Output = ();
     #[inline(always)]
     fn run<L: Level>(self) {
-        let InLanes {
+        let NestKernel {
             given,
             reads,
             columns,

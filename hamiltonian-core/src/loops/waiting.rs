@@ -3,7 +3,7 @@
 //! Input: the results of a block of iterations. Output: the columns they are stored in. Invariant: each
 //! element is changed in the order of the iterations.
 
-use super::{BLOCK, CARRY, REACH, STRIDE, Store, changed, is_first_of_column};
+use super::{BLOCK, CARRY, ColumnStore, REACH, STRIDE, changed, is_first_of_column};
 use hamiltonian_lanes::{Pack, Real};
 
 /// Results of a block of iterations on their way to columns that several stores of an iteration reach.
@@ -34,7 +34,7 @@ pub(super) const NONE: usize = usize::MAX;
 impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     #[inline(always)]
     pub(super) fn new(
-        stores: &[Store],
+        stores: &[ColumnStore],
         starts: [usize; S],
         length: usize,
         is_followed: bool,
@@ -103,7 +103,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
 
     /// Returns true if the store does not wait, reads its element, and is the first one to change it.
     #[inline(always)]
-    pub(super) fn is_taken_back(&self, stores: &[Store], s: usize) -> bool {
+    pub(super) fn is_taken_back(&self, stores: &[ColumnStore], s: usize) -> bool {
         let store = &stores[s];
         store.change.reads()
             && match store.is_shared {
@@ -116,7 +116,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     #[inline(always)]
     pub(super) fn settle<P: Pack, const C: usize>(
         &mut self,
-        stores: &[Store],
+        stores: &[ColumnStore],
         columns: &mut [&mut [T]; C],
         at: usize,
         end: usize,
@@ -151,7 +151,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     #[inline(always)]
     fn together<P: Pack>(
         &mut self,
-        stores: &[Store],
+        stores: &[ColumnStore],
         column: &mut [T],
         g: usize,
         at: usize,
@@ -191,7 +191,14 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
 
     /// The next element of a group, by itself.
     #[inline(always)]
-    fn element(&mut self, stores: &[Store], column: &mut [T], g: usize, at: usize, end: usize) {
+    fn element(
+        &mut self,
+        stores: &[ColumnStore],
+        column: &mut [T],
+        g: usize,
+        at: usize,
+        end: usize,
+    ) {
         let element = self.next[g];
         for s in self.order {
             let (store, start) = (&stores[s], self.starts[s]);
@@ -209,7 +216,13 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
 
     /// One store of a column.
     #[inline(always)]
-    fn one_store<P: Pack>(&self, store: &Store, column: &mut [T], start: usize, count: usize) {
+    fn one_store<P: Pack>(
+        &self,
+        store: &ColumnStore,
+        column: &mut [T],
+        start: usize,
+        count: usize,
+    ) {
         let places = &mut column[start..start + count];
         let [a, b] = store.by.map(|by| &self.results[by][CARRY..CARRY + count]);
         let mut k = 0;

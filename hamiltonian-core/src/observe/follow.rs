@@ -5,7 +5,7 @@
 
 use super::deviation::Deviation;
 use super::quantity::Quantity;
-use super::section::Section;
+use super::section::MemberSection;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
@@ -21,7 +21,7 @@ pub struct FollowedDrift<T> {
 #[derive(Debug, Clone)]
 pub struct FollowedQuantities<T> {
     pub(crate) drifts: Vec<FollowedDrift<T>>,
-    pub(crate) sections: Vec<Section<T>>,
+    pub(crate) sections: Vec<MemberSection<T>>,
 }
 
 impl<T> Default for FollowedQuantities<T> {
@@ -83,7 +83,7 @@ impl<T: Real> FollowVisitor<T> {
     }
 
     /// Lists a function whose sign the observer follows.
-    pub(crate) fn section(&mut self, section: Section<T>) {
+    pub(crate) fn section(&mut self, section: MemberSection<T>) {
         if self.next_written.is_none() {
             self.followed.sections.push(section);
         }

@@ -6,9 +6,9 @@
 
 use hamiltonian_lanes::{Mask, Real};
 
-/// A function whose sign an observer follows, with its values after the last two steps.
+/// A section of a member: a function whose sign an observer follows, with its values after the last two steps.
 #[derive(Debug, Clone, Copy)]
-pub struct Section<T> {
+pub struct MemberSection<T> {
     /// The index of the function among the observables.
     pub(crate) observable: usize,
     /// The period: multiples of it count as 0.
@@ -21,7 +21,7 @@ pub struct Section<T> {
     pub(crate) ends: bool,
 }
 
-impl<T: Real> Section<T> {
+impl<T: Real> MemberSection<T> {
     /// Returns true if another section has the same function.
     pub(crate) fn is_of(&self, other: &Self) -> bool {
         let is_same_period = match (self.period, other.period) {
@@ -32,7 +32,7 @@ impl<T: Real> Section<T> {
     }
 }
 
-/// A section in lanes.
+/// A section of the members in lanes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LaneSection<U> {
     /// The index of the function among the observables.

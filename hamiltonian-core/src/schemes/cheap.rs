@@ -3,7 +3,7 @@
 //! Input: a [`Processed`] scheme and the table of ρ. Output: [`CheapProcessed`]. Invariant: the carried value
 //! has the bits of the processed scheme; the mean is part of the observed copy alone.
 
-use super::processed::{Kernel4, PostProcessor, Processed, Processing, Processor4, weights};
+use super::processed::{Kernel4, PostProcessor, Processed, ProcessedMap, Processor4, weights};
 use super::splitting::{Durations, Negated, Splitting};
 use super::tables::processed as tables;
 use super::zigzag::{Zigzag, ZigzagOf};
@@ -79,7 +79,7 @@ where
     P: Splitting,
     R: Splitting,
 {
-    type Map = Processing<
+    type Map = ProcessedMap<
         Point<S::Vector>,
         <S::Pieces as Pieces<T, S::Prepared>>::Outer,
         <S::Pieces as Pieces<T, S::Prepared>>::Inner,
@@ -94,7 +94,7 @@ where
             forward: Zigzag::new(&self.mean_of, pieces, prepared, whole),
             backward: Zigzag::new(&Negated(self.mean_of), pieces, prepared, whole),
         };
-        Processing::new(&self.processed, mean, pieces, prepared, step)
+        ProcessedMap::new(&self.processed, mean, pieces, prepared, step)
     }
     fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
         state.point()

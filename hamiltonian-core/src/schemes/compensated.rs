@@ -134,7 +134,7 @@ where
 }
 
 /// Kick and drift of a system with low words.
-type Halves<T, S> = (
+type KickAndDrift<T, S> = (
     Carrying<<S as Separable<T>>::Kick, true>,
     Carrying<<S as Separable<T>>::Drift, false>,
 );
@@ -142,8 +142,8 @@ type Halves<T, S> = (
 impl<T: Real, S: Separable<T> + Unforced, M: Splitting> Scheme<T, S> for Compensated<M> {
     type Map = Zigzag<
         Words<S::Vector>,
-        <Halves<T, S> as Pieces<T, S::Prepared>>::Outer,
-        <Halves<T, S> as Pieces<T, S::Prepared>>::Inner,
+        <KickAndDrift<T, S> as Pieces<T, S::Prepared>>::Outer,
+        <KickAndDrift<T, S> as Pieces<T, S::Prepared>>::Inner,
         M,
     >;
     #[inline(always)]

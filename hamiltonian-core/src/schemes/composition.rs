@@ -170,7 +170,7 @@ where
             let h = weight * step.h;
             let step_of_stage = Step { h, before };
             let joined = scheme.prepare_after(previous, prepared, step_of_stage);
-            let stage = Stage {
+            let stage = ComposedStage {
                 joins: joined.is_some(),
                 map: joined.unwrap_or_else(|| scheme.prepare(prepared, step_of_stage)),
                 at: at * duration * step.h,
@@ -197,7 +197,8 @@ where
     }
 }
 
-struct Stage<M: Map> {
+/// A stage of a composition, with its map.
+struct ComposedStage<M: Map> {
     map: M,
     /// True if its `join` closes the stage before; else that closes and this one opens.
     joins: bool,
@@ -208,7 +209,7 @@ struct Stage<M: Map> {
 /// The map of a [`Composition`]; `JOINED` if every stage joins the one before, so that steps need
 /// no test.
 pub struct Composed<M: Map, const S: usize, const JOINED: bool> {
-    stages: [Stage<M>; S],
+    stages: [ComposedStage<M>; S],
 }
 
 impl<M: Map, const S: usize, const JOINED: bool> Composed<M, S, JOINED> {

@@ -96,8 +96,8 @@ pub struct EnergyKeeping<T, P> {
     limit: u32,
 }
 
-/// slope ↦ J∇̄H.
-struct Slope<'a, T: Real, P: Dynamics<T>> {
+/// The fixed-point equation slope ↦ J∇̄H.
+struct DiscreteGradientEquation<'a, T: Real, P: Dynamics<T>> {
     map: &'a EnergyKeeping<T, P>,
     t: T,
     energy: T,
@@ -106,7 +106,7 @@ struct Slope<'a, T: Real, P: Dynamics<T>> {
     gradient: &'a mut Point<P::Vector>,
 }
 
-impl<T: Real, P: Dynamics<T>> Contraction<Point<P::Vector>> for Slope<'_, T, P> {
+impl<T: Real, P: Dynamics<T>> Contraction<Point<P::Vector>> for DiscreteGradientEquation<'_, T, P> {
     #[inline(always)]
     fn map(&mut self, slope: &Point<P::Vector>, next: &mut Point<P::Vector>) {
         let EnergyKeeping {
@@ -161,7 +161,7 @@ impl<T: Real, P: Dynamics<T>> EnergyKeeping<T, P> {
     ) -> Cause {
         let Pair { x: point, y: slope } = z;
         let t = t + self.half;
-        let mut equation = Slope {
+        let mut equation = DiscreteGradientEquation {
             map: self,
             t,
             energy: self.dynamics.energy(t, &point.q, &point.p),

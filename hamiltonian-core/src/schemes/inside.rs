@@ -16,7 +16,7 @@ pub use super::midpoint::{Midpoint, MidpointWork};
 pub use super::paced::{Pace, Pacing, PacingWork};
 pub use super::processed::{
     BlanesCasasMurua8Kernel, BlanesCasasMurua8Processor, Corrector3, Corrector5, Corrector7,
-    Corrector11, Corrector17, Kernel4, Kernel6, Processing, Processor4, Processor6,
+    Corrector11, Corrector17, Kernel4, Kernel6, ProcessedMap, Processor4, Processor6,
 };
 pub use super::projection::{Averaged, Mixing, Projected, ProjectedWork};
 pub use super::runge_kutta::{Classical, ClassicalWork};

@@ -103,15 +103,15 @@ pub struct Midpoint<V: Vector, F> {
     limit: u32,
 }
 
-/// slope ↦ J∇H(z + h/2·slope).
-struct Slope<'a, V: Vector, F> {
+/// The fixed-point equation slope ↦ J∇H(z + h/2·slope).
+struct MidpointEquation<'a, V: Vector, F> {
     map: &'a Midpoint<V, F>,
     t: V::Scalar,
     point: &'a Point<V>,
     middle: &'a mut Point<V>,
 }
 
-impl<V: Vector, F: VectorField<V>> Contraction<Point<V>> for Slope<'_, V, F> {
+impl<V: Vector, F: VectorField<V>> Contraction<Point<V>> for MidpointEquation<'_, V, F> {
     #[inline(always)]
     fn map(&mut self, slope: &Point<V>, next: &mut Point<V>) {
         self.middle.copy_from(self.point);
@@ -143,7 +143,7 @@ impl<V: Vector, F: VectorField<V>> Midpoint<V, F> {
         work: &mut MidpointWork<V>,
     ) -> Cause {
         let Pair { x: point, y: slope } = z;
-        let mut equation = Slope {
+        let mut equation = MidpointEquation {
             map: self,
             t: t + self.half,
             point,

@@ -80,7 +80,7 @@ where
     K: Splitting,
     P: Splitting,
 {
-    type Map = Processing<
+    type Map = ProcessedMap<
         Point<S::Vector>,
         <S::Pieces as Pieces<T, S::Prepared>>::Outer,
         <S::Pieces as Pieces<T, S::Prepared>>::Inner,
@@ -92,7 +92,7 @@ where
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let whole = Step::of(step.h);
         let post_processor = Zigzag::new(&self.processor, &S::PIECES, prepared, whole);
-        Processing::new(self, post_processor, &S::PIECES, prepared, step)
+        ProcessedMap::new(self, post_processor, &S::PIECES, prepared, step)
     }
     /// Processors of different steps do not cancel.
     #[inline(always)]
@@ -142,7 +142,7 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, P: Splitting> PostProcessor<X, (O::Work
 
 /// The map of a processed scheme whose post-processor is `C`.
 #[derive(Debug)]
-pub struct Processing<X: Vector, O, I, K: Splitting, P: Splitting, C> {
+pub struct ProcessedMap<X: Vector, O, I, K: Splitting, P: Splitting, C> {
     /// π⁻¹.
     unprocessor: Zigzag<X, O, I, Reversed<Negated<P>>>,
     kernel: Zigzag<X, O, I, K>,
@@ -150,7 +150,7 @@ pub struct Processing<X: Vector, O, I, K: Splitting, P: Splitting, C> {
 }
 
 impl<X: Vector, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting, C>
-    Processing<X, O, I, K, P, C>
+    ProcessedMap<X, O, I, K, P, C>
 {
     /// Folds the tables into the flows.
     #[inline(always)]
@@ -165,7 +165,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting, C>
         Q: Pieces<X::Scalar, D, Point = X, Outer = O, Inner = I>,
     {
         let unprocessing = Reversed(Negated(scheme.processor));
-        Processing {
+        ProcessedMap {
             unprocessor: Zigzag::new(&unprocessing, pieces, prepared, Step::of(step.h)),
             kernel: Zigzag::new(&scheme.kernel, pieces, prepared, step),
             post_processor,
@@ -187,7 +187,7 @@ fn apart<X: Carried>(z: &mut X, processor: impl FnOnce(&mut X)) {
     *z = moved;
 }
 
-impl<X, O, I, K, P, C> Map for Processing<X, O, I, K, P, C>
+impl<X, O, I, K, P, C> Map for ProcessedMap<X, O, I, K, P, C>
 where
     X: Carried,
     O: Flow<X>,

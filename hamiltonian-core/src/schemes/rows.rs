@@ -1,6 +1,6 @@
 //! Stages in rows: one after the other over a scalar, or beside each other in the lanes of a pack.
 //!
-//! Input: numbers of each stage. Output: [`Layout`], sums over stages, and the fixed-point iteration of
+//! Input: numbers of each stage. Output: [`RowLayout`], sums over stages, and the fixed-point iteration of
 //! all stages. Invariant: every layout adds in the same order, so that a step has the same bits in all
 //! of them where products do not fuse. The lanes of the last row that are left repeat its last stage.
 
@@ -39,7 +39,7 @@ impl Width for Abreast<8> {
 pub(super) const LEVELS: [Cpu; 2] = [Cpu::Neon, Cpu::Avx2];
 
 /// How the stages of a step lie in rows.
-pub(super) trait Layout<T: Real> {
+pub(super) trait RowLayout<T: Real> {
     /// The scalar of a row.
     type Row: Real;
     /// The stages of a row as numbers.
@@ -63,7 +63,7 @@ pub(super) trait Layout<T: Real> {
 /// Each stage in a row of its own.
 pub(super) struct Apart;
 
-impl<T: Real> Layout<T> for Apart {
+impl<T: Real> RowLayout<T> for Apart {
     type Row = T;
     type Few = [T; 1];
     const WIDTH: usize = 1;
@@ -101,7 +101,7 @@ impl<T: Real> Layout<T> for Apart {
 /// As many stages beside each other as the pack `P` has lanes.
 pub(super) struct Beside<P, const WIDTH: usize>(PhantomData<P>);
 
-impl<T: Real, P: Pack, const WIDTH: usize> Layout<T> for Beside<P, WIDTH> {
+impl<T: Real, P: Pack, const WIDTH: usize> RowLayout<T> for Beside<P, WIDTH> {
     type Row = T::Over<P>;
     type Few = [T; WIDTH];
     const WIDTH: usize = WIDTH;
@@ -147,13 +147,13 @@ impl<T: Real, P: Pack, const WIDTH: usize> Layout<T> for Beside<P, WIDTH> {
 
 /// The number of rows of `S` stages.
 #[inline(always)]
-pub(super) const fn rows<T: Real, L: Layout<T>, const S: usize>() -> usize {
+pub(super) const fn rows<T: Real, L: RowLayout<T>, const S: usize>() -> usize {
     S.div_ceil(L::WIDTH)
 }
 
 /// A number of each stage, in rows; those after the last row are 0.
 #[inline(always)]
-pub(super) fn in_rows<T: Real, L: Layout<T>, const S: usize>(values: &[T; S]) -> [L::Row; S] {
+pub(super) fn in_rows<T: Real, L: RowLayout<T>, const S: usize>(values: &[T; S]) -> [L::Row; S] {
     let mut all = [L::Row::zero(); S];
     for (row, few) in all.iter_mut().zip(values.chunks(L::WIDTH)) {
         *row = L::gather(few);
@@ -163,7 +163,7 @@ pub(super) fn in_rows<T: Real, L: Layout<T>, const S: usize>(values: &[T; S]) ->
 
 /// A matrix whose rows are stages: `[row][j]`.
 #[inline(always)]
-pub(super) fn matrix_in_rows<T: Real, L: Layout<T>, const S: usize>(
+pub(super) fn matrix_in_rows<T: Real, L: RowLayout<T>, const S: usize>(
     matrix: &[[T; S]; S],
 ) -> [[L::Row; S]; S] {
     let mut all = [[L::Row::zero(); S]; S];
@@ -182,7 +182,7 @@ pub(super) fn matrix_in_rows<T: Real, L: Layout<T>, const S: usize>(
 
 /// The number of stage `j`.
 #[inline(always)]
-fn number<T: Real, L: Layout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
+fn number<T: Real, L: RowLayout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
     few[j / L::WIDTH].as_ref()[j % L::WIDTH]
 }
 
@@ -199,7 +199,7 @@ fn joined<R: Real, const S: usize>(sums: [R; 4]) -> R {
 
 /// `Σ matrix[j]·few[j]` for a row: partial sums of the stages with the same remainder modulo 4, joined.
 #[inline(always)]
-pub(super) fn product<T: Real, L: Layout<T>, const S: usize>(
+pub(super) fn product<T: Real, L: RowLayout<T>, const S: usize>(
     matrix: &[L::Row; S],
     few: &[L::Few; S],
 ) -> L::Row {
@@ -226,7 +226,7 @@ pub(super) fn product<T: Real, L: Layout<T>, const S: usize>(
 
 /// `Σ few[j]` in the same order.
 #[inline(always)]
-pub(super) fn sum<T: Real, L: Layout<T>, const S: usize>(few: &[L::Few; S]) -> T {
+pub(super) fn sum<T: Real, L: RowLayout<T>, const S: usize>(few: &[L::Few; S]) -> T {
     let mut sums = [T::zero(); 4];
     for j in 0..S {
         let term = number::<T, L, S>(few, j);
@@ -270,7 +270,7 @@ pub(super) fn spread<T, L, Y, const N: usize, const S: usize>(
 ) -> [L::Few; S]
 where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     Y: Vector<Scalar = L::Row>,
 {
     let mut few = [L::split(L::Row::zero()); S];
@@ -289,7 +289,7 @@ where
 pub(super) fn load<T, L, Y, X, const S: usize>(from: &[Y; S], to: &mut [X; S])
 where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     Y: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
 {
@@ -311,7 +311,7 @@ where
 pub(super) fn store<T, L, X, Y, const S: usize>(from: &[X; S], to: &mut [Y; S])
 where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     Y: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
 {
@@ -326,7 +326,7 @@ where
 }
 
 /// Equations `y = g(y)` for an unknown of each stage.
-pub(super) trait Equations<T: Real, L: Layout<T>, const S: usize> {
+pub(super) trait Equations<T: Real, L: RowLayout<T>, const S: usize> {
     /// The unknowns of a row, and the point at which they are evaluated.
     type Unknowns: Vector<Scalar = L::Row>;
     /// The points of all rows, by the matrices of this number: 0 the first time, when the unknowns are those of the
@@ -361,7 +361,7 @@ const REST: f64 = 1.0 / 16.0;
 /// itself is not computed, so the first change is that of the second iteration; one stage begins with its
 /// unknown of the step before. A lane of `T` that is solved is not touched any more.
 #[inline(always)]
-pub(super) fn solve<T: Real, L: Layout<T>, E: Equations<T, L, S>, const S: usize>(
+pub(super) fn solve<T: Real, L: RowLayout<T>, E: Equations<T, L, S>, const S: usize>(
     limit: u32,
     equations: &mut E,
     unknowns: &mut [E::Unknowns; S],
@@ -432,7 +432,9 @@ fn larger<R: Real>(a: R, b: R) -> R {
 
 /// The largest of the stages' sizes; infinity if one of them is not a number.
 #[inline(always)]
-fn largest<T: Real, L: Layout<T>, const S: usize>(sizes: &[<L::Row as Real>::Size; S]) -> T::Size {
+fn largest<T: Real, L: RowLayout<T>, const S: usize>(
+    sizes: &[<L::Row as Real>::Size; S],
+) -> T::Size {
     let infinite = <L::Row as Real>::Size::constant(f64::INFINITY, 0.0);
     let mut most = infinite;
     for (row, size) in sizes.iter().enumerate().take(rows::<T, L, S>()) {
@@ -445,7 +447,7 @@ fn largest<T: Real, L: Layout<T>, const S: usize>(sizes: &[<L::Row as Real>::Siz
 
 /// The largest size of the unknowns of a stage.
 #[inline(always)]
-fn largest_size<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
+fn largest_size<T: Real, L: RowLayout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
     unknowns: &[Y; S],
 ) -> T::Size {
     let mut sizes = [<L::Row as Real>::Size::zero(); S];

@@ -8,7 +8,7 @@ use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
 use super::iterate::Outcome;
 use super::rows::{
-    Abreast, Apart, Beside, Equations, LEVELS, Layout, Width, in_rows, load, matrix_in_rows,
+    Abreast, Apart, Beside, Equations, LEVELS, RowLayout, Width, in_rows, load, matrix_in_rows,
     of_the_guess, product, rows, solve, spread, store, sum,
 };
 use super::stages::{Stages, extrapolation};
@@ -187,24 +187,24 @@ pub struct Eliminated<T: Real, P: Dynamics<T>, const S: usize> {
 /// The scratch of [`Eliminated`].
 #[derive(Debug, Clone)]
 pub struct EliminatedWork<V: Vector, const S: usize> {
-    rows: Rows<V, S>,
+    rows: RowScratch<V, S>,
     sums: Sums<V>,
     kept: Kept,
 }
 
-/// Memory of a step over rows of stages.
+/// The scratch of a step over rows of stages.
 #[derive(Debug, Clone)]
-struct Rows<X: Vector, const S: usize> {
+struct RowScratch<X: Vector, const S: usize> {
     points: Stages<X, S>,
     free: Stages<X, S>,
     moved: X,
     next: X,
 }
 
-impl<X: Vector, const S: usize> Rows<X, S> {
+impl<X: Vector, const S: usize> RowScratch<X, S> {
     fn new(zero: &X) -> Self {
         let stages = Stages(core::array::from_fn(|_| zero.clone()));
-        Rows {
+        RowScratch {
             points: stages.clone(),
             free: stages,
             moved: zero.clone(),
@@ -214,7 +214,7 @@ impl<X: Vector, const S: usize> Rows<X, S> {
 
     #[inline(always)]
     fn take(&mut self) -> Self {
-        Rows {
+        RowScratch {
             points: self.points.take(),
             free: self.free.take(),
             moved: self.moved.take(),
@@ -223,7 +223,7 @@ impl<X: Vector, const S: usize> Rows<X, S> {
     }
 }
 
-/// Memory of a step over the scalar.
+/// The scratch of a step over the scalar.
 #[derive(Debug, Clone)]
 struct Sums<V> {
     /// M⁻¹p.
@@ -232,8 +232,8 @@ struct Sums<V> {
     moved: V,
 }
 
-/// The numbers of a method for steps of one size, in rows of stages.
-struct Tableau<'a, R, const S: usize> {
+/// The tableau of a Nyström method for steps of one size, in rows of stages.
+struct NystromTableau<'a, R, const S: usize> {
     times: &'a [R; S],
     weights: &'a [R; S],
     /// In one array, so that they are read where they are: of two, compilers copy one.
@@ -242,8 +242,8 @@ struct Tableau<'a, R, const S: usize> {
 }
 
 /// ∂V/∂q at the stages ↦ ∂V/∂q at the points they lead to.
-struct SecondOrder<'a, T: Real, L: Layout<T>, D, V: Vector, X, const S: usize> {
-    tableau: &'a Tableau<'a, L::Row, S>,
+struct SecondOrder<'a, T: Real, L: RowLayout<T>, D, V: Vector, X, const S: usize> {
+    tableau: &'a NystromTableau<'a, L::Row, S>,
     dynamics: &'a D,
     t: L::Row,
     h: T,
@@ -256,7 +256,7 @@ struct SecondOrder<'a, T: Real, L: Layout<T>, D, V: Vector, X, const S: usize> {
 impl<T, L, D, V, X, const S: usize> Equations<T, L, S> for SecondOrder<'_, T, L, D, V, X, S>
 where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     D: Dynamics<L::Row, Vector = X>,
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
@@ -295,26 +295,26 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     #[inline(always)]
     fn fixed_point<L, D>(
         &self,
-        tableau: &Tableau<'_, L::Row, S>,
+        tableau: &NystromTableau<'_, L::Row, S>,
         dynamics: &D,
         t: T,
         point: &Point<P::Vector>,
         gradients: &mut [D::Vector; S],
-        memory: &mut Rows<D::Vector, S>,
+        scratch: &mut RowScratch<D::Vector, S>,
         sums: &mut Sums<P::Vector>,
     ) -> Outcome<T>
     where
-        L: Layout<T>,
+        L: RowLayout<T>,
         D: Dynamics<L::Row>,
     {
         let Point { q, p } = point;
         self.dynamics.gradient_p(t, q, p, &mut sums.velocity);
-        let Rows {
+        let RowScratch {
             points,
             free,
             moved,
             next,
-        } = memory;
+        } = scratch;
         for k in 0..P::Vector::PARTS {
             for i in 0..q.part(k).len() {
                 let q = L::splat(q.part(k)[i]);
@@ -340,14 +340,14 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     #[inline(always)]
     fn finish<L, X>(
         &self,
-        tableau: &Tableau<'_, L::Row, S>,
+        tableau: &NystromTableau<'_, L::Row, S>,
         t: T,
         gradients: &[X; S],
         point: &mut Point<P::Vector>,
         low: &mut Point<P::Vector>,
         sums: &mut Sums<P::Vector>,
     ) where
-        L: Layout<T>,
+        L: RowLayout<T>,
         X: Vector<Scalar = L::Row>,
     {
         for k in 0..P::Vector::PARTS {
@@ -368,8 +368,8 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         carry(point, low);
     }
 
-    fn tableau(&self) -> Tableau<'_, T, S> {
-        Tableau {
+    fn tableau(&self) -> NystromTableau<'_, T, S> {
+        NystromTableau {
             times: &self.times,
             weights: &self.weights,
             double: &self.double,
@@ -413,7 +413,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
     where
         Abreast<WIDTH>: Width,
     {
-        let steps = StepsBeside::<_, _, S, WIDTH> {
+        let steps = NystromStepsBeside::<_, _, S, WIDTH> {
             map: self,
             clock,
             made,
@@ -457,7 +457,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
 }
 
 /// Steps whose stages lie beside each other, until one is not solved.
-struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
+struct NystromStepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
     map: &'a Eliminated<T, P, S>,
     clock: Clock<T>,
     /// The steps made before.
@@ -468,7 +468,7 @@ struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usi
 }
 
 impl<T, Q, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
-    for StepsBeside<'_, T, Q, S, WIDTH>
+    for NystromStepsBeside<'_, T, Q, S, WIDTH>
 where
     T: Real,
     Q: Dynamics<T>,
@@ -486,7 +486,7 @@ where
         P: Pack,
         D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>> + 'static,
     {
-        let StepsBeside {
+        let NystromStepsBeside {
             map,
             clock,
             made,
@@ -501,22 +501,22 @@ where
             *to = matrix_in_rows::<T, Beside<P, WIDTH>, S>(from);
         }
         let ends = in_rows::<T, Beside<P, WIDTH>, S>(&map.ends);
-        let tableau = Tableau {
+        let tableau = NystromTableau {
             times: &times,
             weights: &weights,
             double: &double,
             ends: &ends,
         };
         let (gradients, rows) = kept.get(
-            |_: &(Stages<D::Vector, S>, Rows<D::Vector, S>)| true,
+            |_: &(Stages<D::Vector, S>, RowScratch<D::Vector, S>)| true,
             || {
                 let zero = z.x.q.zeros_over::<T::Over<P>>();
                 let gradients = Stages(core::array::from_fn(|_| zero.clone()));
-                (gradients, Rows::new(&zero))
+                (gradients, RowScratch::new(&zero))
             },
         );
         // Moved out, they are variables of this loop alone and may stay in registers.
-        let (mut of, mut memory) = (gradients.take(), rows.take());
+        let (mut of, mut scratch) = (gradients.take(), rows.take());
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         let mut scalars = Sums {
             velocity: sums.velocity.take(),
@@ -533,7 +533,7 @@ where
                 t,
                 &point,
                 &mut of.0,
-                &mut memory,
+                &mut scratch,
                 &mut scalars,
             );
             if !outcome.solved.all() {
@@ -551,7 +551,7 @@ where
         }
         store::<T, Beside<P, WIDTH>, _, _, S>(&of.0, &mut z.y.x.0);
         (z.x, z.y.y) = (point, low);
-        (*gradients, *rows, *sums) = (of, memory, scalars);
+        (*gradients, *rows, *sums) = (of, scratch, scalars);
         n - left
     }
 }
@@ -560,7 +560,7 @@ impl<V: Vector, const S: usize> Scratch<CarriesForces<V, S>> for EliminatedWork<
     fn like(like: &CarriesForces<V, S>) -> Self {
         let vector = || like.x.q.clone();
         EliminatedWork {
-            rows: Rows::new(&like.x.q),
+            rows: RowScratch::new(&like.x.q),
             sums: Sums {
                 velocity: vector(),
                 impulse: vector(),

@@ -28,8 +28,8 @@ use crate::vector::Vector;
 use core::ops::Range;
 pub(super) use guess::{extrapolation, of_fixed_point};
 use hamiltonian_lanes::{Mask, Real};
-use newton::{Entries, Linear};
-use slopes::{Memory, StepsBeside, Tableau, finish, fixed_point, steps};
+use newton::{Entries, LinearSystem};
+use slopes::{StepScratch, StepsBeside, Tableau, finish, fixed_point, steps};
 
 /// One vector a stage, as one vector.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,7 +116,7 @@ pub struct CollocatedWork<V: Vector, const S: usize> {
     pub(super) increments: Stages<Point<V>, S>,
     next: Stages<Point<V>, S>,
     guess: Stages<Point<V>, S>,
-    linear: Linear<V>,
+    linear: LinearSystem<V>,
     kept: Kept,
 }
 
@@ -127,7 +127,7 @@ impl<V: Vector, const S: usize> CollocatedWork<V, S> {
             increments: stages.clone(),
             next: stages.clone(),
             guess: stages.clone(),
-            linear: Linear::new(point, S),
+            linear: LinearSystem::new(point, S),
             kept: Kept::default(),
         }
     }
@@ -210,7 +210,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
 /// derivative is left out.
 struct Newton<'a, 'b, T: Real, P: Dynamics<T>, const S: usize> {
     slopes: Slopes<'a, T, P, S>,
-    linear: &'b mut Linear<P::Vector>,
+    linear: &'b mut LinearSystem<P::Vector>,
 }
 
 impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector>, S>>
@@ -493,7 +493,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
             return 1;
         }
         // Few stages may stay in registers, if they are variables of this loop alone.
-        let mut memory = Memory {
+        let mut scratch = StepScratch {
             slopes: z.y.x.take(),
             points: work.next.take(),
             next: work.stage.take(),
@@ -504,12 +504,12 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
             &self.tableau(),
             &self.field,
             (clock, made, n),
-            &mut memory,
+            &mut scratch,
             (&mut point, &mut low),
         );
         (z.x, z.y.y) = (point, low);
-        z.y.x = memory.slopes;
-        (work.next, work.stage) = (memory.points, memory.next);
+        z.y.x = scratch.slopes;
+        (work.next, work.stage) = (scratch.points, scratch.next);
         if solved < n {
             self.complete(clock.at(made + solved), outcome, z, work);
             return solved + 1;

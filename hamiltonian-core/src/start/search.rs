@@ -8,7 +8,7 @@ use hamiltonian_lanes::{Mask, Real};
 
 /// H − E at one value of the momentum.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sample<T> {
+pub(super) struct EnergySample<T> {
     pub(super) x: T,
     pub(super) f: T,
     pub(super) slope: T,
@@ -20,25 +20,25 @@ const LONGEST: usize = 400;
 /// double-double.
 pub(super) const FINEST: usize = 300;
 
-/// A walk along the momentum.
-pub(super) struct Search<'a, T, F, G> {
+/// A search for roots along the momentum.
+pub(super) struct MomentumSearch<'a, T, F, G> {
     pub(super) at: &'a mut F,
     /// The size of the terms that cancel in H − E.
     pub(super) size: &'a mut G,
     /// At most the guess and two on each side.
-    pub(super) roots: [Option<Sample<T>>; 5],
-    pub(super) closest: Sample<T>,
+    pub(super) roots: [Option<EnergySample<T>>; 5],
+    pub(super) closest: EnergySample<T>,
 }
 
-impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> {
-    pub(super) fn push(&mut self, root: Sample<T>) {
+impl<T: Real, F: FnMut(T) -> EnergySample<T>, G: FnMut(T) -> f64> MomentumSearch<'_, T, F, G> {
+    pub(super) fn push(&mut self, root: EnergySample<T>) {
         if let Some(place) = self.roots.iter_mut().find(|place| place.is_none()) {
             *place = Some(root);
         }
     }
 
     /// Walks from the guess in one direction with doubling steps, and records up to two roots.
-    pub(super) fn walk(&mut self, guess: Sample<T>, direction: T) {
+    pub(super) fn walk(&mut self, guess: EnergySample<T>, direction: T) {
         let mut last = guess;
         // At a root, the sign is that of the next value.
         let mut negative = sign_after(&last, direction);
@@ -77,7 +77,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
                 negative = !negative;
             } else {
                 // The growth of |H − E| on the way.
-                let rate = |s: &Sample<T>| {
+                let rate = |s: &EnergySample<T>| {
                     let slope = s.slope * direction;
                     (if negative { -slope } else { slope }).to_f64()
                 };
@@ -109,7 +109,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
         }
     }
 
-    fn note(&mut self, sample: Sample<T>) {
+    fn note(&mut self, sample: EnergySample<T>) {
         if sample.f.magnitude() < self.closest.f.magnitude() {
             self.closest = sample;
         }
@@ -117,7 +117,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
 
     /// The root between two samples of different signs: Newton's iteration, bisection where that
     /// leaves the bracket or is slow.
-    fn refine(&mut self, a: Sample<T>, b: Sample<T>) -> Sample<T> {
+    fn refine(&mut self, a: EnergySample<T>, b: EnergySample<T>) -> EnergySample<T> {
         let (mut low, mut high) = if is_negative(a.f) || is_negative(-b.f) {
             (a, b)
         } else {
@@ -168,7 +168,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
 
     /// The extremum between two samples with slopes of different signs, or a sample on the other
     /// side of E if one is met before.
-    fn turn(&mut self, a: Sample<T>, b: Sample<T>, negative: bool) -> Sample<T> {
+    fn turn(&mut self, a: EnergySample<T>, b: EnergySample<T>, negative: bool) -> EnergySample<T> {
         let (mut a, mut b) = (a, b);
         let mut best = if a.f.magnitude() < b.f.magnitude() {
             a
@@ -207,7 +207,10 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
 
 /// The root after one more step of Newton's iteration, which adds the derivative parts over duals;
 /// without the step if it makes the root worse.
-pub(super) fn polished<T: Real>(root: Sample<T>, mut at: impl FnMut(T) -> Sample<T>) -> T {
+pub(super) fn polished<T: Real>(
+    root: EnergySample<T>,
+    mut at: impl FnMut(T) -> EnergySample<T>,
+) -> T {
     let step = root.f / root.slope;
     let next = root.x - step;
     let small = 4.0 * T::epsilon() * Real::abs(root.x.to_f64());
@@ -223,7 +226,7 @@ pub(super) fn polished<T: Real>(root: Sample<T>, mut at: impl FnMut(T) -> Sample
 }
 
 /// Returns true if H − E is negative just after a sample.
-fn sign_after<T: Real>(sample: &Sample<T>, direction: T) -> bool {
+fn sign_after<T: Real>(sample: &EnergySample<T>, direction: T) -> bool {
     if sample.f.equals(T::zero()).all() {
         is_negative(sample.slope * direction)
     } else {

@@ -187,8 +187,8 @@ impl Layout {
 
     /// Returns the arrays of the root group.
     #[inline]
-    pub(super) fn arrays(&self) -> Vec<Array> {
-        let per_member = |name: &str, kind| Array {
+    pub(super) fn arrays(&self) -> Vec<ZarrArray> {
+        let per_member = |name: &str, kind| ZarrArray {
             name: name.to_owned(),
             kind,
             shape: vec![self.members],
@@ -203,7 +203,7 @@ impl Layout {
             }
             Rows::At { name, values } => {
                 let count = values.len() as u64;
-                arrays.push(Array::line(name, Kind::F64, count, name));
+                arrays.push(ZarrArray::line(name, Kind::F64, count, name));
                 for column in &self.columns {
                     let mut array = per_member(column, Kind::F64);
                     array.shape.push(count);
@@ -216,7 +216,7 @@ impl Layout {
         }
         arrays.push(per_member(TIME, Kind::F64));
         arrays.push(per_member(STEPS, Kind::U64));
-        arrays.push(Array {
+        arrays.push(ZarrArray {
             shape: vec![self.chunks(), 2],
             chunk: vec![1, 2],
             dimensions: vec!["chunk".to_owned(), "first_and_all".to_owned()],
@@ -239,8 +239,8 @@ impl Layout {
 
     /// Returns the arrays of a chunk with `rows` rows, for members with any number of rows.
     #[inline]
-    pub(super) fn rows_arrays(&self, rows: u64) -> Vec<Array> {
-        let line = |name: &str, kind| Array::line(name, kind, rows, "row");
+    pub(super) fn rows_arrays(&self, rows: u64) -> Vec<ZarrArray> {
+        let line = |name: &str, kind| ZarrArray::line(name, kind, rows, "row");
         let columns = self.columns.iter().map(|name| line(name, Kind::F64));
         core::iter::once(line(MEMBER, Kind::U64))
             .chain(columns)
@@ -277,9 +277,9 @@ impl Kind {
     }
 }
 
-/// An array of a store.
+/// The metadata of an array of a store.
 #[derive(Debug, Clone)]
-pub(super) struct Array {
+pub(super) struct ZarrArray {
     pub(super) name: String,
     pub(super) kind: Kind,
     pub(super) shape: Vec<u64>,
@@ -288,11 +288,11 @@ pub(super) struct Array {
     attributes: Vec<(String, Json)>,
 }
 
-impl Array {
+impl ZarrArray {
     /// Creates an array with one dimension in one chunk.
     #[inline]
     fn line(name: &str, kind: Kind, length: u64, dimension: &str) -> Self {
-        Array {
+        ZarrArray {
             name: name.to_owned(),
             kind,
             shape: vec![length],
@@ -360,7 +360,7 @@ fn group_members(attributes: Json) -> [(&'static str, Json); 3] {
 /// Returns the metadata of a group with those of all of its arrays, in the form of zarr-python. The specification does
 /// not yet contain this form, and readers may ignore it.
 #[inline]
-pub(super) fn consolidated(attributes: Json, arrays: &[Array]) -> Json {
+pub(super) fn consolidated(attributes: Json, arrays: &[ZarrArray]) -> Json {
     let metadata = arrays
         .iter()
         .map(|array| (array.name.clone(), array.metadata()));

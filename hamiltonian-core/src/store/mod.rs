@@ -20,7 +20,7 @@ use crate::error::{Error, StoreError};
 use core::fmt;
 use core::ops::Range;
 use files::{TemporaryFiles, failed};
-use layout::{Array, COUNT, HASHES, Kind, MEMBER, ROWS, STATUS, STEPS, TIME};
+use layout::{COUNT, HASHES, Kind, MEMBER, ROWS, STATUS, STEPS, TIME, ZarrArray};
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ use std::path::{Path, PathBuf};
 pub struct Store {
     root: PathBuf,
     layout: Layout,
-    arrays: Vec<Array>,
+    arrays: Vec<ZarrArray>,
     temporary: TemporaryFiles,
 }
 
@@ -354,7 +354,7 @@ impl Store {
     /// Returns the path of a chunk's file. Only the first dimension of an array is divided into chunks.
     #[inline]
     fn chunk_path(&self, array: &str, chunk: u64) -> PathBuf {
-        let is_flat = |array: &&Array| array.shape.len() == 1;
+        let is_flat = |array: &&ZarrArray| array.shape.len() == 1;
         let flat = (self.arrays.iter()).any(|known| known.name == array && is_flat(&known));
         let mut path = self.root.join(array).join("c").join(chunk.to_string());
         if !flat {
@@ -366,7 +366,7 @@ impl Store {
     /// Returns the paths and contents of the metadata below the group.
     #[inline]
     fn metadata(&self) -> Vec<(PathBuf, String)> {
-        let file = |array: &Array| {
+        let file = |array: &ZarrArray| {
             let path = self.root.join(&array.name).join("zarr.json");
             (path, array.metadata().to_string())
         };
@@ -547,7 +547,7 @@ impl fmt::Display for Completeness {
 
 /// Extends the bytes of an array's chunk by fill values beyond the last member.
 #[inline]
-fn padded(mut bytes: Vec<u8>, array: &Array) -> Vec<u8> {
+fn padded(mut bytes: Vec<u8>, array: &ZarrArray) -> Vec<u8> {
     let length = array.elements() * array.kind.size();
     while bytes.len() < length {
         bytes.extend_from_slice(array.kind.fill());

@@ -125,7 +125,7 @@ pub trait InPack<T: Real, V: Vector<Scalar = T>, P: Pack> {
         D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static;
 }
 
-/// Memory of work in lanes, whose type is the level's: a part of the scratch of a map. Its content never
+/// Scratch of work in lanes, whose type is the level's: a part of the scratch of a map. Its content never
 /// matters; it saves allocations and preparation. A copy is empty.
 #[derive(Default)]
 pub struct Kept(Option<Box<dyn Any + Send + Sync>>);
@@ -175,7 +175,7 @@ pub fn in_lanes<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>>(
         return None;
     }
     let scalar = PhantomData::<T>;
-    dispatch(Entry {
+    dispatch(SystemKernel {
         system,
         kept,
         kernel,
@@ -183,15 +183,15 @@ pub fn in_lanes<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>>(
     })
 }
 
-/// The kernel that enters a level for [`in_lanes`].
-struct Entry<'a, T, D, K> {
+/// A system and an [`InLanes`] kernel as a kernel that enters a level.
+struct SystemKernel<'a, T, D, K> {
     system: &'a D,
     kept: &'a mut Kept,
     kernel: K,
     scalar: PhantomData<T>,
 }
 
-impl<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, D, K> {
+impl<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>> Kernel for SystemKernel<'_, T, D, K> {
     type Output = Option<K::Output>;
     const BEST: Cpu = K::LEVELS[1];
     #[inline(always)]
@@ -200,7 +200,7 @@ impl<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, 
         if const { (L::CPU as u8) < K::LEVELS[0] as u8 } {
             return None;
         }
-        let Entry { system, kept, .. } = self;
+        let SystemKernel { system, kept, .. } = self;
         let kernel = AtLevel(self.kernel);
         if system.arithmetic().fused {
             system.in_pack::<K::Pack<L>, _>(kept, kernel)

@@ -61,7 +61,7 @@ impl Emission<'_> {
         let Some((function, holder)) = self.held_by(purpose, format!("{purpose:?}")) else {
             return;
         };
-        self.open_kernel("Field", kind(purpose), function, &holder, "");
+        self.open_kernel("FieldBody", kind(purpose), function, &holder, "");
         self.evaluated("add", &holder, &["_q", "_p", "_oq", "_op"], function);
         line!(self, "}}");
     }

@@ -68,7 +68,7 @@ impl Writer<'_> {
         );
         line!(
             self,
-            "let __h::Row {{ number: _i{row}, columns: _r{column}, is_first: _o{row}, own: [{}], others: [{}] }} = _y{row};",
+            "let __h::TileRow {{ number: _i{row}, columns: _r{column}, is_first: _o{row}, own: [{}], others: [{}] }} = _y{row};",
             list(&|name| format!("_y{name}")),
             list(&str::to_owned),
         );

@@ -296,7 +296,7 @@ impl Writer<'_> {
             line!(self, "const COUNTS: __h::core::primitive::bool = true;");
         }
         if !stretch.stores.is_empty() {
-            line!(self, "const STORES: &'static [__h::Store] = &[");
+            line!(self, "const STORES: &'static [__h::ColumnStore] = &[");
             for ColumnStore {
                 column,
                 change,
@@ -307,7 +307,7 @@ impl Writer<'_> {
                 let kind = if start.is_some() { "among" } else { "to" };
                 line!(
                     self,
-                    "__h::Store::{kind}({column}, __h::Change::{change}, [{a}, {b}]),"
+                    "__h::ColumnStore::{kind}({column}, __h::Change::{change}, [{a}, {b}]),"
                 );
             }
             line!(self, "];");

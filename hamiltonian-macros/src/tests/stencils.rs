@@ -16,7 +16,7 @@ fn shared(bond: &str) -> usize {
     let tokens = TokenStream::from_str(&source).expect("the source has balanced brackets");
     let code = expand(quote!(($crate) #tokens)).to_string();
     assert!(!code.contains("compile_error"), "{code}");
-    code.matches("Store :: among").count()
+    code.matches("ColumnStore :: among").count()
 }
 
 #[test]

@@ -391,7 +391,7 @@ pub fn sin_cos<W: Word>(x: W) -> (W, W) {
         let (n, r, tail) = match reduce_one(angle) {
             Some(reduced) => reduced,
             None => {
-                let [n, r, tail] = W::rare::<Reduced, 1, 3>([angle]);
+                let [n, r, tail] = W::rare::<ReducedAngle, 1, 3>([angle]);
                 (n.bits(), r, tail)
             }
         };
@@ -430,9 +430,9 @@ impl Rare<1, 2> for SineAndCosine {
 }
 
 /// A large angle as [`reduce`] has it, the quadrant as the bits of a number.
-struct Reduced;
+struct ReducedAngle;
 
-impl Rare<1, 3> for Reduced {
+impl Rare<1, 3> for ReducedAngle {
     #[inline(always)]
     fn of<W: Word>([angle]: [W; 1]) -> [W; 3] {
         let (n, r, tail) = reduction::reduce_large(angle);

@@ -7,7 +7,7 @@
 
 use super::rows::{Begin, Prepare, gather, load, scatter, store};
 use super::scalar::explain;
-use super::{CarriedIn, InPack, MapIn};
+use super::{CarriedIn, MapIn, PackScheme};
 use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
@@ -70,7 +70,7 @@ impl<T: Real, S: System<T>> Deviations<'_, T, S> {
 }
 
 /// Members with deviations in lanes.
-struct Lanes<T, S, P, M>
+struct DeviationLanes<T, S, P, M>
 where
     T: Real,
     P: Pack,
@@ -115,7 +115,7 @@ where
             Vector = VectorOver<<S as System<T>>::Vector, P>,
             Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
         >,
-    M: InPack<T, S, P> + Scheme<T::Over<P>, S>,
+    M: PackScheme<T, S, P> + Scheme<T::Over<P>, S>,
 {
     let mut lanes = None;
     let mut pending = Vec::new();
@@ -126,7 +126,7 @@ where
             true => core::mem::take(&mut pending),
         };
         for group in queue.chunks(P::LANES as usize) {
-            Lanes::<T, S, P, M>::load_lanes::<L>(&mut lanes, scheme, all, group);
+            DeviationLanes::<T, S, P, M>::load_lanes::<L>(&mut lanes, scheme, all, group);
             if let Some(lanes) = &mut lanes {
                 lanes.run::<L>(scheme, all, is_replay, &mut pending);
             }
@@ -134,7 +134,7 @@ where
     }
 }
 
-impl<T, S, P, M> Lanes<T, S, P, M>
+impl<T, S, P, M> DeviationLanes<T, S, P, M>
 where
     T: Real,
     P: Pack,
@@ -144,7 +144,7 @@ where
             Vector = VectorOver<<S as System<T>>::Vector, P>,
             Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
         >,
-    M: InPack<T, S, P> + Scheme<T::Over<P>, S>,
+    M: PackScheme<T, S, P> + Scheme<T::Over<P>, S>,
 {
     /// Loads members at their starts into lanes. The remaining lanes repeat the last member.
     #[inline(always)]
@@ -173,7 +173,7 @@ where
                     let carried = L::enter_at(begin);
                     let zero = <T::Over<P> as Real>::zero();
                     let (n, size) = (all.count, carried.point().len());
-                    *lanes = Some(Lanes {
+                    *lanes = Some(DeviationLanes {
                         map,
                         work: Scratch::like(&carried),
                         clock: Clock {

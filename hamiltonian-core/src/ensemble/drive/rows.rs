@@ -22,15 +22,16 @@ pub(in crate::ensemble) fn gather<L: Level, T: Real, P: Pack>(
     numbers: &[T],
     into: &mut T::Over<P>,
 ) {
-    L::enter_at(Gathered::<T, P> { numbers, into });
+    L::enter_at(GatherNumbers::<T, P> { numbers, into });
 }
 
-struct Gathered<'a, T: Real, P: Pack> {
+/// A number of each member, written to its lane at a level.
+struct GatherNumbers<'a, T: Real, P: Pack> {
     numbers: &'a [T],
     into: &'a mut T::Over<P>,
 }
 
-impl<L: Level, T: Real, P: Pack> KernelAt<L> for Gathered<'_, T, P> {
+impl<L: Level, T: Real, P: Pack> KernelAt<L> for GatherNumbers<'_, T, P> {
     type Output = ();
     #[inline(always)]
     fn run(self) {

@@ -9,7 +9,7 @@ use super::{Lanes, number_of_each};
 use crate::ensemble::close::Close;
 use crate::ensemble::host::{Host, MemberRun};
 use crate::ensemble::occupants::Occupants;
-use crate::observe::{LaneSection, Section};
+use crate::observe::{LaneSection, MemberSection};
 use crate::scheme::Scheme;
 use crate::system::System;
 use crate::system::gather::{Gather, VectorOver};
@@ -48,19 +48,19 @@ where
             }
         }
         for function in &self.member_sections {
-            let of = |run: &MemberRun<T, S>, number: fn(&Section<T>) -> T| {
+            let of = |run: &MemberRun<T, S>, number: fn(&MemberSection<T>) -> T| {
                 let mut own = run.followed.sections.iter();
                 let own = own.find(|section| section.is_of(function));
                 own.map_or(T::zero(), number)
             };
             let in_lanes =
-                |number: fn(&Section<T>) -> T| number_of_each(runs, |run| of(run, number));
+                |number: fn(&MemberSection<T>) -> T| number_of_each(runs, |run| of(run, number));
             let period = function.period.map(T::spread::<P>);
             self.sections
                 .push(LaneSection::new(function.observable, period));
             self.sections_before
                 .push(LaneSection::new(function.observable, period));
-            let numbers: [fn(&Section<T>) -> T; 2] = [
+            let numbers: [fn(&MemberSection<T>) -> T; 2] = [
                 |section| section.value,
                 |section| section.value - section.change,
             ];

@@ -8,7 +8,7 @@ use crate::ensemble::Member;
 use crate::ensemble::guard::guard;
 use crate::ensemble::hash::hash_of;
 use crate::ensemble::host::{Host, MemberRun};
-use crate::ensemble::record::{Batch, End, Outcome, Record, Status};
+use crate::ensemble::record::{Batch, End, MemberOutcome, Record, Status};
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
@@ -35,8 +35,8 @@ struct ActiveMember<O> {
     values: Vec<f64>,
 }
 
-/// `Break` if a member has come to its end: its state there, and true if its observer ended it.
-type Decision<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
+/// `Break` at the end of a member, with its state there, and true if its observer ended it.
+type EndOrContinue<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
 
 /// The members of a chunk, at their starts, running or ended.
 pub(crate) struct SweepHost<'r, 'a, S: System<f64>, O> {
@@ -45,7 +45,7 @@ pub(crate) struct SweepHost<'r, 'a, S: System<f64>, O> {
     /// The number of the next member in the chunk.
     next: usize,
     active: Vec<Option<ActiveMember<O>>>,
-    outcomes: Vec<Option<Outcome>>,
+    outcomes: Vec<Option<MemberOutcome>>,
     /// The hash of each member; empty if members are not hashed.
     hashes: Vec<u64>,
     values: Vec<f64>,
@@ -80,8 +80,8 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
     pub(crate) fn batch(mut self) -> Batch {
         let sweep = self.sweep;
         sweep.scheme.drive(&mut self, sweep.fuses);
-        let missing = |outcome: Option<Outcome>| {
-            outcome.unwrap_or(Outcome {
+        let missing = |outcome: Option<MemberOutcome>| {
+            outcome.unwrap_or(MemberOutcome {
                 status: Status::Missing,
                 time: f64::NAN,
                 steps: 0,
@@ -239,7 +239,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         &self,
         active: &mut ActiveMember<O>,
         view: &View<'_, f64, S>,
-    ) -> Result<Decision<S>, Error> {
+    ) -> Result<EndOrContinue<S>, Error> {
         let verdict = if !active.is_attached {
             active.is_attached = true;
             active.observer.attach(view)
@@ -361,7 +361,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
             index,
             error: Box::new(error),
         });
-        self.outcomes[key] = Some(Outcome {
+        self.outcomes[key] = Some(MemberOutcome {
             status,
             time,
             steps,

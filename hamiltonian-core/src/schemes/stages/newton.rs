@@ -29,7 +29,7 @@ pub(super) struct Entries<T> {
 
 /// The matrix of the linear equations, its right-hand side, and vectors of the system's shape.
 #[derive(Debug, Clone)]
-pub(super) struct Linear<V: Vector> {
+pub(super) struct LinearSystem<V: Vector> {
     /// None where there are too many unknowns.
     matrix: Option<Vec<V::Scalar>>,
     right: Vec<V::Scalar>,
@@ -37,13 +37,13 @@ pub(super) struct Linear<V: Vector> {
     column: Point<V>,
 }
 
-impl<V: Vector> Linear<V> {
+impl<V: Vector> LinearSystem<V> {
     /// For `stages` points like this one.
     pub(super) fn new(like: &Point<V>, stages: usize) -> Self {
         let size = stages * like.len();
         let fits = size <= LARGEST;
         let zero = V::Scalar::zero();
-        Linear {
+        LinearSystem {
             matrix: fits.then(|| alloc::vec![zero; size * size]),
             right: alloc::vec![zero; if fits { size } else { 0 }],
             unit: like.zeros_like(),

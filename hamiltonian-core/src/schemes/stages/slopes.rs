@@ -1,7 +1,7 @@
 //! The fixed point of the slopes of all stages, `Fᵢ = J∇H(z + Σ αᵢⱼ bⱼh Fⱼ, t + cᵢh)`, in any layout.
 //!
 //! Input: the numbers of a method, a vector field, the point. Output: the slopes, and the step they make.
-//! Invariant: the bits do not depend on the [`Layout`].
+//! Invariant: the bits do not depend on the [`RowLayout`].
 
 use super::{Carries, Collocated, Stages};
 use crate::flow::VectorField;
@@ -9,7 +9,7 @@ use crate::map::Clock;
 use crate::schemes::compensated::carry;
 use crate::schemes::iterate::Outcome;
 use crate::schemes::rows::{
-    Abreast, Beside, Equations, LEVELS, Layout, Width, in_rows, load, matrix_in_rows, product,
+    Abreast, Beside, Equations, LEVELS, RowLayout, Width, in_rows, load, matrix_in_rows, product,
     rows, solve, spread, store, sum,
 };
 use crate::state::Point;
@@ -19,7 +19,7 @@ use crate::vector::Vector;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 
-/// The numbers of a method for steps of one size, in rows of stages.
+/// The tableau of a Runge–Kutta method for steps of one size, in rows of stages.
 pub(super) struct Tableau<'a, T, R, const S: usize> {
     /// The step.
     pub(super) h: T,
@@ -33,7 +33,7 @@ pub(super) struct Tableau<'a, T, R, const S: usize> {
 }
 
 /// Slopes ↦ J∇H at the points they lead to.
-struct FirstOrder<'a, T: Real, L: Layout<T>, F, V: Vector<Scalar = T>, X, const S: usize> {
+struct FirstOrder<'a, T: Real, L: RowLayout<T>, F, V: Vector<Scalar = T>, X, const S: usize> {
     tableau: &'a Tableau<'a, T, L::Row, S>,
     field: &'a F,
     t: L::Row,
@@ -44,7 +44,7 @@ struct FirstOrder<'a, T: Real, L: Layout<T>, F, V: Vector<Scalar = T>, X, const 
 impl<T, L, F, V, X, const S: usize> Equations<T, L, S> for FirstOrder<'_, T, L, F, V, X, S>
 where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     F: VectorField<X>,
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
@@ -106,7 +106,7 @@ pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
 ) -> Outcome<T>
 where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     F: VectorField<X>,
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
@@ -130,7 +130,7 @@ pub(super) fn finish<T, L, V, X, const S: usize>(
     low: &mut Point<V>,
 ) where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
 {
@@ -143,8 +143,8 @@ pub(super) fn finish<T, L, V, X, const S: usize>(
     carry(point, low);
 }
 
-/// The memory of steps: slopes, points, a slope.
-pub(super) struct Memory<X: Vector, const S: usize> {
+/// The scratch of steps: slopes, points, a slope.
+pub(super) struct StepScratch<X: Vector, const S: usize> {
     pub(super) slopes: Stages<Point<X>, S>,
     pub(super) points: Stages<Point<X>, S>,
     pub(super) next: Point<X>,
@@ -153,7 +153,7 @@ pub(super) struct Memory<X: Vector, const S: usize> {
 /// Makes up to `n` steps after the first `made`, until one is not solved. Returns the number of steps made and
 /// the outcome of the last.
 ///
-/// The memory, the point and its low words should be variables of the caller alone, so that they may stay in
+/// The scratch, the point and its low words should be variables of the caller alone, so that they may stay in
 /// registers.
 #[inline(always)]
 pub(super) fn steps<T, L, F, V, X, const S: usize>(
@@ -161,12 +161,12 @@ pub(super) fn steps<T, L, F, V, X, const S: usize>(
     tableau: &Tableau<'_, T, L::Row, S>,
     field: &F,
     (clock, made, n): (Clock<T>, u64, u64),
-    memory: &mut Memory<X, S>,
+    scratch: &mut StepScratch<X, S>,
     (point, low): (&mut Point<V>, &mut Point<V>),
 ) -> (u64, Outcome<T>)
 where
     T: Real,
-    L: Layout<T>,
+    L: RowLayout<T>,
     F: VectorField<X>,
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Row>,
@@ -179,14 +179,14 @@ where
             field,
             clock.at(made + (n - left)),
             point,
-            &mut memory.slopes.0,
-            &mut memory.points.0,
-            &mut memory.next,
+            &mut scratch.slopes.0,
+            &mut scratch.points.0,
+            &mut scratch.next,
         );
         if !outcome.solved.all() {
             break;
         }
-        finish::<T, L, _, _, S>(tableau.weights, &memory.slopes.0, point, low);
+        finish::<T, L, _, _, S>(tableau.weights, &scratch.slopes.0, point, low);
         left -= 1;
     }
     (n - left, outcome)
@@ -245,12 +245,12 @@ where
             matrices: &matrices,
         };
         let field = system.field(T::Over::<P>::one());
-        let memory = kept.get(
+        let scratch = kept.get(
             |_| true,
             || {
                 let zero = z.x.zeros_over::<T::Over<P>>();
                 let stages = Stages(core::array::from_fn(|_| zero.clone()));
-                Memory::<D::Vector, S> {
+                StepScratch::<D::Vector, S> {
                     slopes: stages.clone(),
                     points: stages,
                     next: zero,
@@ -258,10 +258,10 @@ where
             },
         );
         // Moved out, they are variables of this loop alone and may stay in registers.
-        let mut here = Memory {
-            slopes: memory.slopes.take(),
-            points: memory.points.take(),
-            next: memory.next.take(),
+        let mut here = StepScratch {
+            slopes: scratch.slopes.take(),
+            points: scratch.points.take(),
+            next: scratch.next.take(),
         };
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut here.slopes.0);
@@ -275,7 +275,7 @@ where
         );
         store::<T, Beside<P, WIDTH>, _, _, S>(&here.slopes.0, &mut z.y.x.0);
         (z.x, z.y.y) = (point, low);
-        *memory = here;
+        *scratch = here;
         steps
     }
 }

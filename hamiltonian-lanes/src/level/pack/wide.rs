@@ -34,7 +34,7 @@ pub struct Masks<P: Real, const K: usize>([P::Mask; K]);
 /// The bits of the packs of a [`W`].
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub struct Words<P: Word, const K: usize>([P::Bits; K]);
+pub struct WideWords<P: Word, const K: usize>([P::Bits; K]);
 
 impl<P: Real, const K: usize> Copy for Masks<P, K> {}
 impl<P: Real, const K: usize> Clone for Masks<P, K> {
@@ -96,7 +96,7 @@ operators! { Masks<Base>:
     BitAnd bitand;
     BitOr bitor;
 }
-operators! { Words<Base>:
+operators! { WideWords<Base>:
     BitAnd bitand;
     BitOr bitor;
     BitXor bitxor;
@@ -164,7 +164,7 @@ impl<P: Base, const K: usize> Mask for Masks<P, K> {
     }
 }
 
-impl<P: Base, const K: usize> Bits for Words<P, K> {
+impl<P: Base, const K: usize> Bits for WideWords<P, K> {
     #[inline(always)]
     fn splat(x: u64) -> Self {
         Self([P::Bits::splat(x); K])
@@ -298,19 +298,19 @@ impl<P: Base, const K: usize> Real for W<P, K> {
 }
 
 impl<P: Base, const K: usize> Word for W<P, K> {
-    type Bits = Words<P, K>;
+    type Bits = WideWords<P, K>;
     const FUSED: bool = P::FUSED;
 
     #[inline(always)]
-    fn bits(self) -> Words<P, K> {
-        Words(each!(K, [P::Bits::splat(0); K], k => self.0[k].bits()))
+    fn bits(self) -> WideWords<P, K> {
+        WideWords(each!(K, [P::Bits::splat(0); K], k => self.0[k].bits()))
     }
     #[inline(always)]
-    fn from_bits(bits: Words<P, K>) -> Self {
+    fn from_bits(bits: WideWords<P, K>) -> Self {
         Self(each!(K, [P::zero(); K], k => P::from_bits(bits.0[k])))
     }
     #[inline(always)]
-    fn odd(bits: Words<P, K>) -> Masks<P, K> {
+    fn odd(bits: WideWords<P, K>) -> Masks<P, K> {
         Masks(each!(K, [P::Mask::splat(false); K], k => P::odd(bits.0[k])))
     }
     #[inline(always)]
@@ -340,7 +340,7 @@ impl<P: Base, const K: usize> Word for W<P, K> {
         values
     }
     #[inline(always)]
-    fn two_over_pi(bits: Words<P, K>) -> [Self; 4] {
+    fn two_over_pi(bits: WideWords<P, K>) -> [Self; 4] {
         let mut words = [W([P::zero(); K]); 4];
         let mut k = 0;
         while k < K {

@@ -123,7 +123,7 @@ pub enum Error {
         /// Its name, with the place in an array: `m[1]`.
         name: String,
     },
-    /// Mean rates over no steps are asked for.
+    /// A mean rate over no steps.
     NoSteps,
     /// A start of a system in another time (`dt = g*ds`) that is not on the shell H = 0, where alone
     /// its orbits are those of the declared system.
@@ -154,7 +154,7 @@ pub enum Error {
     },
     /// A name that the system declares no monitor, invariant or event by.
     Unknown {
-        /// The name asked for.
+        /// The unknown name.
         name: String,
         /// The system.
         system: &'static str,
@@ -210,7 +210,7 @@ pub enum Error {
     OffGrid {
         /// The name of the run's time: `t`, in another time the one that it has there.
         clock: &'static str,
-        /// The time asked for.
+        /// The target time.
         target: f64,
         /// The last reachable time that is not beyond it.
         before: f64,
@@ -221,14 +221,14 @@ pub enum Error {
     Unreachable {
         /// The name of the run's time: `t`, in another time the one that it has there.
         clock: &'static str,
-        /// The time asked for.
+        /// The target time.
         target: f64,
     },
     /// A time that lies behind the run.
     Behind {
         /// The name of the run's time: `t`, in another time the one that it has there.
         clock: &'static str,
-        /// The time asked for.
+        /// The target time.
         target: f64,
         /// The present time.
         now: f64,
@@ -239,7 +239,7 @@ pub enum Error {
     Far {
         /// The name of the run's time: `t`, in another time the one that it has there.
         clock: &'static str,
-        /// The time asked for.
+        /// The target time.
         target: f64,
         /// One step back from the present time.
         from: f64,
@@ -321,7 +321,7 @@ pub enum Error {
     Deviations {
         /// The number of coordinates and momenta together.
         most: usize,
-        /// The number asked for.
+        /// The number of deviations.
         found: usize,
     },
     /// An index of an observable that there is not.
@@ -338,13 +338,13 @@ pub enum Error {
         /// The period of the best start.
         period: f64,
     },
-    /// No value of a momentum gives the energy asked for (on the branch asked for).
+    /// No value of a momentum, on the chosen branch, gives the required energy.
     NoMomentum {
         /// The name of the momentum.
         name: &'static str,
         /// Its flat index.
         index: usize,
-        /// The energy asked for.
+        /// The required energy.
         energy: f64,
         /// The value of H nearest to it that was found; at a turning point the minimum of H.
         reached: f64,

@@ -205,8 +205,8 @@ pub fn columns_mut<T, const C: usize>(mut rest: &mut [T], rows: usize) -> [&mut 
 fn assert_shape(given: usize, rows: usize, columns: usize) {
     assert!(
         given == rows * columns,
-        "the state has {given} elements where the system has {rows}×{columns}: states of any length \
-         can be asked about with `check_shape`"
+        "the state has {given} elements where the system has {rows}×{columns}: `check_shape` checks \
+         states of any length"
     );
 }
 

@@ -196,8 +196,8 @@ impl Display for Error {
                 to,
             } => write!(
                 f,
-                "{clock} = {} is more than one step from the present: from {} to {} \
-                 can be asked for",
+                "{clock} = {} is more than one step from the present: choose a time from {} \
+                 to {}",
                 Number(*target),
                 Number(*from),
                 Number(*to)

@@ -474,7 +474,7 @@ where
     Q: Dynamics<T>,
     Abreast<WIDTH>: Width,
 {
-    /// The number of steps made. If it is less than asked for, the value carried is that before the step
+    /// The number of steps made. If it is less than `n`, the value carried is that before the step
     /// that was not solved, but for ∂V/∂q.
     type Output = u64;
     type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;

@@ -5,56 +5,16 @@
 //! does nothing else, names nobody itself. The engine's folders are layers, of which each reads only those
 //! below it.
 
+use crate::source::{CRATES, Module, Texts, is_word, texts, texts_of};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
-
-/// The crates, all without a circle.
-const CRATES: [&str; 6] = [
-    "hamiltonian-real",
-    "hamiltonian-lanes",
-    "hamiltonian-core",
-    "hamiltonian-symbolic",
-    "hamiltonian-language",
-    "hamiltonian-macros",
-];
 
 /// The layers of the engine, the lowest first.
 const LAYERS: [&str; 4] = ["algebra", "proofs", "flows", "programs"];
-
-/// The path of a module, from the root of its crate.
-type Module = Vec<String>;
-
-/// The text of every module of a crate, without comments.
-type Texts = BTreeMap<Module, String>;
-
-/// Reads the modules below a folder, whose own module is `at`.
-fn read(folder: &Path, at: &Module, texts: &mut Texts) {
-    for entry in fs::read_dir(folder).expect("it can be listed") {
-        let path = entry.expect("it can be listed").path();
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        let mut module = at.clone();
-        if path.is_dir() {
-            module.push(name.into());
-            read(&path, &module, texts);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            if !matches!(&*name, "lib" | "main" | "mod") {
-                module.push(name.into());
-            }
-            let text = fs::read_to_string(&path).expect("it can be read");
-            let code = text
-                .lines()
-                .map(|line| line.split("//").next().unwrap_or_default());
-            texts.insert(module, code.collect::<Vec<_>>().join("\n"));
-        }
-    }
-}
 
 /// Every path in a text that begins with `crate`, `super`, `self` or, in a `use`, a child module; with
 /// the lists in braces written out.
 fn paths(text: &str, module: &Module, texts: &Texts) -> Vec<Vec<String>> {
     let mut found = vec![];
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
     for (at, _) in text.char_indices() {
         let (before, rest) = text.split_at(at);
         if before.ends_with(|c| is_word(c) || c == ':') || !rest.starts_with(is_word) {
@@ -90,9 +50,7 @@ fn expand<'a>(text: &'a str, before: &mut Vec<String>, found: &mut Vec<Vec<Strin
             list = rest;
         }
     }
-    let end = text
-        .find(|c: char| !c.is_alphanumeric() && c != '_')
-        .unwrap_or(text.len());
+    let end = text.find(|c| !is_word(c)).unwrap_or(text.len());
     before.push(text[..end].into());
     match text[end..].strip_prefix("::") {
         Some(rest) if rest.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '{') => {
@@ -103,10 +61,7 @@ fn expand<'a>(text: &'a str, before: &mut Vec<String>, found: &mut Vec<Vec<Strin
             // `as Other`
             let rest = &text[end..];
             let renamed = rest.trim_start().strip_prefix("as ");
-            renamed.map_or(rest, |rest| {
-                rest.trim_start()
-                    .trim_start_matches(|c: char| c.is_alphanumeric() || c == '_')
-            })
+            renamed.map_or(rest, |rest| rest.trim_start().trim_start_matches(is_word))
         }
     }
 }
@@ -217,27 +172,6 @@ fn against_layers(texts: &Texts) -> Vec<String> {
     let upward = uses.filter(|(from, to)| level(from) < level(to));
     let upward = upward.map(|(from, to)| format!("{from} uses {to}"));
     outside.chain(upward).collect()
-}
-
-/// The modules of a crate of the workspace.
-fn texts_of(name: &str) -> Texts {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let mut texts = Texts::new();
-    read(&root.join(name).join("src"), &vec![], &mut texts);
-    assert!(texts.len() > 5, "{name}: nothing was read");
-    texts
-}
-
-/// Modules written down: a path and its text.
-fn texts(modules: &[(&str, &str)]) -> Texts {
-    let named = |path: &str| -> Module {
-        let names = path.split('/').filter(|name| !name.is_empty());
-        names.map(String::from).collect()
-    };
-    let texts = modules
-        .iter()
-        .map(|(path, text)| (named(path), text.to_string()));
-    texts.collect()
 }
 
 #[test]

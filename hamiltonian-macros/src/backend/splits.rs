@@ -10,7 +10,7 @@ use hamiltonian_language::checked::{self, Checked, NodeKind, Variable};
 use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::{Model, Piece};
-use hamiltonian_symbolic::split::{self, MOST, NoFlow, Splitting};
+use hamiltonian_symbolic::split::{self, NoFlow, PIECES, Splitting};
 use hamiltonian_symbolic::structure::Structure;
 
 /// The text on a splitting.
@@ -94,9 +94,9 @@ pub fn decide(
         return Found::split(Vec::new());
     }
     match found {
-        Ok(splitting) if is_forced && splitting.pieces.len() == MOST => refused(
+        Ok(splitting) if is_forced && splitting.pieces.len() == PIECES => refused(
             model,
-            &format!("with its force it has more than {MOST} pieces"),
+            &format!("with its force it has more than {PIECES} pieces"),
         ),
         Ok(splitting) => {
             let mut facts = facts(&splitting);

@@ -20,7 +20,7 @@ use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
 pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     if space.active(h).is_empty() {
         // Nothing is to be proven.
-        return Some(shear(space, h, s));
+        return Some(constant_rates(space, h, s));
     }
     if let Some(known) = space.flows.get(&(h, s)) {
         return known.clone();
@@ -33,7 +33,7 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 /// The flow of h, or of a part of it, within the budget of one question.
 fn part(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     if space.active(h).is_empty() {
-        return Some(shear(space, h, s));
+        return Some(constant_rates(space, h, s));
     }
     if let Some(known) = space.flows.get(&(h, s)) {
         return known.clone();
@@ -58,12 +58,12 @@ pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
     }
     space.question(h, |space| is_constant_form(space, h).then_some(()))?;
     let c = space.dag().coefficient();
-    let rates = shear(space, h, c);
+    let rates = constant_rates(space, h, c);
     Some(rates.noted(&[EXPONENTIAL]))
 }
 
-/// No conjugate pair meets: everything moves at a constant rate.
-pub(crate) fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
+/// The flow of an h in which no conjugate pair meets: everything moves at a constant rate.
+pub(crate) fn constant_rates(space: &mut Space, h: Node, s: Node) -> Flow {
     let mut motion = Motion::default();
     for one in space.set(h).members() {
         let variable = space.variable(one);
@@ -96,7 +96,7 @@ fn bare(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 /// h = G(u, c) of one expression u in which all pairs meet: u's flow for the time s·∂G/∂u.
 fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let active = space.active(h);
-    let u = waist(space, h, Variables::of_pairs(&active))?;
+    let u = dominator(space, h, Variables::of_pairs(&active))?;
     let rate = space.by_node(h, u);
     let time = space.dag().mul(&[s, rate]);
     let inner = whole(space, u, time)
@@ -162,8 +162,8 @@ fn beside(space: &mut Space, h: Node, u: Node) -> Variables {
     set
 }
 
-/// The deepest node other than h through which alone h depends on some variables.
-fn waist(space: &mut Space, h: Node, set: Variables) -> Option<Node> {
+/// The deepest node, other than h, through which h depends on all of some variables.
+fn dominator(space: &mut Space, h: Node, set: Variables) -> Option<Node> {
     let nodes = space.model.dag.reachable(&[h]);
     for node in nodes {
         let is_condition = matches!(
@@ -181,13 +181,13 @@ fn waist(space: &mut Space, h: Node, set: Variables) -> Option<Node> {
     None
 }
 
-/// h = G(K₁, …, K_m, c) with a K of each pair that meets: each moves for its own time s·∂G/∂K.
+/// h = G(K₁, …, K_m, c), K_i a function of one pair that meets: each pair moves for its own time s·∂G/∂K_i.
 fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let active = space.active(h);
     let own = Variables::of_pairs(&active);
     let mut flow = Flow::default();
     for pair in active {
-        let found = atom(space, h, pair, s)?;
+        let found = flow_of_pair(space, h, pair, s)?;
         flow.motion.moves.extend(found.motion.moves);
         flow.motion.domain.extend(found.motion.domain);
         flow = flow.noted(&found.rows);
@@ -202,18 +202,18 @@ fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 }
 
 /// The motion of one pair under h, all other variables held.
-fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow> {
+fn flow_of_pair(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow> {
     let own = Variables::of_pairs(&[pair]);
-    let u = waist(space, h, own).unwrap_or(h);
+    let u = dominator(space, h, own).unwrap_or(h);
     let outer = space.by_node(h, u);
-    let (k, rate) = kernel(space, u, own)?;
+    let (k, rate) = factor_of_pair(space, u, own)?;
     let time = space.dag().mul(&[s, outer, rate]);
-    if let Some(known) = space.atoms.get(&(k, time)) {
+    if let Some(known) = space.pair_flows.get(&(k, time)) {
         return known.clone();
     }
     let found = row_of(space, k, space.pairs[pair], time);
     if !space.is_spent() {
-        space.atoms.insert((k, time), found.clone());
+        space.pair_flows.insert((k, time), found.clone());
     }
     found
 }
@@ -252,7 +252,7 @@ fn of_pair(space: &mut Space, axes: Axes, moved: &Moved) -> Motion {
 }
 
 /// u = rate·K + rest with K of one pair alone, rate and rest free of it.
-fn kernel(space: &mut Space, u: Node, own: Variables) -> Option<(Node, Node)> {
+fn factor_of_pair(space: &mut Space, u: Node, own: Variables) -> Option<(Node, Node)> {
     if space.set(u).is_within(own) {
         return Some((u, space.dag().integer(1)));
     }

@@ -7,13 +7,14 @@
 //! that was found since is kept.
 
 mod breaks;
+mod budget;
 mod labels;
 pub(crate) mod tape;
 
 use crate::algebra::ball::Ball;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side, Sign};
 use crate::diff;
-use crate::flows::limits::{COMPARISON, COMPONENTS, Limit, NODES, PAIRS, POINTS, PRODUCTS, TESTS};
+use crate::flows::limits::{COMPARISON, COMPONENTS, Limit, PAIRS, POINTS};
 use crate::index::Index;
 use crate::loops::{Sample, Values, next_random};
 use crate::model::{Flow, Model, Motion};
@@ -21,6 +22,7 @@ use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness
 use crate::rational::Rational;
 use crate::set::{Member, Set};
 use crate::sort::Arrange;
+use budget::QuestionBudget;
 use labels::Labels;
 use tape::Tape;
 
@@ -108,8 +110,8 @@ pub(crate) struct Space {
     points: Map<Vec<[u64; 2]>, Values>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
     pub(crate) flows: Map<(Node, Node), Option<Flow>>,
-    /// The flows of atoms of one pair.
-    pub(crate) atoms: Map<(Node, Node), Option<Flow>>,
+    /// The flows of expressions of one pair.
+    pub(crate) pair_flows: Map<(Node, Node), Option<Flow>>,
     /// True if a piece may be a matrix exponential: the point has few components, all of them given.
     pub(crate) has_exponentials: bool,
     /// True if the point is given and has too many components for that.
@@ -120,27 +122,6 @@ pub(crate) struct Space {
     met: Map<Node, Limit>,
     /// The first limit at which some question ended.
     ended: Option<Limit>,
-}
-
-/// What is left to a question.
-struct QuestionBudget {
-    /// The number of comparisons.
-    tests: usize,
-    /// The number of products in the normal form.
-    products: usize,
-    /// The largest size of the arena.
-    last: usize,
-}
-
-impl QuestionBudget {
-    /// A whole one, beside an arena.
-    fn new(dag: &Dag) -> QuestionBudget {
-        QuestionBudget {
-            tests: TESTS,
-            products: PRODUCTS,
-            last: dag.len() + NODES,
-        }
-    }
 }
 
 impl Space {
@@ -208,53 +189,12 @@ impl Space {
             }),
             points: Map::default(),
             flows: Map::default(),
-            atoms: Map::default(),
+            pair_flows: Map::default(),
             met: Map::default(),
             ended: None,
         })
     }
 
-    /// The answer to a question on an expression, within a budget of its own; `None` where that is spent.
-    pub(crate) fn question<T>(
-        &mut self,
-        of: Node,
-        answer: impl FnOnce(&mut Space) -> Option<T>,
-    ) -> Option<T> {
-        self.budget = QuestionBudget::new(&self.model.dag);
-        let found = answer(self);
-        // Expressions made after the limits may hold anything.
-        let Some(limit) = self.spent() else {
-            return found;
-        };
-        self.ended = self.ended.or(Some(limit));
-        self.meets(limit, of);
-        None
-    }
-    /// The limit at which the budget is spent.
-    fn spent(&self) -> Option<Limit> {
-        match self.budget {
-            QuestionBudget { tests: 0, .. } => Some(Limit::Comparisons),
-            QuestionBudget { products: 0, .. } => Some(Limit::Products),
-            QuestionBudget { last, .. } if self.model.dag.len() > last => Some(Limit::Expressions),
-            _ => None,
-        }
-    }
-    /// Returns true if the question has spent its budget.
-    pub(crate) fn is_spent(&self) -> bool {
-        self.spent().is_some()
-    }
-    /// Returns true if the search for a flow of an expression ended at a limit.
-    pub(crate) fn ends_at(&self, node: Node) -> bool {
-        self.met.contains_key(&node)
-    }
-    /// The limit at which the search for a flow of an expression ended, or that of some expression.
-    pub(crate) fn limit(&self, node: Node) -> Option<Limit> {
-        self.met.get(&node).copied().or(self.ended)
-    }
-    /// Notes that a limit ended the search for a flow of an expression.
-    pub(crate) fn meets(&mut self, limit: Limit, node: Node) {
-        self.met.insert(node, limit);
-    }
     /// The arena.
     pub(crate) fn dag(&mut self) -> &mut Dag {
         &mut self.model.dag
@@ -306,7 +246,7 @@ impl Space {
         (motion.moves.iter()).fold(none, |set, m| set | self.set(m.leaf))
     }
 
-    /// ∂h/∂v of a variable v. Where the budget is spent, some other expression: nothing is proven or found any more.
+    /// ∂h/∂v of a variable v. If the budget is spent, a placeholder: no later answer is kept.
     pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
         if self.is_spent() {
             return self.model.dag.parameter(Parameter(u16::MAX));
@@ -498,7 +438,7 @@ impl Space {
         })
     }
 
-    /// Adds to a motion that the conjugate of an inert variable feels `value` = ∂h/∂v·time.
+    /// Adds to a motion the kick of the conjugate of an inert variable v: `value` = ∂h/∂v·time.
     pub(crate) fn push(&mut self, motion: &mut Motion, variable: Variable, value: Node) {
         let conjugate = self.variable(variable.conjugate());
         let dag = &mut self.model.dag;
@@ -598,7 +538,7 @@ impl Space {
         self.same(a, multiple).then_some(n)
     }
 
-    /// The sign of an expression that everybody can see: +1, −1, 0, or nothing where parameters
+    /// The sign of an expression where it is certain: +1, −1, 0, or nothing where parameters
     /// or the point decide.
     pub(crate) fn sign(&mut self, node: Node) -> Option<i32> {
         match self.model.dag.sign(node) {

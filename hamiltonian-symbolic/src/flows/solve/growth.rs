@@ -1,8 +1,8 @@
 //! cosh(√λ s), sinh(√λ s)/√λ and their remainders for any sign of λ.
 //!
 //! Input: λ and s as expressions. Output: [`Growth`]. Invariant: each is an entire function of λ
-//! and s, and is computed without division by λ where λs² is small; where everybody can see the
-//! sign of λ, only that branch is made.
+//! and s, and is computed without division by λ where λs² is small. If the sign of λ is certain, only its branch is
+//! made.
 
 use crate::dag::Node;
 use crate::flows::space::Space;

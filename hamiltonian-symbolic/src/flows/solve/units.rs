@@ -6,7 +6,7 @@
 
 use super::flow;
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::flows::limits::TERMS;
+use crate::flows::limits::{REFINED, TERMS};
 use crate::flows::space::Space;
 use crate::index::Domain;
 use crate::rational::Rational;
@@ -37,7 +37,7 @@ pub(crate) struct Units {
 
 /// The terms as they are written, those without a flow taken apart as little as helps; and, where
 /// that is something else, all of them multiplied out.
-pub(crate) fn levels(space: &mut Space, h: Node) -> Vec<Units> {
+pub(crate) fn refinements(space: &mut Space, h: Node) -> Vec<Units> {
     let written = written(space, h);
     let mut first = Units {
         units: Vec::new(),
@@ -69,7 +69,7 @@ pub(crate) fn levels(space: &mut Space, h: Node) -> Vec<Units> {
         let units = merged(space, units);
         fewer(space, units)
     });
-    if second == first || second.units.len() > 12 {
+    if second == first || second.units.len() > REFINED {
         vec![first]
     } else {
         vec![first, second]

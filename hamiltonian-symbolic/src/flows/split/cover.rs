@@ -1,10 +1,11 @@
 //! The ways to make H of pieces that have flows.
 //!
 //! Input: the units of H. Output: candidates, each a list of [`Block`]s. Invariant: the blocks of a
-//! candidate are disjoint and hold every unit; each has a flow; at most [`SUMS`] are tried.
+//! candidate are disjoint and hold every unit; each has a flow; at most [`SUMS`] sums of units are tested for a flow, and at most
+//! [`COVERS`] covers are kept.
 
 use crate::dag::{Map, Node};
-use crate::flows::limits::{COUPLED, Limit, SUMS, TERMS};
+use crate::flows::limits::{COUPLED, COVERS, Limit, SUMS, TERMS};
 use crate::flows::solve::rows::is_quadratic;
 use crate::flows::solve::units::{Unit, Units};
 use crate::flows::solve::{exponential, flow};
@@ -13,9 +14,6 @@ use crate::model::Flow;
 use crate::set::{Member, Set};
 use crate::sort::Arrange;
 use std::cmp::Reverse;
-
-/// The most ways to cover the coupled units. It limits the choice alone: if there is a way, the first is found.
-const COVERS: usize = 60;
 
 /// A unit by its place in the list of all.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -31,7 +29,7 @@ impl Member for UnitNumber {
 }
 
 /// A set of units.
-type Mask = Set<UnitNumber>;
+type UnitSet = Set<UnitNumber>;
 
 /// Some units that have a flow together.
 #[derive(Clone)]
@@ -39,7 +37,7 @@ pub(crate) struct Block {
     /// Their sum.
     pub(crate) node: Node,
     /// The units.
-    units: Mask,
+    units: UnitSet,
     pub(crate) flow: Flow,
 }
 
@@ -49,31 +47,33 @@ struct Search<'a> {
     units: &'a [Unit],
     /// The places of the units in the order in which they are written.
     places: &'a [usize],
-    tried: Map<Mask, Option<Flow>>,
+    tried: Map<UnitSet, Option<Flow>>,
     blocks: Vec<Block>,
     /// Sums whose search for a flow ended at a limit.
-    ended: Vec<Mask>,
-    /// The limit past which blocks were left out.
-    limit: Option<Limit>,
+    ended: Vec<UnitSet>,
+    /// The units of sums past the limit, of which no flow was sought.
+    skipped: UnitSet,
+    /// True if sums of coupled units were left out.
+    has_many_coupled: bool,
 }
 
 impl Search<'_> {
     /// The sum of some units, in the order in which they are written.
-    fn sum(&mut self, mask: Mask) -> Node {
+    fn sum(&mut self, mask: UnitSet) -> Node {
         let mut numbers: Vec<UnitNumber> = mask.members().collect();
         numbers.arrange_by_key(|UnitNumber(at)| self.places[*at]);
         let nodes = numbers.iter().map(|UnitNumber(at)| self.units[*at].node);
         let nodes: Vec<Node> = nodes.collect();
         self.space.dag().add(&nodes)
     }
-    fn block(&mut self, mask: Mask) -> Option<Block> {
+    fn block(&mut self, mask: UnitSet) -> Option<Block> {
         let node = self.sum(mask);
         let known = match self.tried.get(&mask) {
             Some(known) => known.clone(),
             // More terms cost more.
             None if self.ended.iter().any(|less| less.is_within(mask)) => None,
             None if self.tried.len() >= SUMS => {
-                self.limit = Some(Limit::Sums);
+                self.skipped |= mask;
                 None
             }
             None => {
@@ -94,12 +94,12 @@ impl Search<'_> {
         })
     }
     /// Tries a block and keeps it.
-    fn keep(&mut self, mask: Mask) {
+    fn keep(&mut self, mask: UnitSet) {
         let is_known = self.blocks.iter().any(|block| block.units == mask);
         let block = if is_known { None } else { self.block(mask) };
         self.blocks.extend(block);
     }
-    fn mask(&mut self, mut is: impl FnMut(&mut Space, &Unit) -> bool) -> Mask {
+    fn mask(&mut self, mut is: impl FnMut(&mut Space, &Unit) -> bool) -> UnitSet {
         let numbers = (0..self.units.len()).map(UnitNumber);
         numbers
             .filter(|UnitNumber(at)| is(self.space, &self.units[*at]))
@@ -124,36 +124,45 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         tried: Map::default(),
         blocks: Vec::new(),
         ended: Vec::new(),
-        limit: None,
+        skipped: UnitSet::default(),
+        has_many_coupled: false,
     };
     let coupled = search.mask(|_, unit| unit.is_coupled);
-    let all: Mask = (0..units.units.len()).map(UnitNumber).collect();
+    let all: UnitSet = (0..units.units.len()).map(UnitNumber).collect();
     if let Some(whole) = search.block(all) {
         return Ok(vec![vec![whole]]);
     }
     coupled_blocks(&mut search, coupled, all.without(coupled));
     let mut covers = covers(&search.blocks, coupled);
     if covers.len() == COVERS {
-        // Of too many, those of few blocks.
+        // If there are too many, those of few blocks are kept.
         search
             .blocks
             .arrange_by_key(|block| Reverse(block.units.len()));
         covers = self::covers(&search.blocks, coupled);
     }
     if covers.is_empty() {
-        let bad = ordered.iter().enumerate().filter(|(at, unit)| {
-            unit.is_coupled
-                && !search
-                    .blocks
-                    .iter()
-                    .any(|block| block.units.has(UnitNumber(*at)))
+        // The first that is in no block; of overlapping blocks, the first that is none by itself.
+        let blocks = &search.blocks;
+        let is_bad = |at: usize, alone: bool| {
+            let own = UnitNumber(at);
+            let is_in = |block: &Block| block.units.has(own) && !(alone && block.units.len() > 1);
+            ordered[at].is_coupled && !blocks.iter().any(is_in)
+        };
+        let bad = [false, true].into_iter().find_map(|alone| {
+            let bad = (0..ordered.len()).filter(|at| is_bad(*at, alone));
+            bad.min_by_key(|at| places[*at])
         });
-        let bad = bad.min_by_key(|(at, _)| places[*at]);
-        let bad = bad.map_or(units.units[0], |(_, unit)| *unit).source;
-        if let Some(limit) = search.limit {
-            space.meets(limit, bad);
+        let bad = bad.unwrap_or(0);
+        let limit = match () {
+            () if search.skipped.has(UnitNumber(bad)) => Some(Limit::Sums),
+            () => search.has_many_coupled.then_some(Limit::Coupled),
+        };
+        let source = ordered[bad].source;
+        if let Some(limit) = limit {
+            space.meets(limit, source);
         }
-        return Err(bad);
+        return Err(source);
     }
     let uncoupled = uncoupled_blocks(&mut search, all.without(coupled));
     let mut found = Vec::new();
@@ -173,13 +182,13 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
 }
 
 /// All units of some blocks.
-fn union(blocks: &[Block]) -> Mask {
+fn union(blocks: &[Block]) -> UnitSet {
     let units = blocks.iter().map(|block| block.units);
-    units.fold(Mask::default(), |all, units| all | units)
+    units.fold(UnitSet::default(), |all, units| all | units)
 }
 
 /// Blocks of coupled units, without and with uncoupled ones.
-fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
+fn coupled_blocks(search: &mut Search, coupled: UnitSet, uncoupled: UnitSet) {
     let pool = |search: &mut Search, sides: (bool, bool)| {
         search.mask(|space, unit| !unit.is_coupled && space.set(unit.node).sides() == sides)
     };
@@ -188,32 +197,32 @@ fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
         pool(search, (false, true)),
         pool(search, (true, true)),
     );
-    let mut offers: Vec<Mask> = vec![v, t, mixed, v | mixed, t | mixed, uncoupled];
-    offers.extend(uncoupled.members().map(Mask::of));
+    let mut offers: Vec<UnitSet> = vec![v, t, mixed, v | mixed, t | mixed, uncoupled];
+    offers.extend(uncoupled.members().map(UnitSet::of));
     let numbers: Vec<UnitNumber> = coupled.members().collect();
-    let mut subsets: Vec<Mask> = coupled.members().map(Mask::of).collect();
+    let mut subsets: Vec<UnitSet> = coupled.members().map(UnitSet::of).collect();
     if numbers.len() <= COUPLED {
         let chosen = |choice: usize| {
             let all = numbers.iter().enumerate();
             let chosen = all.filter(move |(at, _)| choice >> at & 1 == 1);
             chosen.map(|(_, number)| *number).collect()
         };
-        let mut larger: Vec<Mask> = (1..1 << numbers.len()).map(chosen).collect();
+        let mut larger: Vec<UnitSet> = (1..1 << numbers.len()).map(chosen).collect();
         larger.retain(|mask| mask.len() > 1);
         larger.arrange_by_key(|mask| mask.len());
         subsets.extend(larger);
     } else {
-        search.limit = Some(Limit::Coupled);
+        search.has_many_coupled = true;
         subsets.push(coupled);
         for (at, a) in numbers.iter().enumerate() {
             subsets.extend(
                 numbers[at + 1..]
                     .iter()
-                    .map(|b| Mask::of(*a) | Mask::of(*b)),
+                    .map(|b| UnitSet::of(*a) | UnitSet::of(*b)),
             );
         }
     }
-    // Alone first, so that the limit meets refinements.
+    // Alone first: the limit then cuts off refinements only.
     for &subset in &subsets {
         search.keep(subset);
     }
@@ -225,11 +234,11 @@ fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
 }
 
 /// Disjoint blocks that hold all coupled units.
-fn covers(blocks: &[Block], coupled: Mask) -> Vec<Vec<Block>> {
+fn covers(blocks: &[Block], coupled: UnitSet) -> Vec<Vec<Block>> {
     fn extend(
         blocks: &[Block],
-        left: Mask,
-        used: Mask,
+        left: UnitSet,
+        used: UnitSet,
         now: &mut Vec<Block>,
         all: &mut Vec<Vec<Block>>,
     ) {
@@ -255,13 +264,19 @@ fn covers(blocks: &[Block], coupled: Mask) -> Vec<Vec<Block>> {
         }
     }
     let mut all = Vec::new();
-    extend(blocks, coupled, Mask::default(), &mut Vec::new(), &mut all);
+    extend(
+        blocks,
+        coupled,
+        UnitSet::default(),
+        &mut Vec::new(),
+        &mut all,
+    );
     all
 }
 
 /// Blocks of uncoupled units that a row takes together: quadratic forms, of all pairs and of one;
 /// p² with all that is divided by r².
-fn uncoupled_blocks(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
+fn uncoupled_blocks(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
     let mut masks = Vec::new();
     let quadratic = search.mask(|space, unit| {
         let is_form = |space: &mut Space| is_quadratic(space, unit.node).then_some(());
@@ -307,7 +322,7 @@ fn uncoupled_blocks(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
 }
 
 /// Uncoupled units as few pieces in which no conjugate pair meets.
-fn linear_pieces(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
+fn linear_pieces(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
     let mut numbers: Vec<UnitNumber> = uncoupled.members().collect();
     let order = |set: Variables| match set.sides() {
         (false, _) => 0,
@@ -316,16 +331,16 @@ fn linear_pieces(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
     };
     let units = search.units;
     numbers.arrange_by_key(|at| order(search.space.set(units[at.0].node)));
-    let mut colours: Vec<(Mask, Variables)> = Vec::new();
+    let mut colours: Vec<(UnitSet, Variables)> = Vec::new();
     for at in numbers {
         let set = search.space.set(units[at.0].node);
         let fits = |both: Variables| both.whole_pairs().is_empty();
         match colours.iter_mut().find(|(_, known)| fits(*known | set)) {
             Some(colour) => {
-                colour.0 |= Mask::of(at);
+                colour.0 |= UnitSet::of(at);
                 colour.1 |= set;
             }
-            None => colours.push((Mask::of(at), set)),
+            None => colours.push((UnitSet::of(at), set)),
         }
     }
     let blocks = colours.into_iter().filter_map(|(mask, _)| {

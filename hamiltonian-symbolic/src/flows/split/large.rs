@@ -8,7 +8,7 @@ use super::sweep::side;
 use super::{NoFlow, Parts, searched, units};
 use crate::dag::{Node, Side};
 use crate::flows::limits::{Limit, is_large};
-use crate::flows::solve::shear;
+use crate::flows::solve::constant_rates;
 use crate::flows::space::Space;
 use crate::model::Model;
 
@@ -41,7 +41,7 @@ pub(super) fn parts(model: &mut Model, group: Node) -> Result<Parts, NoFlow> {
         let part = model.dag.add(&terms);
         let mut space = space(model, part, first)?;
         let c = space.dag().coefficient();
-        let flow = shear(&mut space, part, c);
+        let flow = constant_rates(&mut space, part, c);
         model.dag = space.model.dag;
         parts.flows.push((part, flow));
     }

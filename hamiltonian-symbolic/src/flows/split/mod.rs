@@ -10,11 +10,11 @@ mod large;
 mod rank;
 mod sweep;
 
-pub use crate::flows::limits::{Limit, MOST, NODES};
+pub use crate::flows::limits::{EXPRESSIONS, Limit, PIECES};
 pub use crate::flows::solve::rows::{ROWS, Row};
 
 use crate::dag::{Dag, Kind, Node};
-use crate::flows::limits::is_large;
+use crate::flows::limits::{MORE_PIECES, is_large};
 use crate::flows::solve::rows::is_constant_form;
 use crate::flows::solve::{self, units};
 use crate::flows::space::Space;
@@ -52,7 +52,7 @@ pub struct NoFlow {
     pub node: Node,
     /// The text of the term.
     pub text: String,
-    /// The limit at which the search ended, so that nothing is said of the term.
+    /// The limit that ended the search, if one did: the term may then have a flow.
     pub limit: Option<Limit>,
 }
 
@@ -113,8 +113,8 @@ fn looped(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
 fn any_flow(space: &mut Space, h: Node) -> Option<Flow> {
     let c = space.dag().coefficient();
     let closed = solve::flow(space, h, c).or_else(|| {
-        units::levels(space, h).into_iter().find_map(|level| {
-            let nodes: Vec<Node> = level.units.iter().map(|unit| unit.node).collect();
+        units::refinements(space, h).into_iter().find_map(|units| {
+            let nodes: Vec<Node> = units.units.iter().map(|unit| unit.node).collect();
             let sum = space.dag().add(&nodes);
             let is_apart = |space: &mut Space| space.constant_apart(h, sum).then_some(());
             (sum != h && space.question(sum, is_apart).is_some())
@@ -181,7 +181,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
             }
         }
     };
-    if parts.flows.len() > MOST {
+    if parts.flows.len() > PIECES {
         return Err(NoFlow::of(model, h, Some(Limit::Pieces)));
     }
     let pieces = parts.flows.into_iter().map(|(node, flow)| Piece {
@@ -199,7 +199,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
 fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, NoFlow> {
     let pieces = sweep::find(model, h).map_err(|(term, limit)| NoFlow::of(model, term, limit))?;
     let parts: Vec<Node> = pieces.iter().map(|piece| piece.h).collect();
-    if pieces.len() > MOST {
+    if pieces.len() > PIECES {
         return Err(NoFlow::of(model, h, Some(Limit::Pieces)));
     }
     if pieces.is_empty() || check_split(model, &parts).is_err() {
@@ -228,19 +228,19 @@ fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
             choice: None,
         });
     }
-    for level in units::levels(space, h) {
-        match cover::candidates(space, &level) {
+    for units in units::refinements(space, h) {
+        match cover::candidates(space, &units) {
             Ok(found) => candidates.extend(found),
             Err(term) => refused = refused.or(Some(term)),
         }
-        constants = level.constant;
+        constants = units.constant;
     }
     let fewest = candidates.iter().map(Vec::len).min().unwrap_or(0);
-    if fewest > MOST {
+    if fewest > PIECES {
         space.meets(Limit::Pieces, h);
         return Err(h);
     }
-    candidates.retain(|pieces| pieces.len() <= (fewest + 2).min(MOST));
+    candidates.retain(|pieces| pieces.len() <= (fewest + MORE_PIECES).min(PIECES));
     // A number that stands in H is no piece; a sum that is right without it is proven with it. Numbers
     // refute wrong sums, and the chosen one is proven.
     let constant = space.dag().add(&constants);
@@ -329,10 +329,10 @@ pub fn declared(model: &mut Model, parts: &[(String, Node)]) -> Result<Splitting
 fn blamed(model: &mut Model, h: Node) -> Node {
     let term = match Space::new(model, &[h]) {
         Ok(mut space) => {
-            let levels = units::levels(&mut space, h);
-            let mut refused = levels
+            let refinements = units::refinements(&mut space, h);
+            let mut refused = refinements
                 .iter()
-                .map(|level| cover::candidates(&mut space, level).err());
+                .map(|units| cover::candidates(&mut space, units).err());
             let term = refused.find_map(|term| term);
             model.dag = space.model.dag;
             term

@@ -8,7 +8,7 @@
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
-use crate::flows::limits::{Limit, ROWS, is_large};
+use crate::flows::limits::{BODY_ROWS, Limit, is_large};
 use crate::flows::solve::units::{LoopedTerm, terms};
 use crate::flows::space::Space;
 use crate::index::{Domain, Index};
@@ -215,8 +215,8 @@ fn around(dag: &mut Dag, chain: &[Domain], body: Node) -> Node {
 /// # Errors
 /// The limit of rows; `None` where it is not known that they differ.
 fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Result<Vec<Node>, Option<Limit>> {
-    if rows.len() > ROWS {
-        return Err(Some(Limit::Rows));
+    if rows.len() > BODY_ROWS {
+        return Err(Some(Limit::BodyRows));
     }
     let mut conditions = Vec::new();
     for (at, a) in rows.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! a·|p|² − κ/|q| of two or three pairs: an orbit about a centre, in universal variables.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: a and κ depend on nothing that moves. The increments
-//! of q and p are small where the time is: f − 1, g and their rates are computed, not f and g. From far in
-//! to far out on a hyperbola, f·q and g·p cancel as they do in the numbers themselves: each unit of the
-//! anomaly past ten costs half a digit, and shorter steps do not.
+//! of q and p are computed from f − 1, g and their rates, so that a short time loses no digits. From far in
+//! to far out on a hyperbola, f·q and g·p cancel: each unit of the anomaly past ten costs half a digit. Shorter steps
+//! lose none.
 
 use crate::algebra::ball::Ball;
 use crate::algebra::formula::Names;

@@ -2,7 +2,7 @@
 //!
 //! Input: an expression h and the time s it acts for, constant along its own flow. Output: its
 //! [`Motion`]. Invariant: a row answers only where h is proven to be an instance of its pattern;
-//! that the flow of the pattern is exact is proven once a row by tests. A new atom is a file here
+//! that the flow of the pattern is exact is proven once a row by tests. A new row is a file here
 //! and a line in [`ROWS`].
 
 mod axes;
@@ -80,11 +80,11 @@ pub(crate) enum Solve {
     Exponential,
     /// Solves any h.
     Whole(fn(&mut Space, Node, Node) -> Option<Motion>),
-    /// Solves any h that is no function of an expression with a flow: as a function it needs fewer divisions.
+    /// Like `Whole`, but tried later: if h = G(u) and u has a flow, that flow needs fewer divisions.
     Bare(fn(&mut Space, Node, Node) -> Option<Motion>),
 }
 
-/// An atom: the pattern of its Hamiltonian, and the domain and source of its flow.
+/// A row: the pattern of a Hamiltonian, and the domain and source of its flow.
 pub struct Row {
     /// A short name.
     pub name: &'static str,
@@ -97,7 +97,7 @@ pub struct Row {
     pub(crate) solve: Solve,
 }
 
-/// All atoms but those that are linear in time, in the order they are tried.
+/// The rows. Within a kind ([`Solve`]) they are tried in this order. Flows that are linear in time need no row.
 pub static ROWS: &[Row] = &[
     Row {
         name: "quadratic form",

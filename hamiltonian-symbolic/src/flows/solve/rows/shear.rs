@@ -1,5 +1,5 @@
-//! G(y − A(x; c); c), A a polynomial in x: x += gs, y += ΔA, and the conjugate of c feels ∂A/∂c
-//! along the way.
+//! G(y − A(x; c); c), A a polynomial in x: x += gs, y += ΔA, and the conjugate of c is kicked
+//! by ∂A/∂c along the way.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: h is proven to depend on x and y through
 //! K = y − A only; A is taken to be 0 at x = 0, the rest of it is in G. Nothing is divided by a coefficient

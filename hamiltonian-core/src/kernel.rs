@@ -118,39 +118,40 @@ impl<T: Real, D: Dynamics<T>> FieldBody<OfGradient, T> for D {
     }
 }
 
-macro_rules! kinds {
-    ($($(#[$doc:meta])* $kind:ident;)*) => {
-        $($(#[$doc])*
-        #[derive(Debug)]
-        pub struct $kind;)*
-    };
-}
-
-kinds! {
-    /// The kick of V, or the part of it that reads no momenta.
-    Kick;
-    /// The drift of T.
-    Drift;
-    /// The part of a kick that reads momenta.
-    Push;
-    /// c·(J∇H + f).
-    Whole;
-    /// The same of a separable H, as the kick and the drift.
-    Halves;
-    /// The same of a large system, whose code is not written out a second time: the gradient, then two
-    /// accumulations. The vectors of such systems have no size set at run time, so that nothing allocates.
-    OfGradient;
-    /// c·(f − ∂V/∂q).
-    Rates;
-    /// c·A·p of a force A·p + b.
-    Linear;
-    /// The kick in two parts, of which the first reads momenta.
-    Damped;
-    /// The kick of momenta that push each other.
-    Pushed;
-    /// The kick by a symmetric sub-step.
-    Stepped;
-}
+/// The kick of V, or the part of it that reads no momenta.
+#[derive(Debug)]
+pub struct Kick;
+/// The drift of T.
+#[derive(Debug)]
+pub struct Drift;
+/// The part of a kick that reads momenta.
+#[derive(Debug)]
+pub struct Push;
+/// c·(J∇H + f).
+#[derive(Debug)]
+pub struct Whole;
+/// The same of a separable H, as the kick and the drift.
+#[derive(Debug)]
+pub struct Halves;
+/// The same of a large system, whose code is not written out a second time: the gradient, then two
+/// accumulations. The vectors of such systems have no size set at run time, so that nothing allocates.
+#[derive(Debug)]
+pub struct OfGradient;
+/// c·(f − ∂V/∂q).
+#[derive(Debug)]
+pub struct Rates;
+/// c·A·p of a force A·p + b.
+#[derive(Debug)]
+pub struct Linear;
+/// The kick in two parts, of which the first reads momenta.
+#[derive(Debug)]
+pub struct Damped;
+/// The kick of momenta that push each other.
+#[derive(Debug)]
+pub struct Pushed;
+/// The kick by a symmetric sub-step.
+#[derive(Debug)]
+pub struct Stepped;
 
 /// The piece of this number.
 #[derive(Debug)]

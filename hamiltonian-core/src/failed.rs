@@ -1,4 +1,4 @@
-//! The place of a failed step. With its cause it is an error.
+//! The place of a failed step, without its cause ([`Error`] has both).
 
 use crate::error::Error;
 use crate::map::Cause;

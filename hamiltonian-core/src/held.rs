@@ -1,7 +1,7 @@
 //! Values that are computed before an evaluation, and held by a prepared system, a field or a flow.
 //!
 //! Input: numbers and conditions of a definition, and its sizes, functions and arrays. Output: [`Held`], which
-//! emitted bodies read. Invariant: each of them is a [`LaneValue`], which the lanes of a pack can hold.
+//! emitted bodies read. Invariant: each of them is a [`LaneValue`], which can be copied into the lanes of a pack.
 
 use crate::function::Function;
 use crate::system::Arithmetic;

@@ -1,8 +1,10 @@
 //! The only paths that code emitted by `hamiltonian!` names.
 //!
-//! Input: nothing. Output: re-exports and [`Never`]. Invariant: these names may be used by code
-//! in a crate that has neither this crate nor its dependencies in scope; nothing is removed or
-//! renamed without the macro changing with it.
+//! Input: nothing. Output: re-exports; [`Never`], the type of a structure that a system lacks; [`SetByNew`], a field
+//! that only `new` sets; [`window`] and [`columns`], parts of slices; traits whose names and attributes word rustc's
+//! messages ([`ArrayOf`], [`ParameterWithoutDefault`], [`AnyParameter`]); at the end five macros, which shorten emitted
+//! code. Invariant: these names may be used by code in a crate that has neither this crate nor its dependencies in
+//! scope; if one is removed or renamed, the macro is changed with it.
 
 use core::convert::Infallible;
 use core::marker::PhantomData;

@@ -1,7 +1,7 @@
 //! Kicks of systems with a force.
 //!
-//! Input: the emitted program of ṗ = f − ∂V/∂q at frozen q. Output: [`Both`], two accumulations
-//! that are the exact flow together, [`Coupled`], the exact flow if momenta are coupled, and
+//! Input: the emitted program of ṗ = f − ∂V/∂q at frozen q. Output: [`Both`], two updates
+//! whose composition is the exact flow, [`Coupled`], the exact flow if momenta are coupled, and
 //! [`SubStep`], a symmetric step for a force that has no exact flow. Invariant: only momenta move.
 
 use crate::flow::{Flow, Scratch, VectorField};

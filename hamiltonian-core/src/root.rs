@@ -1,8 +1,7 @@
 //! Roots of a function of one variable between two points where its signs differ.
 //!
 //! Input: the function, its values at 0 and 1. Output: the point, to the rounding of 1, and the
-//! value there. Invariant: points are made of constants alone, so a derivative part of a value
-//! never enters one.
+//! value there. Invariant: points do not depend on dual parts of values.
 
 use crate::error::Error;
 use hamiltonian_lanes::{Mask, Real};

@@ -1,4 +1,4 @@
-//! Coordinates as schemes see them: contiguous slices of scalars, never shapes.
+//! Coordinates in the form that schemes use: contiguous slices of scalars, without shapes.
 //!
 //! Input: nalgebra storage (or a generated struct with one field per group). Output: [`Vector`],
 //! [`IntoVector`]. Invariant: nothing here allocates except `clone` of a run-time size and

@@ -1,4 +1,6 @@
 //! Calls of users' closures, whose panics become errors.
+//!
+//! Input: a closure. Output: its value, or [`Error::Panicked`] with the text of the panic.
 
 use crate::error::Error;
 

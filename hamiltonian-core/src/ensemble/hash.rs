@@ -1,4 +1,6 @@
 //! Hashes that identify the members of a store.
+//!
+//! Input: a member's system, start and step. Output: 64 bits. Invariant: equal on every machine.
 
 use crate::state::State;
 use crate::system::System;

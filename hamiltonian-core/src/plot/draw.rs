@@ -1,4 +1,6 @@
 //! The drawing of a figure.
+//!
+//! Input: a [`Figure`]. Output: its SVG, as text or in a file.
 
 use super::raster::Raster;
 use super::{DENSE, Field, Figure};

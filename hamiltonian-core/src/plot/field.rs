@@ -1,4 +1,7 @@
 //! Values on a lattice as colours.
+//!
+//! Input: values on a lattice and the ranges of both axes, [`Field`]. Output: an image in an SVG. Invariant: values
+//! that are not finite have no colour.
 
 use super::raster::element;
 use crate::lattice::Lattice;

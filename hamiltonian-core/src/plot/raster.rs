@@ -1,4 +1,6 @@
 //! Clouds of dots, and other pixels, as an image.
+//!
+//! Input: dots, or pixels with a palette. Output: an image in an SVG. Invariant: dots outside of the area are left out.
 
 use super::png::{base64, encode};
 use std::ops::Range;

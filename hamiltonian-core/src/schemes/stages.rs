@@ -8,8 +8,8 @@
 //! The points are `Qᵢ = q + Σ αᵢⱼΔqⱼ` and `Pᵢ = p + Σ βᵢⱼΔpⱼ`. Where the polynomial passes through as many
 //! nodes as it has coefficients, the unknowns are the slopes J∇H at the points, Δ their integrals by the
 //! quadrature, and the equations are a fixed point. Otherwise ([`Modes`]) the unknowns in place of the
-//! slopes of q are the coefficients of the polynomial dq/dt and of the part of Pᵢ that no such
-//! polynomial sees, and dq/dt = ∂H/∂p at the nodes is left to Newton's method.
+//! slopes of q are the coefficients of the polynomial dq/dt and of the part of Pᵢ that is orthogonal
+//! to such polynomials, and dq/dt = ∂H/∂p at the nodes is left to Newton's method.
 
 mod guess;
 mod newton;

@@ -5,7 +5,7 @@
 //!
 //! # Time
 //! If H depends on t, the outermost piece has a clock and all others together have another; each
-//! clock advances when its flows move the point, and a flow sees the clock of the others. (This is the
+//! clock advances when its flows move the point, and a flow reads the clock of the others. (This is the
 //! autonomous splitting of A(z, t₂) + B(z, t₁) + C(z, t₁) + … with a pair of conjugate energies, so
 //! tables keep their order.) Störmer–Verlet thus kicks at t and t + h and drifts at t + h/2.
 

@@ -1,4 +1,6 @@
 //! Tables as comma-separated values (RFC 4180).
+//!
+//! Input: a [`Table`]. Output: its text. Invariant: each number reads back to the same bits.
 
 use super::Table;
 use crate::error::Error;

@@ -1,7 +1,7 @@
-//! Conversion between numbers of members and lanes, out of line.
+//! Conversion between values of members and of lanes, out of line.
 //!
-//! Input: numbers of members, or of lanes. Output: numbers of lanes, or of members. Invariant: each function is
-//! compiled once per pack type and never inlined, since the length of its code is proportional to the width of the
+//! Input: values of members, or of lanes. Output: values of lanes, or of members. Invariant: each function is compiled
+//! once per pack type and never inlined, since the length of its code is proportional to the width of the
 //! pack.
 
 use super::MaskIn;

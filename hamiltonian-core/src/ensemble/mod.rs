@@ -11,8 +11,8 @@
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
 //! - [`chunk`], [`in_memory`], [`until`]: members in memory;
-//! - [`sweep`], [`sweep::host`], [`record`]: members that are run to their ends and recorded;
-//! - [`lyapunov`], [`deviations`]: indicators of chaos of members.
+//! - [`sweep`], `sweep::host`, [`record`]: members that are run to their ends and recorded;
+//! - [`lyapunov`], `drive::deviations`: indicators of chaos of members.
 
 mod block;
 mod bound;

@@ -2,9 +2,10 @@
 //!
 //! Input: nothing. Output: re-exports; [`Never`], the type of a structure that a system lacks; [`SetByNew`], a field
 //! that only `new` sets; [`window`] and [`columns`], parts of slices; traits whose names and attributes word rustc's
-//! messages ([`ArrayOf`], [`ParameterWithoutDefault`], [`AnyParameter`]); at the end five macros, which shorten emitted
-//! code. Invariant: these names may be used by code in a crate that has neither this crate nor its dependencies in
-//! scope; if one is removed or renamed, the macro is changed with it.
+//! messages ([`ArrayOf`], [`ParameterWithoutDefault`], [`AnyParameter`]); at the end the macros `__prepared`,
+//! `__computed_as_chosen`, `__each`, `__halves` and `__known`, which shorten emitted code. Invariant: these names may
+//! be used by code in a crate that has neither this crate nor its dependencies in scope; if one is removed or renamed,
+//! the macro is changed with it.
 
 use core::convert::Infallible;
 use core::marker::PhantomData;

@@ -100,7 +100,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
         assert!(DEGREE > 0, "a path needs a degree of 1 at least");
         assert!(
             POINTS >= DEGREE,
-            "the quadrature has fewer points than the degree of the path: the action does not see all of it"
+            "the quadrature has fewer points than the degree of the path: the action does not determine the path"
         );
     };
 

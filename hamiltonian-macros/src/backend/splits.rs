@@ -79,10 +79,10 @@ pub fn decide(
             report.error(
                 name.span(),
                 format!("no exact flow is known for the piece `{name}`: {why}"),
-                "split it further, or leave the term to a piece with which it is of such a form: \
-                 V(q), T(p), quadratic forms, c*q^a*p^b, f(q)*p with f quadratic, exponential, trigonometric or hyperbolic, \
-                 f(q)*p^2 with f = a + b*q + c*q^2, a/q^2 + b + c*q^2 or a*q^2 + b*q^3 + c*q^4, functions of an angular \
-                 momentum, Kepler's problem",
+                format!(
+                    "split it further, or leave the term to a piece with which it is of such a form: {}",
+                    exact_forms()
+                ),
             );
         }
         is_carried_over = !is_written_so;
@@ -116,6 +116,48 @@ pub fn decide(
             refused(model, &format!("{why} `{}`", refusal.text))
         }
     }
+}
+
+/// The words of the language for rows whose pattern is written in the notation of papers.
+const WORDS: [(&str, &str); 12] = [
+    ("quadratic form", "quadratic forms"),
+    ("matrix exponential", "quadratic forms"),
+    ("monomial", "c*q^a*p^b"),
+    (
+        "f(q)·p",
+        "f(q)*p with f quadratic, exponential, trigonometric or hyperbolic",
+    ),
+    (
+        "f(q)·p²",
+        "f(q)*p^2 with f = a + b*q + c*q^2, a/q^2 + b + c*q^2 or a*q^2 + b*q^3 + c*q^4",
+    ),
+    ("shear", "G(p - A(q)) with a polynomial A"),
+    ("free flight", "free motion in polar coordinates"),
+    ("great circle", "free motion on a sphere in angles"),
+    (
+        "rotation",
+        "functions of an angular momentum x*p_y - y*p_x and x^2 + y^2",
+    ),
+    ("Kepler", "Kepler's problem"),
+    ("spin component", "components of a spin in angle and height"),
+    (
+        "body axis",
+        "squares of angular momenta along body axes in Euler angles",
+    ),
+];
+
+/// The forms of a piece with an exact flow: those linear in time, and the rows of the table. A row that has no entry
+/// in [`WORDS`] appears with its pattern.
+fn exact_forms() -> String {
+    let mut forms = vec!["V(q)", "T(p)"];
+    for row in split::ROWS {
+        let words = WORDS.iter().find(|(name, _)| *name == row.name);
+        let form = words.map_or(row.pattern, |(_, words)| words);
+        if !forms.contains(&form) {
+            forms.push(form);
+        }
+    }
+    forms.join(", ")
 }
 
 /// A piece of a split by itself: one flow.

@@ -1,6 +1,6 @@
 //! Programs: instructions in loops, whose values are computed as seldom as they can be.
 //!
-//! Input: a model and what is asked of it. Output: a [`Program`](program::Program), and what it costs.
+//! Input: a model and the purposes wanted. Output: a [`Program`](program::Program), and the operations it takes.
 //! Invariant: a program computes what the expressions say, and is validated before it is handed on.
 
 mod balance;
@@ -14,6 +14,7 @@ mod order;
 pub mod pairs;
 pub mod pipeline;
 pub mod program;
+mod request;
 pub mod schedule;
 mod share;
 mod stencil;

@@ -1,23 +1,18 @@
-//! H → program: the whole engine on one screen.
+//! From H to a program: the passes in order.
 //!
-//! Input: a [`Model`] and the purposes wanted. Output: a [`Program`]. Invariant: deterministic;
-//! what no function needs is not in it.
+//! Input: a [`Model`] and the purposes wanted. Output: a [`Program`]. Invariant: the program depends on the
+//! input alone, and contains only values that a function needs.
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Partial, Side, Stage, work};
-use crate::diff;
-use crate::forces;
+use crate::dag::{Dag, Kind, Map, Node, Partial, Stage, work};
 use crate::hoist::Arrays;
-use crate::index::{Affine, Index};
-use crate::model::{ExactFlow, Model, Motion, Piece, VectorEntry};
-use crate::op::Op;
-use crate::program::{Program, Purpose, Step, Target};
+use crate::model::Model;
+use crate::program::{Program, Purpose, Step};
 use crate::programs::balance::balance;
 use crate::programs::factor::factor;
+use crate::programs::request::request;
 use crate::programs::share::share;
-use crate::programs::stencil::at_sites;
 use crate::rational::Rational;
-use crate::schedule::{Request, Store, prepared, schedule};
-use crate::sort::Arrange;
+use crate::schedule::{Request, prepared, schedule};
 
 /// The most operations a function may need after simplification.
 pub const CAP: usize = 1 << 15;
@@ -30,9 +25,9 @@ pub enum NoProgram {
         /// The number of operations.
         operations: usize,
     },
-    /// A number that no `f64` is near: the number, or nothing where it is no fraction.
+    /// A constant outside the range of `f64`.
     OutOfRange {
-        /// The number as a fraction, where it is one.
+        /// The constant; `None` if it is not rational.
         number: Option<Rational>,
     },
     /// More than [`crate::index::LOOPS`] different loops.
@@ -60,7 +55,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgra
     let mut gradient = None;
     let mut arrays = Arrays::default();
     for &purpose in wanted {
-        let mut request = request(model, purpose, &mut gradient)?;
+        let mut request = request(model, purpose, &mut gradient).map_err(internal)?;
         let mut roots = request.roots();
         refuse(model, purpose, &roots)?;
         arrays.hoist(&mut model.dag, &model.parameters, &mut roots);
@@ -134,7 +129,7 @@ fn stores(steps: &[Step]) -> usize {
     steps.iter().map(count).sum()
 }
 
-/// Refuses numbers that emitted code could not hold.
+/// Refuses constants outside the range of `f64`.
 fn in_range(dag: &Dag, roots: &[Node]) -> Result<(), NoProgram> {
     let refused = |number: Option<&Rational>| {
         Err(NoProgram::OutOfRange {
@@ -172,315 +167,4 @@ fn refuse(model: &Model, purpose: Purpose, roots: &[Node]) -> Result<(), NoProgr
         }
     }
     Ok(())
-}
-
-/// The request of a purpose. Most ask for parts of its `gradient`, which is derived for
-/// the first of them and kept for the others.
-fn request(
-    model: &mut Model,
-    purpose: Purpose,
-    gradient: &mut Option<Vec<VectorEntry>>,
-) -> Result<Request, NoProgram> {
-    let h = model.h();
-    let mut request = Request {
-        purpose,
-        results: Vec::new(),
-        stores: Vec::new(),
-        cleared: Vec::new(),
-        pinned: None,
-    };
-    let mut along = |model: &mut Model, sides: (bool, bool)| {
-        let entries = gradient.get_or_insert_with(|| model.partials(h));
-        let is_wanted = |entry: &&VectorEntry| match entry.at.side {
-            Side::Q => sides.0,
-            Side::P => sides.1,
-        };
-        entries
-            .iter()
-            .filter(is_wanted)
-            .cloned()
-            .collect::<Vec<_>>()
-    };
-    match purpose {
-        Purpose::Energy => request.results.push(h),
-        Purpose::GradientQ | Purpose::GradientP | Purpose::Gradient => {
-            let sides = (purpose != Purpose::GradientP, purpose != Purpose::GradientQ);
-            let entries = along(model, sides);
-            vector(model, entries, sides, &mut request);
-        }
-        Purpose::EnergyAndGradient => {
-            request.results.push(h);
-            let entries = along(model, (true, true));
-            vector(model, entries, (true, true), &mut request);
-        }
-        Purpose::TimeDerivative => {
-            let adjoints = diff::gradient(&mut model.dag, h, Dependence::TIME);
-            let zero = model.dag.integer(0);
-            request
-                .results
-                .push(adjoints.first().map_or(zero, |(_, value)| *value));
-        }
-        Purpose::ParameterGradient => parameter_derivatives(model, h, &mut request),
-        Purpose::HessianVector => {
-            let along = diff::along_direction(&mut model.dag, h);
-            let entries = model.partials(along);
-            vector(model, entries, (true, true), &mut request);
-        }
-        Purpose::Observable(number) => {
-            let observable = model.observables.get(usize::from(number));
-            let missing = || internal(format!("there is no observable {number}"));
-            request.results = observable.ok_or_else(missing)?.components.clone();
-        }
-        Purpose::Vector(number) => {
-            let function = model.vectors.get(usize::from(number)).cloned();
-            let missing = || internal(format!("there is no vector function {number}"));
-            let function = function.ok_or_else(missing)?;
-            vector(
-                model,
-                function.entries,
-                function.usage.sides(),
-                &mut request,
-            );
-        }
-        Purpose::VectorField if !model.force.is_empty() => {
-            let entries = along(model, (false, true));
-            request.stores = sums(&mut model.dag, entries);
-            let gradient = along(model, (true, false));
-            request.stores.extend(driven(model, &gradient));
-        }
-        Purpose::Push | Purpose::Linear | Purpose::Kick if !model.force.is_empty() => {
-            let missing = |_| internal("this force has no exact flow".to_owned());
-            let entries = match (purpose, forces::kick_of(model).map_err(missing)?) {
-                (Purpose::Push, forces::KickFlow::Single { damped, .. }) => damped,
-                (Purpose::Kick, forces::KickFlow::Single { rest, .. }) => rest,
-                (Purpose::Linear, forces::KickFlow::Coupled { linear }) => linear,
-                (purpose, _) => return Err(internal(format!("this force has no {purpose:?}"))),
-            };
-            request.stores.extend(entries.into_iter().map(added));
-        }
-        Purpose::Rates if !model.force.is_empty() => {
-            let gradient = forces::beside(model);
-            request.stores.extend(driven(model, &gradient));
-        }
-        Purpose::Push | Purpose::Linear | Purpose::Rates => {
-            return Err(internal("there is no force".to_owned()));
-        }
-        Purpose::VectorField | Purpose::Kick | Purpose::Drift => {
-            let sides = (purpose != Purpose::Drift, purpose != Purpose::Kick);
-            let entries = along(model, sides);
-            request.stores = sums(&mut model.dag, entries);
-        }
-        Purpose::Piece(number) => {
-            let piece = model.pieces.get(usize::from(number)).cloned();
-            let missing = || internal(format!("there is no piece {number}"));
-            let piece = piece.ok_or_else(missing)?;
-            request.stores = flow(model, &piece);
-            request.pinned = piece.flow.innermost();
-        }
-    }
-    Ok(request)
-}
-
-/// The stores that add c·(f − ∂H/∂q) with the force f, from ∂H/∂q.
-fn driven(model: &mut Model, gradient: &[VectorEntry]) -> Vec<Store> {
-    let c = model.dag.coefficient();
-    let slopes = forces::slopes(model, gradient).into_iter();
-    let scaled = |entry: VectorEntry| {
-        let value = model.dag.mul(&[c, entry.value]);
-        added(VectorEntry { value, ..entry })
-    };
-    let stores = slopes.map(scaled).collect();
-    at_sites(&mut model.dag, stores)
-}
-
-/// The stores that make the flow of a piece.
-fn flow(model: &mut Model, piece: &Piece) -> Vec<Store> {
-    match &piece.flow {
-        ExactFlow::Linear | ExactFlow::Exponential => rates(model, piece.h),
-        ExactFlow::Closed(motion, _) | ExactFlow::Loop { motion, .. } => {
-            updates(&mut model.dag, motion)
-        }
-    }
-}
-
-/// The updates of a program: one a variable, all values from the point before.
-fn updates(dag: &mut Dag, motion: &Motion) -> Vec<Store> {
-    let guard = motion
-        .domain
-        .split_first()
-        .map(|(first, rest)| rest.iter().fold(*first, |all, next| dag.and(all, *next)));
-    let minus = dag.integer(-1);
-    let nan = dag.call(Op::Sqrt, &[minus]);
-    let mut stores = Vec::with_capacity(motion.moves.len());
-    for m in &motion.moves {
-        let Some((column, row)) = dag.phase_place(m.leaf) else {
-            continue;
-        };
-        let (target, row) = (Target::Phase(column), row.clone());
-        stores.push(Store {
-            target,
-            row,
-            column: None,
-            value: match guard {
-                Some(guard) => dag.select(guard, m.value, nan),
-                None => m.value,
-            },
-            add: m.added,
-        });
-    }
-    stores
-}
-
-/// The stores that add c·J∇h of an expression.
-fn rates(model: &mut Model, h: Node) -> Vec<Store> {
-    let entries = model.partials(h);
-    sums(&mut model.dag, entries)
-}
-
-/// The stores that add c·J∇H, from the entries of ∇H.
-fn sums(dag: &mut Dag, entries: Vec<VectorEntry>) -> Vec<Store> {
-    let entries = entries.into_iter();
-    let stores = entries.map(|entry| added(scaled(dag, entry))).collect();
-    at_sites(dag, stores)
-}
-
-/// The store that adds an entry.
-fn added(entry: VectorEntry) -> Store {
-    Store {
-        target: Target::Phase(entry.at),
-        row: entry.row,
-        column: None,
-        value: entry.value,
-        add: true,
-    }
-}
-
-/// Stores that overwrite the outputs on the `sides` with a vector.
-fn vector(
-    model: &mut Model,
-    entries: Vec<VectorEntry>,
-    sides: (bool, bool),
-    request: &mut Request,
-) {
-    let mut outputs = Vec::new();
-    for (side, wanted) in [(Side::Q, sides.0), (Side::P, sides.1)] {
-        let columns = model.columns(side).into_iter().filter(|_| wanted);
-        outputs.extend(columns.map(|(column, rows)| (Target::Phase(column), rows)));
-    }
-    let stores = entries.into_iter().map(added).collect();
-    let stores = at_sites(&mut model.dag, stores);
-    overwritten(&mut model.dag, stores, outputs, request);
-}
-
-/// Stores that overwrite outputs, of which the rows are given where they are arrays, with the sums of
-/// contributions to their elements.
-fn overwritten(
-    dag: &mut Dag,
-    mut stores: Vec<Store>,
-    outputs: Vec<(Target, Option<Affine>)>,
-    request: &mut Request,
-) {
-    let mut places: Map<Target, Vec<usize>> = Map::default();
-    for (at, store) in stores.iter().enumerate() {
-        places.entry(store.target).or_default().push(at);
-    }
-    for (target, rows) in outputs {
-        let own = places.get(&target).map_or(&[][..], Vec::as_slice);
-        overwrite(dag, target, rows, own, &mut stores, request);
-    }
-    request.stores.append(&mut stores);
-}
-
-/// c·∂H/∂p goes to coordinates, −c·∂H/∂q to momenta.
-fn scaled(dag: &mut Dag, entry: VectorEntry) -> VectorEntry {
-    let c = dag.coefficient();
-    let value = dag.mul(&[c, entry.value]);
-    let value = match entry.at.side {
-        Side::Q => dag.neg(value),
-        Side::P => value,
-    };
-    VectorEntry {
-        at: entry.at.conjugate(),
-        value,
-        ..entry
-    }
-}
-
-/// Makes an output column, to which the stores at `own` belong, be overwritten: by one loop that
-/// covers it all, by elements named one by one, else by clearing and adding.
-fn overwrite(
-    dag: &mut Dag,
-    target: Target,
-    rows: Option<Affine>,
-    own: &[usize],
-    stores: &mut Vec<Store>,
-    request: &mut Request,
-) {
-    let Some(rows) = rows else {
-        match own.first() {
-            Some(&at) => stores[at].add = false,
-            None => stores.push(Store {
-                target,
-                row: Index::constant(0),
-                column: None,
-                value: dag.integer(0),
-                add: false,
-            }),
-        }
-        return;
-    };
-    if let [at] = own {
-        let store = &mut stores[*at];
-        if let (None, Some(loops)) = (&store.column, dag.loops_of_rows(&store.row, &rows))
-            && dag.variables(store.value).is_within(loops)
-        {
-            store.add = false;
-            return;
-        }
-    }
-    let element = |at: &usize| match &stores[*at] {
-        Store {
-            row,
-            column: None,
-            value,
-            ..
-        } if dag.variables(*value).is_empty() => row.as_constant(),
-        _ => None,
-    };
-    let mut elements: Vec<i64> = own.iter().filter_map(element).collect();
-    elements.arrange();
-    elements.dedup();
-    if elements.len() == own.len() {
-        own.iter().for_each(|at| stores[*at].add = false);
-        if rows.as_constant() == Some(own.len() as i64) {
-            return;
-        }
-    }
-    request.cleared.push(target);
-}
-
-/// Stores that overwrite the outputs of all parameters with ∂/∂parameter.
-fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
-    let adjoints = diff::gradient(&mut model.dag, root, Dependence::PARAMETER).into_iter();
-    let store = |(leaf, value): (Node, Node)| {
-        let (parameter, row, column) = match model.dag.kind(leaf).clone() {
-            Kind::Scalar(parameter) => (parameter, Index::constant(0), None),
-            Kind::Element(Array::Parameter(parameter), row, column) => {
-                (parameter, row, column.map(|column| *column))
-            }
-            other => unreachable!("{other:?} is no parameter"),
-        };
-        Store {
-            target: Target::Parameter(parameter),
-            row,
-            column,
-            value,
-            add: true,
-        }
-    };
-    let stores = adjoints.map(store).collect();
-    let rows = model.parameters.iter().map(|p| p.shape.rows().cloned());
-    let outputs = (0..).map(|number| Target::Parameter(Parameter(number)));
-    let outputs = outputs.zip(rows).collect();
-    overwritten(&mut model.dag, stores, outputs, request);
 }

@@ -2,7 +2,7 @@
 //!
 //! Input: roots, and what is known of their orbits ([`Given`]). Output: for each node below them its
 //! regularity as a function of what moves (coordinates, momenta, time), for all parameters and sizes.
-//! Functions say their part in the operation table; signs are facts of the arena itself
+//! The regularity of functions is in the operation table; signs are properties of nodes
 //! ([`Dag::is_nonnegative`]).
 //!
 //! [`Facts::of`] makes its statements about points outside sets of two dimensions less than the
@@ -13,17 +13,17 @@
 //!
 //! Invariant: a flag is set only by a rule that holds at all such points.
 
+mod differences;
 mod domain;
 mod leaves;
-mod pairs;
 
 pub use domain::conditions;
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
 use crate::op::{Break, Far, Op, SingularSet, ValueSign};
 use crate::sort::Arrange;
+use differences::{difference, is_pair};
 use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
-use pairs::{difference, is_pair};
 
 /// The regularity of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -484,8 +484,8 @@ impl Facts {
         }
     }
 
-    /// The two leaves at whose one meeting place a node is infinite: of 1/|q[i] − q[j]| and its
-    /// powers, ln|q[i] − q[j]|, and multiples of them by what does not move.
+    /// The two coordinates whose difference is 0 at the pole of a node: of 1/|q[i] − q[j]| and its
+    /// powers, ln|q[i] − q[j]|, and multiples of them by factors that do not move.
     fn meeting_place(&self, dag: &Dag, node: Node) -> Option<(Node, Node)> {
         let mut found = None;
         let single = [(node, 1)];

@@ -1,9 +1,10 @@
-//! The operation table: everything the engine knows about an elementary function, one row each.
+//! The operation table: one row for each elementary function.
 //!
-//! Input: nothing. Output: [`Op`] with its name, parity, value at zero, regularity, derivative and
-//! evaluation. Invariant: a new function is one row of `operations!` below (and, if it is new to
-//! arithmetic, a method of `Real`); parser, differentiation, printing, proofs and emission all read
-//! this table, and a row without one of its columns does not compile.
+//! Input: nothing. Output: [`Op`] with its name, parity, value at zero, LaTeX, regularity, derivative and
+//! evaluation by the method of `Real` of that name. Parser, differentiation, printing, proofs and emission read
+//! this table. Error bounds (`ball`), normal forms (`normal_form/functions`) and domain errors of the language
+//! (`lower/domain`) match on [`Op`] themselves; a function that they do not list has an infinite error bound,
+//! no identities of its own and no domain errors. Invariant: a row without one of its columns does not compile.
 
 use super::{Dag, Node};
 use crate::rational::Rational;
@@ -86,7 +87,7 @@ pub enum NaturalDomain {
     /// x ≥ the number.
     From(i8),
     /// |x| ≤ 1
-    Units,
+    UnitInterval,
     /// x ≥ 0, or y whole.
     Power,
 }
@@ -202,10 +203,10 @@ operations! {
         [All, Any, Nowhere, Some(Cosine), Nothing, Entire],
         |d, x, f| { let s = d.powi(f, 2); let one = d.integer(1); vec![d.add(&[one, s])] };
     Asin asin(x) Odd Some(0), "\\arcsin",
-        [Units, Any, Kink(Units), None, Nothing, Branched],
+        [UnitInterval, Any, Kink(Units), None, Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
     Acos acos(x) None None, "\\arccos",
-        [Units, NonNegative, Kink(Units), None, Nothing, Branched],
+        [UnitInterval, NonNegative, Kink(Units), None, Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); let r = d.powi(r, -1); vec![d.neg(r)] };
     Atan atan(x) Odd Some(0), "\\arctan",
         [All, Any, Nowhere, None, Limits, Branched],
@@ -233,7 +234,7 @@ operations! {
         vec![d.powi(product, -1)]
     };
     Atanh atanh(x) Odd Some(0), "\\operatorname{artanh}",
-        [Units, Any, Nowhere, Some(Units), Nothing, Branched],
+        [UnitInterval, Any, Nowhere, Some(Units), Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); vec![d.powi(r, -1)] };
     Exp exp(x) None Some(1), "\\exp",
         [All, Positive, Nowhere, None, Mixed, Entire],
@@ -293,6 +294,7 @@ operations! {
         let (vanished, slope) = (d.equal(f, zero), d.mul(&[f, log]));
         vec![d.mul(&[x[1], lower]), d.select(vanished, zero, slope)]
     };
+    // Functions from here on occur in exact flows alone. A function of the language goes above this line.
     Anomaly universal_anomaly(a, b, c) None None, "\\operatorname{y}",
         [All, Positive, Nowhere, None, Nothing, Branched],
         |d, x, f| underivable();
@@ -311,7 +313,7 @@ macro_rules! list {
 /// Functions whose independent calls are faster together.
 pub const TOGETHER: &[Op] = hamiltonian_real::computed_together!(list);
 
-/// Rows from here on are those of exact flows, and no functions of the language.
+/// The number of functions of the language; the rows after them occur in exact flows alone.
 const LANGUAGE: usize = Op::Anomaly as usize;
 
 /// The partial derivatives of functions that exact flows alone are made of: flows are carried

@@ -1,4 +1,4 @@
-//! Differences of two leaves, at whose one meeting place a summand is infinite.
+//! Differences of two coordinates, such as q[i] − q[j] in 1/|q[i] − q[j]|, whose zero is a pole.
 
 use crate::dag::{Array, Dag, Kind, Node};
 use crate::op::Op;

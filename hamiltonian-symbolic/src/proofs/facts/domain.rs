@@ -37,7 +37,7 @@ pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
                         };
                         note(x[0], &format!("{is} {least}"));
                     }
-                    NaturalDomain::Units => note(x[0], "is between -1 and 1"),
+                    NaturalDomain::UnitInterval => note(x[0], "is between -1 and 1"),
                     NaturalDomain::Power if !dag.is_nonnegative(x[0]) => {
                         match dag.as_constant(x[1]) {
                             Some(_) => note(x[0], "≥ 0"),

@@ -12,14 +12,14 @@ pub mod coordinates;
 mod layout;
 mod peel;
 mod reduce;
-pub mod split;
+mod sum;
 pub mod time;
 mod verify;
 
 pub use charts::{Bodies, Chart, Component};
 pub use coordinates::Transformed;
 pub use layout::Placement;
-pub use split::{Difference, check_split};
+pub use sum::{Difference, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;
 

@@ -1,8 +1,8 @@
-//! The check of a declared split: its pieces add up to H.
+//! The comparison of H with the sum of declared pieces.
 //!
-//! Input: a model with its H, and nodes. Output: nothing, or the difference. Invariant: a split
-//! that passes adds up to H, proven by the normal form; where that does not decide, the difference
-//! is reported as it is, never passed on trust.
+//! Input: a model with its H, and the pieces as nodes. Output: nothing, or the difference. Invariant: a sum
+//! that passes is proven equal to H by the normal form. If the normal form does not decide, the difference
+//! is reported.
 
 use crate::dag::work;
 use crate::dag::{Dag, Node};
@@ -20,8 +20,8 @@ pub struct Difference {
     pub node: Node,
     /// The text of the term.
     pub text: String,
-    /// A point where it is not 0, and its value there; `None` where no point was found, so that
-    /// the question is undecided.
+    /// A point where it is not 0, and its value there; `None` if no point was found, which leaves
+    /// the comparison undecided.
     pub point: Option<(SamplePoint, f64)>,
     /// The rule or the limit that stopped the proof, as a clause; empty beside a point.
     pub why: String,

@@ -1,4 +1,4 @@
-//! Checked definition → code: the back end on one screen.
+//! From a checked definition to code: the stages of the back end in order.
 //!
 //! Input: [`Checked`] and the path by which emitted code reaches the library. Output: items or an
 //! expression, if they could be made; faults of the mathematics go into the report.
@@ -175,7 +175,7 @@ fn wanted(
     if !large {
         wanted.extend([Purpose::GradientQ, Purpose::GradientP, Purpose::Gradient]);
     }
-    // The gradient knows nothing of forces.
+    // The gradient does not contain the force.
     if !large || !model.force.is_empty() {
         wanted.push(Purpose::VectorField);
     }

@@ -1,6 +1,6 @@
 //! The driver: stages with barriers between them.
 //!
-//! Input: `(root) tokens…`, where root is the path of the library as the wrapper macro knows it.
+//! Input: `(root) tokens…`, where root is the path of the library as the wrapper macro writes it.
 //! Output: code, or all errors of the first stage that has any, with a stub.
 
 use crate::{backend, fallback, unused};
@@ -40,8 +40,8 @@ pub fn expand(input: TokenStream) -> TokenStream {
             code.extend(unused::warnings(&ast, definition));
             code
         }
-        // In the place of an item rustc refuses the block and names the macro it comes from, which is
-        // all that can be said there: a macro does not know where it stands.
+        // In the place of an item rustc refuses the block and names the macro it comes from. A macro cannot find
+        // out whether it is in the place of an item or of an expression.
         Some(value) => quote!(#root::__an_item_needs_pub_struct_Name_first! { #value }),
         None => fallback::stub(&ast, &report),
     }

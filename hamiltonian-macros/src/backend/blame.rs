@@ -1,7 +1,8 @@
 //! The place at which a program that could not be derived fails.
 //!
-//! Input: the function that needs a third derivative of a Rust function, or the number that does not fit. Output: an error at the statement that asks for the function, or at the
-//! expression that makes the number. Invariant: the narrowest place that is known.
+//! Input: the purpose that needs a third derivative of a Rust function, or the number outside the range of `f64`.
+//! Output: an error at the statement that needs the function, or at the expression that makes the number. Invariant:
+//! the narrowest place that is known.
 
 use super::definition;
 use hamiltonian_language::checked::{Checked, NodeId};

@@ -80,7 +80,7 @@ pub fn set_by_new(value: &str) -> String {
 }
 
 /// `new`: sizes, then functions, then the parameters without a default, each in the order of the fields; the
-/// rest gets its default. Where no argument tells the scalar of the parameters it is f64, as in `Default`.
+/// rest gets its default. The scalar of the parameters is f64 if no argument determines it, as in `Default`.
 pub fn new(context: Context, item: &Header) -> TokenStream {
     let (definition, generics) = (context.definition, context.generics);
     let is_told = definition.defaults.contains(&None);

@@ -2,7 +2,7 @@
 //! they were proven.
 //!
 //! Input: a definition. Output: the text of the implementations and of the structs that hold
-//! prepared values. Invariant: every method a trait asks for is there; one whose program is
+//! prepared values. Invariant: every method that a trait requires is there; one whose program is
 //! missing is a compile error where it is first used.
 
 use super::construct::{as_slice, set_by_new};
@@ -306,7 +306,7 @@ impl<'a> Emission<'a> {
         text + &holder.fill(context, &results, "_self.0.data.0", clone)
     }
 
-    /// H, the force and the pieces as text, by which a saved run knows its system.
+    /// H, the force and the pieces as text, which a saved run is compared with.
     fn formula(&self) -> String {
         let model = self.context.model;
         let mut formula = self.context.definition.text.hamiltonian.clone();

@@ -122,7 +122,7 @@ impl Generics {
         self.declared_with_functions(self.bounded().chain([state]))
     }
 
-    /// The generics of a marker that asks nothing of the parameters: `<const N0: usize, P>`
+    /// The generics of a marker without bounds on the parameters: `<const N0: usize, P>`
     pub fn declaration_without_bounds(&self) -> String {
         self.declared_with_functions(self.scalars.iter().cloned())
     }
@@ -156,7 +156,7 @@ impl Generics {
         self.type_over(&self.name, self.scalars.iter().map(|_| scalar.to_owned()))
     }
 
-    /// `<const N0: usize>` and `Name<N0, f64>`, for items of which nothing tells the scalar.
+    /// `<const N0: usize>` and `Name<N0, f64>`, for items whose scalar cannot be inferred.
     pub fn over_f64(&self) -> (String, String) {
         let system = self.system_type_over("__h::core::primitive::f64");
         (self.declared_with_functions([]), system)

@@ -1,7 +1,7 @@
 //! Proven structure of H as types, and the reasons for the rest.
 //!
 //! Input: the verdicts. Output: text of the markers' implementations. Invariant: every marker is
-//! implemented for every system; one that does not hold asks for a bound that nothing satisfies,
+//! implemented for every system; one that does not hold has a bound that nothing satisfies,
 //! whose message is the reason, so that a scheme that needs it says what couples what.
 
 use super::Reason;
@@ -121,8 +121,8 @@ fn marker(
 /// Why rustc goes on to speak of a trait that nobody wrote.
 const CARRIER: &str = "the trait that rustc names only carries this message: implement nothing, change H or the scheme";
 
-/// A trait nothing implements. It is asked of references of all lifetimes: that keeps rustc from
-/// deciding the bound where it is written, and from speaking of the marker instead of the reason.
+/// A trait nothing implements. The bound is on references of all lifetimes: that keeps rustc from
+/// deciding it where it is written, and from naming the marker instead of the reason.
 fn reason_trait(out: &mut String, name: &str, reason: &Reason) {
     let _ = write!(
         out,

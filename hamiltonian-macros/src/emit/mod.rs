@@ -194,7 +194,7 @@ impl Kick {
     }
 }
 
-/// Why a structure is not there, as rustc says it where a scheme asks for it.
+/// Why a structure is not there: the words of rustc where a scheme requires it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reason {
     /// The property of H in the way, with the term at fault.
@@ -238,7 +238,7 @@ pub fn generate(definition: &Definition) -> TokenStream {
 
 /// Text as tokens. All text that is emitted is made here, so it lexes.
 fn lex(text: &str) -> TokenStream {
-    // rustc's own lexer, asked directly: through proc-macro2 the text is lexed twice.
+    // rustc's own lexer, called directly: through proc-macro2 the text is lexed twice.
     let tokens = if proc_macro::is_available() {
         let tokens = text.parse::<proc_macro::TokenStream>();
         tokens.map(TokenStream::from).ok()

@@ -93,8 +93,8 @@ pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
     out
 }
 
-/// The start of a Lagrangian system. In another time it is given in the variables of L, whose place
-/// among the system's own `from_declared` knows.
+/// The start of a Lagrangian system. In another time it is given in the variables of L, which `from_declared`
+/// puts among the system's own.
 fn state_from_velocity(context: Context, visibility: &TokenStream) -> TokenStream {
     let bound = lex(&context.generics.state_bound());
     let own = lex(&context.vector());

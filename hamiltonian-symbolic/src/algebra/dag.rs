@@ -258,7 +258,7 @@ pub struct Dag {
     known: Map<Kind, Node>,
     ranges: Vec<Range>,
     known_ranges: Map<Range, Domain>,
-    /// True if a loop was asked for that there is no number for.
+    /// True if a loop was requested after [`LOOPS`] others.
     has_too_many_loops: bool,
 }
 
@@ -378,14 +378,14 @@ impl Dag {
     pub fn loop_count(&self) -> usize {
         self.ranges.len()
     }
-    /// Returns true if more than [`LOOPS`] loops were asked for. What was made since may be wrong: who
-    /// makes loops asks before the result is used.
+    /// Returns true if more than [`LOOPS`] loops were requested. Nodes made since may be wrong: code that
+    /// makes loops checks this before it uses the result.
     #[must_use]
     pub fn has_too_many_loops(&self) -> bool {
         self.has_too_many_loops
     }
-    /// The loop over `start..end` inside `parent`; some other one where there are [`LOOPS`]
-    /// already, which [`Dag::has_too_many_loops`] tells.
+    /// The loop over `start..end` inside `parent`; an arbitrary one if there are [`LOOPS`] already
+    /// (see [`Dag::has_too_many_loops`]).
     pub fn domain(&mut self, parent: Option<Domain>, start: Affine, end: Affine) -> Domain {
         let range = Range { parent, start, end };
         if let Some(&domain) = self.known_ranges.get(&range) {
@@ -450,7 +450,8 @@ impl Dag {
     }
 
     /// The node of a kind, new or known. Operands of sums and products are compared without
-    /// regard to order; the constructors in `simplify` are the way to call this.
+    /// regard to order. Called by the constructors of `simplify`, and by `rewrite` and passes of `programs` for nodes
+    /// that the constructors would change.
     pub(crate) fn intern(&mut self, kind: Kind) -> Node {
         let key = match &kind {
             Kind::Sum(c, terms) => {

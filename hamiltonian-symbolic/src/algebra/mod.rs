@@ -1,7 +1,8 @@
 //! Algebra: expressions, models of them, derivatives, the normal form, and printing.
 //!
 //! Input: expressions by constructors. Output: expressions, numbers and text. Invariant: numbers are exact
-//! rationals, and an expression is built by the constructors of [`simplify`] alone.
+//! rationals, and expressions are built by the constructors of [`simplify`]. Passes of `programs`, and [`rewrite`],
+//! also intern nodes that these constructors would change.
 
 pub(crate) mod ball;
 mod closed;

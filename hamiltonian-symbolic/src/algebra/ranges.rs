@@ -7,7 +7,7 @@ use crate::dag::Dag;
 use crate::index::{Affine, Domain, End, Index, Loops};
 use crate::sort::Arrange;
 
-/// The ranges of loops, with all that is asked about indices in them.
+/// The ranges of loops, and questions about indices in them.
 pub trait Ranges {
     /// The range of a loop: the first value and one past the last.
     fn bounds(&self, domain: Domain) -> [&Affine; 2];

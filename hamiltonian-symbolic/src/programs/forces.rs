@@ -105,7 +105,7 @@ fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
 /// The entry of the force that is not affine in momenta.
 pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<KickFlow, Box<VectorEntry>> {
     let forces = model.force.clone();
-    // Derivatives do not tell: that of sign(p) is 0.
+    // Derivatives do not decide this: that of sign(p) is 0.
     let is_affine = |f: &VectorEntry| degrees(&model.dag, f.value).is_some_and(|(_, n)| n <= 1);
     if let Some(force) = forces.iter().find(|force| !is_affine(force)) {
         return Err(Box::new(force.clone()));

@@ -1,4 +1,5 @@
-//! Loop-invariant expressions of parameter arrays, computed once: `1/m[i]` is read where `p[i]/m[i]` is written.
+//! Expressions of one row of parameter arrays, which preparation computes once: `1/m[i]` is read where `p[i]/m[i]` is
+//! written.
 //!
 //! Input: expressions of parameter arrays, before they are factored. Output: the same functions;
 //! what takes a division or a function and depends on one row of parameter arrays alone is read

@@ -1,7 +1,7 @@
 //! Programs as text, one step a line.
 //!
-//! Input: a program. Output: its `Display`. Invariant: numbers of groups, parameters, sizes and loops
-//! instead of names: a program does not know them.
+//! Input: a program. Output: its `Display`. Invariant: groups, parameters, sizes and loops appear by number;
+//! a program does not contain their names.
 
 use crate::dag::{Array, Column, Parameter, Partial, Relation, Side};
 use crate::index::{Affine, Index};

@@ -1,7 +1,7 @@
-//! The order of a long straight line in which little is alive at a time.
+//! The order of a long straight line in which few values are alive at a time.
 //!
 //! Input: steps in an order in which every value is computed before it is read. Output: the same
-//! steps in another such order: after each one come those that end as many values as they make.
+//! steps in another such order. Steps that free at least as many values as they define come first.
 //! Invariant: loops keep their places, updates of one output keep their order, a cosine follows its
 //! sine; since every operation has the operands it had, no bit of a result changes.
 

@@ -205,25 +205,25 @@ pub struct Loop {
 /// The purpose of a function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Purpose {
-    /// H, returned.
+    /// Returns H.
     Energy,
-    /// ∂H/∂q into the [`Side::Q`] output.
+    /// Writes ∂H/∂q into the [`Side::Q`] output.
     GradientQ,
-    /// ∂H/∂p into the [`Side::P`] output.
+    /// Writes ∂H/∂p into the [`Side::P`] output.
     GradientP,
-    /// Both.
+    /// Writes ∂H/∂q and ∂H/∂p into the two outputs.
     Gradient,
-    /// H, returned, and both.
+    /// Returns H, and writes ∂H/∂q and ∂H/∂p into the two outputs.
     EnergyAndGradient,
-    /// ∂H/∂t, returned.
+    /// Returns ∂H/∂t.
     TimeDerivative,
-    /// ∂H/∂(each parameter) into the parameter outputs.
+    /// Writes ∂H/∂(each parameter) into the parameter outputs.
     ParameterGradient,
-    /// The Hessian times the direction, into both outputs.
+    /// Writes the Hessian times the direction into the two outputs.
     HessianVector,
-    /// The components of observable n, returned.
+    /// Returns the components of observable n.
     Observable(u16),
-    /// Vector function n of the model into the outputs it has.
+    /// Writes vector function n of the model into the outputs it has.
     Vector(u16),
     /// `into_q += c·∂H/∂p`, `into_p += c·(f − ∂H/∂q)` with the force f.
     VectorField,

@@ -2,7 +2,7 @@
 //!
 //! Input: requests (expressions to return and to store) over nodes as `share` left them. Output:
 //! [`Program`]. Invariant: a node stands in the outermost loop it can be computed in; all work of
-//! one level over one loop shares one nest; a node that needs a finished sum stands in a later nest over
+//! one binding time over one loop shares one nest; a node that needs a finished sum stands in a later nest over
 //! the same loop, where the body is computed again.
 
 mod instruct;

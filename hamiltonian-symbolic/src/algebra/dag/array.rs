@@ -1,7 +1,7 @@
-//! Arrays that elements are read from.
+//! Arrays of parameters and columns of phase space.
 //!
-//! Input: the groups of a model by number. Output: columns of phase space, and arrays. Invariant: two
-//! that are equal are the same storage.
+//! Input: the groups of a model by number. Output: columns, and arrays. Invariant: equal arrays are the same
+//! storage.
 
 use super::Parameter;
 

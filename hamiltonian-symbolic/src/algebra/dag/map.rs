@@ -4,7 +4,7 @@
 //! on every machine.
 //!
 //! Macros are compiled without optimisation in each user's build. There the standard library's map costs 1600 lines of
-//! code for each type of keys and values; here the table is compiled once and knows neither.
+//! code for each type of keys and values; here the table is compiled once, for all of them.
 
 use std::borrow::Borrow;
 use std::hash::{Hash, Hasher};

@@ -1,6 +1,6 @@
 //! Signs of values.
 //!
-//! Input: signs of what a value is made of. Output: its own. Invariant: a value that exists has one of the
+//! Input: the signs of operands. Output: the sign of the result. Invariant: a value that exists has one of the
 //! signs in the set; the set is never empty.
 
 use super::op::{Op, ValueSign};

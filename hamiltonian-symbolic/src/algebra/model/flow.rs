@@ -1,6 +1,6 @@
 //! Exact flows as data: pieces of H, and where a flow takes each variable.
 //!
-//! Input: made by `split`. Output: [`Piece`], [`ExactFlow`], [`Motion`]. Invariant: values are functions
+//! Input: flows from `flows::solve`, pieces from `flows::split`. Output: [`Piece`], [`ExactFlow`], [`Motion`]. Invariant: values are functions
 //! of the point before the motion; outside the conditions everything that moves becomes NaN.
 
 use crate::dag::{Dag, Map, Node};
@@ -58,7 +58,7 @@ impl ExactFlow {
             ExactFlow::Loop { merges, .. } => *merges,
         }
     }
-    /// The loop whose every iteration reads and writes.
+    /// The loop in which each iteration reads and writes a single point.
     pub(crate) fn innermost(&self) -> Option<Domain> {
         match self {
             ExactFlow::Linear | ExactFlow::Exponential | ExactFlow::Closed(..) => None,

@@ -328,7 +328,7 @@ impl Algebra {
     pub(crate) fn content(&mut self, poly: &Poly) -> Result<(Rational, Monomial, Poly), Undecided> {
         let mut rest = self.canonical(poly)?;
         if self.any_guarded && rest.terms().len() > 1 && Algebra::is_divided(&rest) {
-            // 1 + [x > 0]/x is 1 at x = 0, of which a common denominator knows nothing.
+            // 1 + [x > 0]/x is 1 at x = 0, where a common denominator would be 0.
             return Err(Undecided::Conditions);
         }
         let mut monomial = Monomial::default();

@@ -74,7 +74,7 @@ pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof
     if model.dag.is_zero(node) {
         return Proof::Zero;
     }
-    // Two points usually tell; the others are for what the normal form does not decide.
+    // Two points usually decide; the others are for what the normal form does not decide.
     if let Some((point, value)) = witness(model, node, Effort::Glance, others) {
         return Proof::NonZero { point, value };
     }

@@ -14,7 +14,7 @@ use crate::loops::field;
 use crate::model::{Model, Shape};
 use crate::rational::Rational;
 
-/// An H of more nodes than this is differentiated by nobody by hand.
+/// Equations of an H of more nodes than this are not written: they would be too long to read.
 const LARGEST: usize = 2048;
 /// Nor are equations read that have more nodes than this together, each counted where it is written: those
 /// of a product of n coordinates have n² factors.

@@ -1,6 +1,6 @@
 //! LaTeX.
 //!
-//! Input: a node. Output: pieces for the writer. Invariant: plain LaTeX with amsmath; names of
+//! Input: a node. Output: fragments for the writer. Invariant: plain LaTeX with amsmath; names of
 //! Greek letters become the letters; trailing digits and words after `_` become subscripts.
 
 use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
@@ -181,9 +181,9 @@ fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Frag
             let name = op.row().latex;
             let name = power.map_or_else(|| name.to_owned(), |n| format!("{name}^{{{n}}}"));
             if x.len() == 1 && is_name(writer.dag(), x[0]) {
-                let mut pieces = within("(", ")");
-                pieces.insert(0, Fragment::Owned(name));
-                return pieces;
+                let mut fragments = within("(", ")");
+                fragments.insert(0, Fragment::Owned(name));
+                return fragments;
             }
             writer.listed(name, x)
         }
@@ -236,20 +236,20 @@ fn product(writer: &Writer<'_>, product: &Product) -> Vec<Fragment> {
             Kind::Sum(..) | Kind::Reduce(..) | Kind::Select(..)
         )
     };
-    let mut pieces = Vec::new();
+    let mut fragments = Vec::new();
     if below.is_empty() && d == "1" {
-        line(writer, &n, &above, false, &mut pieces);
+        line(writer, &n, &above, false, &mut fragments);
     } else if below.is_empty() && above.iter().any(|(node, _)| is_large(*node)) {
-        pieces.push(Fragment::Owned(format!("\\frac{{{n}}}{{{d}}} ")));
-        line(writer, "1", &above, false, &mut pieces);
+        fragments.push(Fragment::Owned(format!("\\frac{{{n}}}{{{d}}} ")));
+        line(writer, "1", &above, false, &mut fragments);
     } else {
-        pieces.push(Fragment::Static("\\frac{"));
-        line(writer, &n, &above, true, &mut pieces);
-        pieces.push(Fragment::Static("}{"));
-        line(writer, &d, &below, true, &mut pieces);
-        pieces.push(Fragment::Static("}"));
+        fragments.push(Fragment::Static("\\frac{"));
+        line(writer, &n, &above, true, &mut fragments);
+        fragments.push(Fragment::Static("}{"));
+        line(writer, &d, &below, true, &mut fragments);
+        fragments.push(Fragment::Static("}"));
     }
-    pieces
+    fragments
 }
 
 /// One side of a fraction, or all of a product without one. Sums over loops go last, where they
@@ -259,12 +259,12 @@ fn line(
     number: &str,
     factors: &[Power],
     enclosed: bool,
-    pieces: &mut Vec<Fragment>,
+    fragments: &mut Vec<Fragment>,
 ) {
     let dag = writer.dag();
     let mut any = false;
     if number != "1" || factors.is_empty() {
-        pieces.push(Fragment::Owned(number.to_owned()));
+        fragments.push(Fragment::Owned(number.to_owned()));
         any = true;
     }
     let is_loop = |(node, n): &Power| *n == 1 && matches!(dag.kind(*node), Kind::Reduce(..));
@@ -272,7 +272,7 @@ fn line(
     let count = others.len() + loops.len();
     for (at, (node, n)) in others.into_iter().chain(loops).enumerate() {
         if any {
-            pieces.push(Fragment::Static(if starts_with_digit(dag, node) {
+            fragments.push(Fragment::Static(if starts_with_digit(dag, node) {
                 " \\cdot "
             } else {
                 " "
@@ -281,29 +281,29 @@ fn line(
         any = true;
         match dag.kind(node) {
             Kind::Call(Op::Sqrt, x) if n > 1 => {
-                pieces.push(Fragment::Node(x[0], Level::Atom));
-                pieces.push(Fragment::Owned(if n % 2 == 0 {
+                fragments.push(Fragment::Node(x[0], Level::Atom));
+                fragments.push(Fragment::Owned(if n % 2 == 0 {
                     format!("^{{{}}}", n / 2)
                 } else {
                     format!("^{{{n}/2}}")
                 }));
             }
             Kind::Call(op, x) if n > 1 && takes_power(*op) => {
-                pieces.append(&mut call(writer, *op, x, Some(n)))
+                fragments.append(&mut call(writer, *op, x, Some(n)))
             }
             Kind::Reduce(..) if n == 1 && at + 1 == count => {
-                pieces.push(Fragment::Node(node, Level::Sum))
+                fragments.push(Fragment::Node(node, Level::Sum))
             }
             _ if n == 1 => {
                 let alone = enclosed && count == 1 && number == "1";
-                pieces.push(Fragment::Node(
+                fragments.push(Fragment::Node(
                     node,
                     if alone { Level::Sum } else { Level::Unary },
                 ));
             }
             _ => {
-                pieces.push(Fragment::Node(node, Level::Atom));
-                pieces.push(Fragment::Owned(format!("^{{{n}}}")));
+                fragments.push(Fragment::Node(node, Level::Atom));
+                fragments.push(Fragment::Owned(format!("^{{{n}}}")));
             }
         }
     }

@@ -1,7 +1,7 @@
-//! The layout of both notations: the order of pieces, parentheses, signs, the parts of a
+//! The layout of both notations: the order of fragments, parentheses, signs, the parts of a
 //! product, the loops around a place.
 //!
-//! Input: a node. Output: pieces, written one after another from an explicit stack, so that depth
+//! Input: a node. Output: fragments, written one after another from an explicit stack, so that depth
 //! costs no stack and length is bounded. Invariant: parentheses stand exactly where precedence
 //! needs them.
 
@@ -140,15 +140,15 @@ impl<'a> Writer<'a> {
     /// The expression as text.
     pub(super) fn write(mut self, root: Node) -> String {
         self.stack.push(Fragment::Node(root, Level::Loose));
-        while let Some(piece) = self.stack.pop() {
-            match piece {
+        while let Some(fragment) = self.stack.pop() {
+            match fragment {
                 Fragment::Static(text) => self.out.push_str(text),
                 Fragment::Owned(text) => self.out.push_str(&text),
                 Fragment::Node(..) if self.is_long() => self.out.push_str(self.style.ellipsis),
                 Fragment::Node(node, level) => self.node(node, level),
                 Fragment::Product(product) => {
-                    let pieces = (self.style.product)(&self, &product);
-                    self.push(pieces);
+                    let fragments = (self.style.product)(&self, &product);
+                    self.push(fragments);
                 }
                 Fragment::Terms(node, at, negated) => self.terms(node, at, negated),
                 Fragment::Open(domain) => {
@@ -170,22 +170,22 @@ impl<'a> Writer<'a> {
         self.out.len() > LONGEST
     }
 
-    /// Pieces to be written next, in order.
-    fn push(&mut self, pieces: Vec<Fragment>) {
-        self.stack.extend(pieces.into_iter().rev());
+    /// Pushes fragments to be written next, in order.
+    fn push(&mut self, fragments: Vec<Fragment>) {
+        self.stack.extend(fragments.into_iter().rev());
     }
 
     fn node(&mut self, node: Node, level: Level) {
-        let mut pieces = self.pieces(node);
+        let mut fragments = self.fragments(node);
         if self.level(node) < level {
-            pieces.insert(0, Fragment::Static(self.style.open));
-            pieces.push(Fragment::Static(self.style.close));
+            fragments.insert(0, Fragment::Static(self.style.open));
+            fragments.push(Fragment::Static(self.style.close));
         }
-        self.push(pieces);
+        self.push(fragments);
     }
 
     /// A node without parentheses around it.
-    fn pieces(&self, node: Node) -> Vec<Fragment> {
+    fn fragments(&self, node: Node) -> Vec<Fragment> {
         let dag = self.dag();
         let style = self.style;
         let pair = |a: Node, word: &'static str, b: Node, level: Level| {
@@ -210,13 +210,13 @@ impl<'a> Writer<'a> {
                 if let Some(sum) = negated_sum(dag, node) {
                     return vec![Fragment::Terms(sum, 0, true)];
                 }
-                let mut pieces = Vec::new();
+                let mut fragments = Vec::new();
                 if k.is_negative() {
-                    pieces.push(Fragment::Static("-"));
+                    fragments.push(Fragment::Static("-"));
                 }
                 let product = Product::new(k.abs(), factors.clone());
-                pieces.push(Fragment::Product(product));
-                pieces
+                fragments.push(Fragment::Product(product));
+                fragments
             }
             Kind::Call(op, arguments) => (style.call)(self, *op, arguments),
             Kind::External(function, part, arguments) => {
@@ -261,15 +261,15 @@ impl<'a> Writer<'a> {
 
     /// A function with its arguments.
     pub(super) fn listed(&self, name: String, arguments: &[Node]) -> Vec<Fragment> {
-        let mut pieces = vec![Fragment::Owned(name), Fragment::Static(self.style.open)];
+        let mut fragments = vec![Fragment::Owned(name), Fragment::Static(self.style.open)];
         for (at, argument) in arguments.iter().enumerate() {
             if at > 0 {
-                pieces.push(Fragment::Static(", "));
+                fragments.push(Fragment::Static(", "));
             }
-            pieces.push(Fragment::Node(*argument, Level::Loose));
+            fragments.push(Fragment::Node(*argument, Level::Loose));
         }
-        pieces.push(Fragment::Static(self.style.close));
-        pieces
+        fragments.push(Fragment::Static(self.style.close));
+        fragments
     }
 
     /// The precedence of a node as it is written.
@@ -331,7 +331,7 @@ impl<'a> Writer<'a> {
         } else {
             Some(at).filter(|at| *at < terms.len())
         };
-        let (negative, piece) = match term {
+        let (negative, fragment) = match term {
             None => (constant.is_negative(), self.number(&constant.abs())),
             Some(term) => {
                 let (k, child) = &terms[term];
@@ -344,7 +344,7 @@ impl<'a> Writer<'a> {
             (_, false) => self.out.push_str(" + "),
             (_, true) => self.out.push_str(" - "),
         }
-        self.push(vec![piece, Fragment::Terms(node, at + 1, negated)]);
+        self.push(vec![fragment, Fragment::Terms(node, at + 1, negated)]);
     }
 
     fn number(&self, value: &Rational) -> Fragment {
@@ -397,7 +397,7 @@ impl<'a> Writer<'a> {
         (self.style.indexed)(name, indices)
     }
 
-    /// A declared name as a piece.
+    /// A declared name as a fragment.
     fn name(&self, name: &str) -> Fragment {
         Fragment::Owned(self.named(name))
     }

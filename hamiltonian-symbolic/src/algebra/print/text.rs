@@ -1,6 +1,6 @@
 //! The language's own notation.
 //!
-//! Input: a node. Output: pieces for the writer. Invariant: read back, the text is the expression.
+//! Input: a node. Output: fragments for the writer. Invariant: read back, the text is the expression.
 
 use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Partial};
@@ -135,32 +135,32 @@ fn product(writer: &Writer<'_>, product: &Product) -> Vec<Fragment> {
             None => (text, String::new()),
         },
     };
-    let mut pieces = Vec::new();
+    let mut fragments = Vec::new();
     if numerator != "1" || above.is_empty() {
-        pieces.push(Fragment::Owned(numerator));
+        fragments.push(Fragment::Owned(numerator));
     }
-    factors_of(dag, &above, &mut pieces);
+    factors_of(dag, &above, &mut fragments);
     if below.is_empty() && denominator.is_empty() {
-        return pieces;
+        return fragments;
     }
     let count = below.len() + usize::from(!denominator.is_empty());
-    pieces.push(Fragment::Static(if count > 1 { "/(" } else { "/" }));
+    fragments.push(Fragment::Static(if count > 1 { "/(" } else { "/" }));
     let mut divisor = Vec::new();
     if !denominator.is_empty() {
         divisor.push(Fragment::Owned(denominator));
     }
     factors_of(dag, &below, &mut divisor);
-    pieces.append(&mut divisor);
+    fragments.append(&mut divisor);
     if count > 1 {
-        pieces.push(Fragment::Static(")"));
+        fragments.push(Fragment::Static(")"));
     }
-    pieces
+    fragments
 }
 
-fn factors_of(dag: &Dag, factors: &[Power], pieces: &mut Vec<Fragment>) {
+fn factors_of(dag: &Dag, factors: &[Power], fragments: &mut Vec<Fragment>) {
     for &(node, n) in factors {
-        if !pieces.is_empty() {
-            pieces.push(Fragment::Static("*"));
+        if !fragments.is_empty() {
+            fragments.push(Fragment::Static("*"));
         }
         if n == 1 {
             // A number here is one the constructors could not multiply in.
@@ -169,10 +169,10 @@ fn factors_of(dag: &Dag, factors: &[Power], pieces: &mut Vec<Fragment>) {
             } else {
                 Level::Unary
             };
-            pieces.push(Fragment::Node(node, level));
+            fragments.push(Fragment::Node(node, level));
         } else {
-            pieces.push(Fragment::Node(node, Level::Atom));
-            pieces.push(Fragment::Owned(format!("^{n}")));
+            fragments.push(Fragment::Node(node, Level::Atom));
+            fragments.push(Fragment::Owned(format!("^{n}")));
         }
     }
 }

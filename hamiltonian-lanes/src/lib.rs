@@ -21,10 +21,9 @@
 //! [`dispatch_at_most`] hides features. [`Cpu`] lists the levels. Without the feature `std`, features are not
 //! detected: the best level is that of the compilation target.
 //!
-//! A sine over a pack, on the best level this CPU has:
+//! By this crate alone, a sine over a pack, on the best level this CPU has:
 //! ```
-//! use hamiltonian::lanes::{Kernel, Level, Pack, dispatch};
-//! use hamiltonian::prelude::*;
+//! use hamiltonian_lanes::{Kernel, Level, Pack, Real, dispatch};
 //!
 //! struct Sines<'a>(&'a mut [f64]);
 //!
@@ -45,7 +44,7 @@
 //!
 //! About 32 digits from a double-double, by the same generic code as `f64`:
 //! ```
-//! use hamiltonian::prelude::*;
+//! use hamiltonian_lanes::{DoubleDouble, Real};
 //!
 //! let root = DoubleDouble::from(2.0).sqrt();
 //! assert_eq!(root.to_string(), "1.4142135623730950488016887242097");

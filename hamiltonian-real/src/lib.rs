@@ -8,8 +8,9 @@
 //! Packs of lanes, the levels of CPUs and double-doubles are in `hamiltonian-lanes`, which uses the
 //! [`parts`] of this crate and re-exports its scalars.
 //!
+//! Derivatives of a generic function, by this crate alone:
 //! ```
-//! use hamiltonian::prelude::*;
+//! use hamiltonian_real::{Dual, Real};
 //!
 //! fn energy<T: Real>(q: T, p: T) -> T {
 //!     p * p / T::constant(2.0, 0.0) - q.cos()

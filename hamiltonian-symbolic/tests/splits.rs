@@ -232,10 +232,21 @@ fn a_long_potential_exhausts_no_limit() {
             let mut model = common::system(signature, "", "", h);
             let found = find(&mut model).expect("it is split");
             assert!(found.pieces.len() <= 4, "{signature}, {count} terms");
+            // What was compared was all of H, or it is not said.
+            let is_whole = count < 700 || signature != "q; p";
+            assert_eq!(found.choice.is_some(), is_whole, "{signature}, {count} terms");
             let parts: Vec<_> = found.pieces.iter().map(|piece| piece.h).collect();
             assert!(check_split(&mut model, &parts).is_ok(), "{signature}");
         }
     }
+    // Beside a term without a flow nothing else is blamed.
+    for count in [10, 40, 700] {
+        let hard = |h: &str| limit_of_search("q; p", "", &format!("{h} + {}", series("q", count)));
+        assert_eq!(hard("sin(q)*cos(p)"), Ok(None), "{count} terms");
+        assert_eq!(hard("sin(q)*cos(p) + p^2/2"), Ok(None), "{count} terms");
+    }
+    let declared = format!("p^2/2 + {}", series("q", 33));
+    assert_eq!(limit_of_piece("q; p", &declared), Ok(None));
     // Where coordinates and momenta meet, the number of terms and of subexpressions counts.
     let mixed = |count| limit_of_search("q; p", "", &sum_of(count, |k| format!("p*sin({k}*q)")));
     assert_eq!(mixed(33), Ok(Some(Limit::Terms)));

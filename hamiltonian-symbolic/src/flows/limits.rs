@@ -30,6 +30,14 @@ pub(crate) const PARTS: usize = 9;
 /// The most components of a point whose quadratic forms are exponentiated as matrices.
 pub(crate) const COMPONENTS: usize = 16;
 
+// Of all questions of a group.
+
+/// The most products of terms that normal forms take; one question may take a tenth of them.
+pub(crate) const ALL_PRODUCTS: usize = 10 * PRODUCTS;
+
+/// The most nodes that are added to the arena; one question may add a tenth of them.
+pub(crate) const ALL_EXPRESSIONS: usize = 10 * EXPRESSIONS;
+
 // Of one cover.
 
 /// The most terms that are combined to pieces; of more, those of coordinates alone and those of momenta alone are one
@@ -86,6 +94,10 @@ pub enum Limit {
     Comparison,
     /// The number of new expressions for one flow.
     Expressions,
+    /// The number of products of terms in the normal forms for all flows.
+    AllProducts,
+    /// The number of new expressions for all flows.
+    AllExpressions,
     /// The number of terms of a sum that are parted into commuting parts.
     Commuting,
     /// The number of commuting parts.
@@ -115,6 +127,8 @@ impl fmt::Display for Limit {
             Limit::Products => write!(f, "{PRODUCTS} products of terms"),
             Limit::Comparison => write!(f, "{COMPARISON} products of terms for one comparison"),
             Limit::Expressions => write!(f, "{EXPRESSIONS} new expressions"),
+            Limit::AllProducts => write!(f, "{ALL_PRODUCTS} products of terms for all flows"),
+            Limit::AllExpressions => write!(f, "{ALL_EXPRESSIONS} new expressions for all flows"),
             Limit::Commuting => write!(f, "{COMMUTING} terms of a sum whose parts may commute"),
             Limit::Parts => write!(f, "{PARTS} parts that commute"),
             Limit::Components => write!(

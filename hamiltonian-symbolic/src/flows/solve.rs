@@ -31,7 +31,7 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 }
 
 /// The flow of h, or of a part of it, within the budget of one question.
-fn part(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+pub(crate) fn part(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     if space.active(h).is_empty() {
         return Some(constant_rates(space, h, s));
     }
@@ -317,7 +317,7 @@ fn factor_of_pair(space: &mut Space, u: Node, own: Variables) -> Option<(Node, N
 /// A sum of parts that have flows and commute: one flow after the other.
 fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let mut terms = terms(space, h);
-    // Parts grow term by term: their order must not be that in which H is written.
+    // Parts grow term by term, those of few pairs first.
     terms.arrange_by_key(|term| space.set(*term).pairs().len());
     if terms.len() > COMMUTING {
         space.meets(Limit::Commuting, h);

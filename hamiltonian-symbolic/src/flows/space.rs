@@ -3,8 +3,8 @@
 //!
 //! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
 //! expression is zero where the normal form says so, refuted first by numbers, which are cheaper.
-//! Each question ([`Space::question`]) has a [`QuestionBudget`] of its own. Where that is spent, the answer is no, and nothing
-//! that was found since is kept.
+//! Each question ([`Space::question`]) has a budget of its own. Where that is spent, the answer is no, and nothing that
+//! was found since is kept.
 
 mod breaks;
 mod budget;
@@ -14,7 +14,7 @@ pub(crate) mod tape;
 use crate::algebra::ball::Ball;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side, Sign};
 use crate::diff;
-use crate::flows::limits::{COMPARISON, COMPONENTS, Limit, PAIRS, POINTS};
+use crate::flows::limits::{COMPONENTS, Limit, PAIRS, POINTS};
 use crate::index::Index;
 use crate::loops::{Sample, Values, next_random};
 use crate::model::{Flow, Model, Motion};
@@ -22,7 +22,7 @@ use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness
 use crate::rational::Rational;
 use crate::set::{Member, Set};
 use crate::sort::Arrange;
-use budget::QuestionBudget;
+use budget::Questions;
 use labels::Labels;
 use tape::Tape;
 
@@ -104,7 +104,7 @@ pub(crate) struct Space {
     sets: Vec<Variables>,
     derivatives: Map<Node, Map<Node, Node>>,
     zeros: Map<Node, bool>,
-    /// Numbers of nodes, from which most questions are answered.
+    /// Numbers of nodes, by which most comparisons are decided.
     values: [Values; 2],
     /// Numbers of nodes at points, each of which is made once.
     points: Map<Vec<[u64; 2]>, Values>,
@@ -116,12 +116,8 @@ pub(crate) struct Space {
     pub(crate) has_exponentials: bool,
     /// True if the point is given and has too many components for that.
     pub(crate) has_many_components: bool,
-    /// What is left to the question that is answered.
-    budget: QuestionBudget,
-    /// The limits that were met at an expression alone.
-    met: Map<Node, Limit>,
-    /// The first limit at which some question ended.
-    ended: Option<Limit>,
+    /// The question that is answered, and the limits that were met.
+    questions: Questions,
 }
 
 impl Space {
@@ -172,7 +168,7 @@ impl Space {
         Ok(Space {
             has_exponentials: components.is_some_and(|count| count <= COMPONENTS),
             has_many_components: components.is_some_and(|count| count > COMPONENTS),
-            budget: QuestionBudget::new(&model.dag),
+            questions: Questions::new(&model.dag),
             model,
             pairs,
             labels,
@@ -190,8 +186,6 @@ impl Space {
             points: Map::default(),
             flows: Map::default(),
             pair_flows: Map::default(),
-            met: Map::default(),
-            ended: None,
         })
     }
 
@@ -218,7 +212,7 @@ impl Space {
 
     /// The variables an expression is written with.
     pub(crate) fn set(&mut self, root: Node) -> Variables {
-        // Children have smaller numbers, so that each node is asked once.
+        // Children have smaller numbers, so that each node is looked up once.
         for number in self.sets.len()..=root.0 as usize {
             let node = Node(number as u32);
             let mut set = Variables::default();
@@ -315,8 +309,7 @@ impl Space {
     }
     /// Returns true if the flow of a part of H is proven to keep an invariant, a question of its own.
     pub(crate) fn is_kept(&mut self, invariant: Node, part: Node) -> bool {
-        let is_kept = |space: &mut Space| space.commute(invariant, part).then_some(());
-        self.question(part, is_kept).is_some()
+        self.proves(|space| space.commute(invariant, part))
     }
     /// Returns true if {a, b} = 0 is proven wherever both have derivatives.
     pub(crate) fn brackets_vanish(&mut self, a: Node, b: Node) -> bool {
@@ -359,20 +352,19 @@ impl Space {
         if self.is_off(node) {
             return false;
         }
-        self.budget.tests = self.budget.tests.saturating_sub(1);
-        if self.is_spent() {
+        let compare = |space: &mut Space, left: &mut usize| match witness(
+            &space.model,
+            node,
+            Effort::Glance,
+            &[],
+        ) {
+            Some(_) => Answer::Other(None),
+            None => answer_within(&mut space.model.dag, node, left),
+        };
+        let is_long = |answer: &Answer| *answer == Answer::Limit(Undecided::Budget);
+        let Some(answer) = self.compared(compare, is_long) else {
             return false;
-        }
-        let own = self.budget.products.min(COMPARISON);
-        let mut left = own;
-        let mut answer = Answer::Other(None);
-        if witness(&self.model, node, Effort::Glance, &[]).is_none() {
-            answer = answer_within(&mut self.model.dag, node, &mut left);
-        }
-        if answer == Answer::Limit(Undecided::Budget) {
-            self.ended = self.ended.or(Some(Limit::Comparison));
-        }
-        self.budget.products -= own - left;
+        };
         let is_zero = answer == Answer::Zero;
         self.zeros.insert(node, is_zero);
         is_zero
@@ -381,13 +373,6 @@ impl Space {
     pub(crate) fn same(&mut self, a: Node, b: Node) -> bool {
         let difference = self.model.dag.sub(a, b);
         self.is_zero(difference)
-    }
-
-    /// Returns true if two expressions are proven to differ by one that is free of every variable.
-    pub(crate) fn constant_apart(&mut self, a: Node, b: Node) -> bool {
-        let difference = self.model.dag.sub(a, b);
-        let set = self.set(difference);
-        self.free(difference, set).is_some()
     }
 
     /// An expression with numbers in place of some variables.

@@ -21,7 +21,7 @@ const LOSS: f64 = 16.0;
 pub(crate) struct Unit {
     /// The term.
     pub(crate) node: Node,
-    /// The term as it was written, which it is, or is a part of.
+    /// The term as it was written, which it is, or is a part of, or which is its first.
     pub(crate) source: Node,
     /// True if a conjugate pair meets in it.
     pub(crate) is_coupled: bool,
@@ -39,6 +39,10 @@ pub(crate) struct Units {
 /// that is something else, all of them multiplied out.
 pub(crate) fn refinements(space: &mut Space, h: Node) -> Vec<Units> {
     let written = written(space, h);
+    let coupled = written.units.iter().filter(|unit| unit.is_coupled);
+    if coupled.count() > TERMS {
+        return vec![written];
+    }
     let mut first = Units {
         units: Vec::new(),
         constant: written.constant.clone(),
@@ -65,15 +69,11 @@ pub(crate) fn refinements(space: &mut Space, h: Node) -> Vec<Units> {
             unit.source,
         );
     }
-    let [first, second] = [first, second].map(|units| {
-        let units = merged(space, units);
-        fewer(space, units)
-    });
-    if second == first || second.units.len() > REFINED {
-        vec![first]
-    } else {
-        vec![first, second]
-    }
+    let (first, second) = (merged(space, first), merged(space, second));
+    let is_other = second != first && second.units.len() <= REFINED;
+    let mut all = vec![fewer(space, first)];
+    all.extend(is_other.then_some(second));
+    all
 }
 
 fn append(space: &mut Space, units: &mut Units, nodes: &[Node], source: Node) {
@@ -115,7 +115,7 @@ fn merged(space: &mut Space, units: Units) -> Units {
     merged
 }
 
-/// Many terms of coordinates alone are one, and so are many of momenta alone.
+/// More units than are combined: those of coordinates alone become one, and so do those of momenta alone.
 fn fewer(space: &mut Space, units: Units) -> Units {
     if units.units.len() <= TERMS {
         return units;

@@ -1,73 +1,164 @@
 //! The questions of the search, each within a budget of its own.
 //!
-//! Input: a question on an expression. Output: its answer, or none and the limit at which it ended. Invariant: what was
-//! found after the budget was spent is no answer.
+//! Input: a question. Output: its answer, or none and the limit at which it ended. Invariant: questions are not nested,
+//! and what was found after a budget was spent is no answer.
 
 use super::Space;
-use crate::dag::{Dag, Node};
-use crate::flows::limits::{COMPARISONS, EXPRESSIONS, Limit, PRODUCTS};
+use crate::dag::{Dag, Map, Node};
+use crate::flows::limits::{
+    ALL_EXPRESSIONS, ALL_PRODUCTS, COMPARISON, COMPARISONS, EXPRESSIONS, Limit, PRODUCTS,
+};
 
-/// What is left to a question.
-pub(super) struct QuestionBudget {
+/// What the question that is answered has used, and the limits that were met so far.
+pub(super) struct Questions {
+    /// True while one is answered.
+    is_open: bool,
+    /// The expression whose flow is sought.
+    of: Option<Node>,
     /// The number of comparisons.
-    pub(super) tests: usize,
+    comparisons: usize,
     /// The number of products in the normal form.
-    pub(super) products: usize,
-    /// The largest size of the arena.
-    last: usize,
+    products: usize,
+    /// True if a comparison would have taken more.
+    lacks_products: bool,
+    /// The size of the arena at its beginning.
+    start: usize,
+    /// The number of products of all questions before.
+    all_products: usize,
+    /// The size of the arena before all.
+    first: usize,
+    /// The limits that were met at an expression alone.
+    met: Map<Node, Limit>,
+    /// The expressions of whose flows the search ended at a limit.
+    ended: Vec<(Node, Limit)>,
 }
 
-impl QuestionBudget {
-    /// A whole one, beside an arena.
-    pub(super) fn new(dag: &Dag) -> QuestionBudget {
-        QuestionBudget {
-            tests: COMPARISONS,
-            products: PRODUCTS,
-            last: dag.len() + EXPRESSIONS,
+impl Questions {
+    pub(super) fn new(dag: &Dag) -> Questions {
+        Questions {
+            is_open: false,
+            of: None,
+            comparisons: 0,
+            products: 0,
+            lacks_products: false,
+            start: dag.len(),
+            all_products: 0,
+            first: dag.len(),
+            met: Map::default(),
+            ended: Vec::new(),
         }
     }
 }
 
 impl Space {
-    /// The answer to a question on an expression, within a budget of its own; `None` where that is spent.
+    /// What is sought of an expression, within a budget of its own; `None` also where that is spent.
     pub(crate) fn question<T>(
         &mut self,
         of: Node,
         answer: impl FnOnce(&mut Space) -> Option<T>,
     ) -> Option<T> {
-        self.budget = QuestionBudget::new(&self.model.dag);
-        let found = answer(self);
-        // Expressions made after the limits may hold anything.
-        let Some(limit) = self.spent() else {
-            return found;
+        let (found, limit) = self.answered(Some(of), answer);
+        if let Some(limit) = limit {
+            // It ended the question, not a long comparison before.
+            let ended = &mut self.questions.ended;
+            ended.retain(|(other, _)| *other != of);
+            ended.push((of, limit));
+        }
+        found
+    }
+    /// Returns true if something is proven, within a budget of its own.
+    pub(crate) fn proves(&mut self, is_proven: impl FnOnce(&mut Space) -> bool) -> bool {
+        let answer = |space: &mut Space| is_proven(space).then_some(());
+        self.answered(None, answer).0.is_some()
+    }
+    fn answered<T>(
+        &mut self,
+        of: Option<Node>,
+        answer: impl FnOnce(&mut Space) -> Option<T>,
+    ) -> (Option<T>, Option<Limit>) {
+        debug_assert!(!self.questions.is_open, "a question within a question");
+        let nodes = self.model.dag.len();
+        if self.questions.all_products > ALL_PRODUCTS {
+            return (None, Some(Limit::AllProducts));
+        }
+        if nodes - self.questions.first > ALL_EXPRESSIONS {
+            return (None, Some(Limit::AllExpressions));
+        }
+        self.questions = Questions {
+            is_open: true,
+            of,
+            comparisons: 0,
+            products: 0,
+            lacks_products: false,
+            start: nodes,
+            ..std::mem::replace(&mut self.questions, Questions::new(&self.model.dag))
         };
-        self.ended = self.ended.or(Some(limit));
-        self.meets(limit, of);
-        None
+        let found = answer(self);
+        let limit = self.spent();
+        self.questions.is_open = false;
+        self.questions.all_products += self.questions.products;
+        // Expressions made after the limits may hold anything.
+        (found.filter(|_| limit.is_none()), limit)
     }
     /// The limit at which the budget is spent.
     fn spent(&self) -> Option<Limit> {
-        match self.budget {
-            QuestionBudget { tests: 0, .. } => Some(Limit::Comparisons),
-            QuestionBudget { products: 0, .. } => Some(Limit::Products),
-            QuestionBudget { last, .. } if self.model.dag.len() > last => Some(Limit::Expressions),
-            _ => None,
+        let now = &self.questions;
+        match () {
+            () if !now.is_open => None,
+            () if now.comparisons > COMPARISONS => Some(Limit::Comparisons),
+            () if now.lacks_products => Some(Limit::Products),
+            () => (self.model.dag.len() - now.start > EXPRESSIONS).then_some(Limit::Expressions),
         }
     }
     /// Returns true if the question has spent its budget.
     pub(crate) fn is_spent(&self) -> bool {
         self.spent().is_some()
     }
+    /// The answer to a comparison that may take a number of products, `None` where that would spend the budget.
+    pub(super) fn compared<T>(
+        &mut self,
+        compare: impl FnOnce(&mut Space, &mut usize) -> T,
+        is_long: impl FnOnce(&T) -> bool,
+    ) -> Option<T> {
+        debug_assert!(self.questions.is_open, "a comparison without a question");
+        self.questions.comparisons += 1;
+        if self.is_spent() {
+            return None;
+        }
+        let own = COMPARISON.min(PRODUCTS - self.questions.products);
+        let mut left = own;
+        let answer = compare(self, &mut left);
+        self.questions.products += own - left;
+        if is_long(&answer) {
+            if own < COMPARISON {
+                self.questions.lacks_products = true;
+                return None;
+            }
+            let of = self.questions.of;
+            self.questions
+                .ended
+                .extend(of.map(|of| (of, Limit::Comparison)));
+        }
+        Some(answer)
+    }
     /// Returns true if the search for a flow of an expression ended at a limit.
     pub(crate) fn ends_at(&self, node: Node) -> bool {
-        self.met.contains_key(&node)
+        self.questions.ended.iter().any(|(of, _)| *of == node)
     }
-    /// The limit that was met at an expression; otherwise the first that any question met.
-    pub(crate) fn limit(&self, node: Node) -> Option<Limit> {
-        self.met.get(&node).copied().or(self.ended)
+    /// The limit that was met at an expression; otherwise the first that was met at one with its variables.
+    pub(crate) fn limit(&mut self, node: Node) -> Option<Limit> {
+        if let Some(limit) = self.questions.met.get(&node) {
+            return Some(*limit);
+        }
+        let own = self.set(node);
+        let ended = self.questions.ended.clone().into_iter();
+        let mut ended = ended.filter(|(of, _)| own.is_within(self.set(*of)));
+        ended.next().map(|(_, limit)| limit)
     }
-    /// Notes that a limit ended the search for a flow of an expression.
+    /// Notes that a limit ended the search for a flow of an expression, unless the budget did so before.
     pub(crate) fn meets(&mut self, limit: Limit, node: Node) {
-        self.met.insert(node, limit);
+        if !self.is_spent() {
+            self.questions.met.insert(node, limit);
+        }
     }
 }

@@ -159,7 +159,9 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
             () => search.has_many_coupled.then_some(Limit::Coupled),
         };
         let source = ordered[bad].source;
-        if let Some(limit) = limit {
+        if let Some(limit) = limit
+            && !space.ends_at(ordered[bad].node)
+        {
             space.meets(limit, source);
         }
         return Err(source);
@@ -279,8 +281,7 @@ fn covers(blocks: &[Block], coupled: UnitSet) -> Vec<Vec<Block>> {
 fn uncoupled_blocks(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
     let mut masks = Vec::new();
     let quadratic = search.mask(|space, unit| {
-        let is_form = |space: &mut Space| is_quadratic(space, unit.node).then_some(());
-        !unit.is_coupled && space.question(unit.node, is_form).is_some()
+        !unit.is_coupled && space.proves(|space| is_quadratic(space, unit.node))
     });
     masks.push(quadratic);
     for pair in 0..search.space.pairs.len() {
@@ -298,12 +299,11 @@ fn uncoupled_blocks(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
             if set & own != coordinate {
                 return false;
             }
-            let degree = |space: &mut Space| {
+            space.proves(|space| {
                 let slope = space.d(unit.node, r);
                 let slope = space.dag().mul(&[r, slope]);
-                space.ratio(slope, unit.node)
-            };
-            space.question(unit.node, degree) == Some(-2)
+                space.ratio(slope, unit.node) == Some(-2)
+            })
         });
         masks.push(flight);
     }

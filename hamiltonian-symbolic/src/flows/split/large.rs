@@ -1,50 +1,68 @@
 //! A group of terms that has too many subexpressions to be searched as a whole.
 //!
-//! Input: the group, without loops. Output: the parts of its terms in which coordinates and momenta meet, then T and V.
-//! Invariant: T and V are the terms of momenta and of coordinates alone, whose flows need no search, however long they
-//! are.
+//! Input: the group, without loops. Output: the parts of its terms in which conjugate variables meet, then those of the
+//! others. Invariant: the flows of the others move everything at a constant rate and need no search, however long the
+//! terms are.
 
-use super::sweep::side;
 use super::{NoFlow, Parts, searched, units};
-use crate::dag::{Node, Side};
+use crate::dag::Node;
 use crate::flows::limits::{Limit, is_large};
 use crate::flows::solve::constant_rates;
-use crate::flows::space::Space;
+use crate::flows::space::{Space, Variables};
 use crate::model::Model;
+use crate::sort::Arrange;
 
 /// The parts of a group.
 ///
 /// # Errors
-/// [`NoFlow`] with a term in which coordinates and momenta meet: there are too many subexpressions in such terms too, or
-/// no row takes it.
+/// [`NoFlow`] with a term in which conjugate variables meet: there are too many subexpressions in such terms too, or no
+/// row takes it.
 pub(super) fn parts(model: &mut Model, group: Node) -> Result<Parts, NoFlow> {
-    let (mut mixed, mut sides) = (Vec::new(), [Vec::new(), Vec::new()]);
-    for term in units::terms(&mut model.dag, group) {
-        match side(&model.dag, term.body) {
-            Some(side) => sides[usize::from(side == Side::Q)].push(term.body),
-            None => mixed.push(term.body),
+    let terms = units::terms(&mut model.dag, group);
+    let mut space = space(model, group, terms[0].body)?;
+    let (mut coupled, mut others) = (Vec::new(), Vec::new());
+    for term in terms {
+        let set = space.set(term.body);
+        match set.whole_pairs().is_empty() {
+            true => others.push((term.body, set)),
+            false => coupled.push(term.body),
         }
     }
+    // Momenta first, then coordinates.
+    others.arrange_by_key(|(_, set)| {
+        let (coordinates, momenta) = set.sides();
+        (coordinates && momenta, coordinates)
+    });
+    let mut sums: Vec<(Vec<Node>, Variables)> = Vec::new();
+    for (term, set) in others {
+        let fits = |sum: &&mut (_, Variables)| (sum.1 | set).whole_pairs().is_empty();
+        match sums.iter_mut().find(fits) {
+            Some((terms, known)) => {
+                terms.push(term);
+                *known |= set;
+            }
+            None => sums.push((vec![term], set)),
+        }
+    }
+    let mut flows = Vec::with_capacity(sums.len());
+    for (terms, _) in sums {
+        let part = space.dag().add(&terms);
+        let c = space.dag().coefficient();
+        flows.push((part, constant_rates(&mut space, part, c)));
+    }
+    model.dag = space.model.dag;
     let mut parts = Parts::default();
-    if let Some(&first) = mixed.first() {
-        let sum = model.dag.add(&mixed);
+    if let Some(&first) = coupled.first() {
+        let sum = model.dag.add(&coupled);
         if is_large(&model.dag, sum) {
             return Err(NoFlow::of(model, first, Some(Limit::Subexpressions)));
         }
-        let mut space = space(model, sum, first)?;
+        let mut space = self::space(model, sum, first)?;
         parts = searched(model, &mut space, sum)?;
     }
-    for terms in sides {
-        let Some(&first) = terms.first() else {
-            continue;
-        };
-        let part = model.dag.add(&terms);
-        let mut space = space(model, part, first)?;
-        let c = space.dag().coefficient();
-        let flow = constant_rates(&mut space, part, c);
-        model.dag = space.model.dag;
-        parts.flows.push((part, flow));
-    }
+    // What was compared was not all of the group.
+    parts.choice = parts.choice.filter(|_| flows.is_empty());
+    parts.flows.extend(flows);
     Ok(parts)
 }
 

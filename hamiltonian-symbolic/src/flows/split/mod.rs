@@ -78,7 +78,9 @@ fn flow_of(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     let mut limit = space.limit(h);
     if found.is_none() && space.has_many_components {
         let is_form = |space: &mut Space| is_constant_form(space, h).then_some(Limit::Components);
-        limit = limit.or_else(|| space.question(h, is_form));
+        limit = limit
+            .or_else(|| space.question(h, is_form))
+            .or_else(|| space.limit(h));
     }
     model.dag = space.model.dag;
     if let Some(flow) = found {
@@ -116,12 +118,20 @@ fn any_flow(space: &mut Space, h: Node) -> Option<Flow> {
         units::refinements(space, h).into_iter().find_map(|units| {
             let nodes: Vec<Node> = units.units.iter().map(|unit| unit.node).collect();
             let sum = space.dag().add(&nodes);
-            let is_apart = |space: &mut Space| space.constant_apart(h, sum).then_some(());
-            (sum != h && space.question(sum, is_apart).is_some())
-                .then(|| solve::flow(space, sum, c))?
+            (sum != h && is_constant_apart(space, h, sum)).then(|| solve::flow(space, sum, c))?
         })
     });
     closed.or_else(|| solve::exponential(space, h))
+}
+
+/// Returns true if two expressions are proven to differ by one that is free of every variable. Terms that both have
+/// cancel first.
+fn is_constant_apart(space: &mut Space, a: Node, b: Node) -> bool {
+    let mut terms = summands(space.dag(), a, Rational::ONE);
+    terms.extend(summands(space.dag(), b, Rational::MINUS_ONE));
+    let rest = space.dag().linear(&Rational::ZERO, &terms);
+    let set = space.set(rest);
+    set.is_empty() || space.proves(|space| space.free(rest, set).is_some())
 }
 
 /// Parts of H with their flows, outermost first, and the reasons of the choice.

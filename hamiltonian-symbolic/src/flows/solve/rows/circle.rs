@@ -6,7 +6,7 @@
 use super::flight::central;
 use crate::algebra::ball::Ball;
 use crate::dag::Node;
-use crate::flows::solve::flow;
+use crate::flows::solve::part;
 use crate::flows::space::Space;
 use crate::model::Motion;
 use crate::op::Op;
@@ -58,7 +58,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
                 "pick(0 < size, angle/(2*root), a*s*pick(0 < abs(D), sin(D)/D, 1)/(f*sin(x + D)))",
             )?,
         };
-        motion = flow(space, lambda, time)?.motion;
+        motion = part(space, lambda, time)?.motion;
     }
     if !is_square && !space.dag().is_nonnegative(lambda) {
         let zero = space.dag().integer(0);

@@ -5,8 +5,8 @@
 use crate::algebra::ball::Ball;
 use crate::algebra::formula::Names;
 use crate::dag::Node;
-use crate::flows::solve::flow;
 use crate::flows::solve::growth::{arctangent, near_zero};
+use crate::flows::solve::part;
 use crate::flows::solve::units::distributed;
 use crate::flows::space::{Space, Variables};
 use crate::model::Motion;
@@ -40,7 +40,7 @@ fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
         true => names.one(space.dag(), "angle/(2*root)")?,
         false => names.one(space.dag(), "pick(0 < l, angle/(2*root), a*s/(x*X))")?,
     };
-    let mut motion = flow(space, lambda, time)?.motion;
+    let mut motion = part(space, lambda, time)?.motion;
     let (r1, p1) = (names.get("x1")?, names.get("p1")?);
     motion.set(r, r1);
     motion.set(p, p1);
@@ -82,7 +82,7 @@ fn of_either_sign(
         )?;
         let series = names.one(space.dag(), "u*T/2")?;
         let time = space.dag().select(near, series, far);
-        motion = flow(space, lambda, time)?.motion;
+        motion = part(space, lambda, time)?.motion;
     }
     motion.set(r, names.get("x1")?);
     motion.set(p, names.get("p1")?);

@@ -1,7 +1,7 @@
 //! The request of each purpose: the values to return and the outputs to write.
 //!
-//! Input: a [`Model`] and a [`Purpose`]. Output: a [`Request`], or the fault that prevents it. Invariant: the stores
-//! of a request set or add to every element of its outputs; others are cleared first.
+//! Input: a [`Model`] and a [`Purpose`]. Output: a [`Request`], or the fault that prevents it. Invariant: stores set
+//! each element of an output that is overwritten, or the output is cleared before they add to it.
 
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;

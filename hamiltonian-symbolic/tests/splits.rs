@@ -234,7 +234,11 @@ fn a_long_potential_exhausts_no_limit() {
             assert!(found.pieces.len() <= 4, "{signature}, {count} terms");
             // What was compared was all of H, or it is not said.
             let is_whole = count < 700 || signature != "q; p";
-            assert_eq!(found.choice.is_some(), is_whole, "{signature}, {count} terms");
+            assert_eq!(
+                found.choice.is_some(),
+                is_whole,
+                "{signature}, {count} terms"
+            );
             let parts: Vec<_> = found.pieces.iter().map(|piece| piece.h).collect();
             assert!(check_split(&mut model, &parts).is_ok(), "{signature}");
         }

@@ -406,9 +406,10 @@ impl Facts {
             SingularSet::Origin => self.have_no_common_zero(dag, x),
             // y = 0, x ≤ 0
             SingularSet::Cut => first.has_no_zero && first.is_continuous,
-            SingularSet::Equal | SingularSet::One | SingularSet::Units | SingularSet::Cosine => {
-                false
-            }
+            SingularSet::Equal
+            | SingularSet::One
+            | SingularSet::PlusMinusOne
+            | SingularSet::Cosine => false,
         };
         let jump = match regularity.breaks {
             Break::Jump(at) if !misses(at) => Some(at),

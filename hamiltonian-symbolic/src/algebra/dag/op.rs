@@ -44,7 +44,7 @@ pub enum SingularSet {
     /// x = −1
     MinusOne,
     /// x = 1 and x = −1
-    Units,
+    PlusMinusOne,
     /// cos x = 0
     Cosine,
     /// x = y
@@ -203,10 +203,10 @@ operations! {
         [All, Any, Nowhere, Some(Cosine), Nothing, Entire],
         |d, x, f| { let s = d.powi(f, 2); let one = d.integer(1); vec![d.add(&[one, s])] };
     Asin asin(x) Odd Some(0), "\\arcsin",
-        [UnitInterval, Any, Kink(Units), None, Nothing, Branched],
+        [UnitInterval, Any, Kink(PlusMinusOne), None, Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
     Acos acos(x) None None, "\\arccos",
-        [UnitInterval, NonNegative, Kink(Units), None, Nothing, Branched],
+        [UnitInterval, NonNegative, Kink(PlusMinusOne), None, Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); let r = d.powi(r, -1); vec![d.neg(r)] };
     Atan atan(x) Odd Some(0), "\\arctan",
         [All, Any, Nowhere, None, Limits, Branched],
@@ -234,7 +234,7 @@ operations! {
         vec![d.powi(product, -1)]
     };
     Atanh atanh(x) Odd Some(0), "\\operatorname{artanh}",
-        [UnitInterval, Any, Nowhere, Some(Units), Nothing, Branched],
+        [UnitInterval, Any, Nowhere, Some(PlusMinusOne), Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); vec![d.powi(r, -1)] };
     Exp exp(x) None Some(1), "\\exp",
         [All, Positive, Nowhere, None, Mixed, Entire],

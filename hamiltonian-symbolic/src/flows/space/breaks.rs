@@ -78,7 +78,7 @@ fn place(dag: &mut Dag, at: SingularSet, x: &[Node]) -> Option<Node> {
         SingularSet::Zero | SingularSet::Cut => first,
         SingularSet::One => dag.sub(first, one),
         SingularSet::MinusOne => dag.add(&[first, one]),
-        SingularSet::Units => {
+        SingularSet::PlusMinusOne => {
             let square = dag.powi(first, 2);
             dag.sub(square, one)
         }

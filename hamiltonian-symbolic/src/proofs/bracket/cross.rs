@@ -364,7 +364,7 @@ fn place(model: &mut Model, locus: Locus, part: Node) -> Option<String> {
         SingularSet::Equal if dag.is_zero(locus.x) => locus.y,
         SingularSet::Equal => dag.sub(locus.x, locus.y),
         SingularSet::Cosine => dag.call(Op::Cos, &[locus.x]),
-        SingularSet::Units => {
+        SingularSet::PlusMinusOne => {
             let square = dag.powi(locus.x, 2);
             dag.sub(square, one)
         }

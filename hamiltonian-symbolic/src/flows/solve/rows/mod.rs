@@ -97,7 +97,7 @@ pub struct Row {
     pub(crate) solve: Solve,
 }
 
-/// The rows. Within a kind ([`Solve`]) they are tried in this order. Flows that are linear in time need no row.
+/// The rows. Within a kind (`Solve`) they are tried in this order. Flows that are linear in time need no row.
 pub static ROWS: &[Row] = &[
     Row {
         name: "quadratic form",

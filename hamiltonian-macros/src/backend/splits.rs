@@ -118,7 +118,7 @@ pub fn decide(
     }
 }
 
-/// The words of the language for rows whose pattern is written in the notation of papers.
+/// The rows of [`split::ROWS`] in words of the language; their patterns have the notation of papers.
 const WORDS: [(&str, &str); 12] = [
     ("quadratic form", "quadratic forms"),
     ("matrix exponential", "quadratic forms"),
@@ -146,13 +146,10 @@ const WORDS: [(&str, &str); 12] = [
     ),
 ];
 
-/// The forms of a piece with an exact flow: those linear in time, and the rows of the table. A row that has no entry
-/// in [`WORDS`] appears with its pattern.
+/// The forms of a piece with an exact flow: those linear in time, and the rows of the table.
 fn exact_forms() -> String {
     let mut forms = vec!["V(q)", "T(p)"];
-    for row in split::ROWS {
-        let words = WORDS.iter().find(|(name, _)| *name == row.name);
-        let form = words.map_or(row.pattern, |(_, words)| words);
+    for (_, form) in WORDS {
         if !forms.contains(&form) {
             forms.push(form);
         }
@@ -215,4 +212,12 @@ fn facts(splitting: &Splitting) -> Vec<String> {
         }
     }
     facts
+}
+
+#[cfg(test)]
+#[test]
+fn each_row_has_words() {
+    let rows = split::ROWS.iter().map(|row| row.name);
+    let words = WORDS.iter().map(|(name, _)| *name);
+    assert!(rows.eq(words));
 }

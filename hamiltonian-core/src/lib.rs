@@ -17,6 +17,20 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
+//! Systems come from the macro. By this crate alone, a potential that is known at points, and its slope by a dual
+//! number:
+//! ```
+//! use hamiltonian_core::prelude::*;
+//!
+//! let knots: Vec<f64> = (0..=20).map(|i| f64::from(i) * 0.1).collect();
+//! let values: Vec<f64> = knots.iter().map(|x| x.sin()).collect();
+//! let potential = Spline::clamped(&knots, &values, [1.0, 2f64.cos()])?;
+//! let there = potential.value([Dual::variable(0.73)]);
+//! assert!((there.re - 0.73f64.sin()).abs() < 1e-6);
+//! assert!((there.eps - 0.73f64.cos()).abs() < 1e-5);
+//! # Ok::<(), hamiltonian_core::errors::KnotError>(())
+//! ```
+//!
 //! The modules follow the data: vectors and states, the system at a state, what moves it (vector
 //! fields and exact flows), one-step maps and the schemes that make them, the run and parts of its
 //! steps, observers, saved runs; starts on a surface and other coordinates of a state.

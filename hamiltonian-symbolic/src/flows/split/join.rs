@@ -153,7 +153,7 @@ fn choice(groups: &[Parts]) -> Option<Reasons> {
 }
 
 /// Returns true if each part keeps each declared invariant.
-fn keep_invariants(model: &mut Model, h: Node, parts: &[(Node, Flow)]) -> bool {
+pub(super) fn keep_invariants(model: &mut Model, h: Node, parts: &[(Node, Flow)]) -> bool {
     let invariants = model.invariants();
     let Ok(mut space) = Space::new(model, &[h]) else {
         return false;

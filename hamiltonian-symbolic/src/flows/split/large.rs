@@ -4,7 +4,8 @@
 //! others. Invariant: the flows of the others move everything at a constant rate and need no search, however long the
 //! terms are.
 
-use super::{NoFlow, Parts, searched, units};
+use super::join::keep_invariants;
+use super::{NoFlow, Parts, Reasons, searched, units};
 use crate::dag::Node;
 use crate::flows::limits::{Limit, is_large};
 use crate::flows::solve::constant_rates;
@@ -19,7 +20,8 @@ use crate::sort::Arrange;
 /// row takes it.
 pub(super) fn parts(model: &mut Model, group: Node) -> Result<Parts, NoFlow> {
     let terms = units::terms(&mut model.dag, group);
-    let mut space = space(model, group, terms[0].body)?;
+    let first = terms.first().map_or(group, |term| term.body);
+    let mut space = space(model, group, first)?;
     let (mut coupled, mut others) = (Vec::new(), Vec::new());
     for term in terms {
         let set = space.set(term.body);
@@ -60,9 +62,14 @@ pub(super) fn parts(model: &mut Model, group: Node) -> Result<Parts, NoFlow> {
         let mut space = self::space(model, sum, first)?;
         parts = searched(model, &mut space, sum)?;
     }
-    // What was compared was not all of the group.
-    parts.choice = parts.choice.filter(|_| flows.is_empty());
     parts.flows.extend(flows);
+    let among = parts.choice.map_or(1, |choice| choice.among);
+    // No run of all of the group was followed; one flow has no error.
+    parts.choice = (parts.flows.len() > 1).then(|| Reasons {
+        error: f64::NAN,
+        among,
+        keeps_invariants: keep_invariants(model, group, &parts.flows),
+    });
     Ok(parts)
 }
 

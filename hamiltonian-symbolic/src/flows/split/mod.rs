@@ -158,7 +158,6 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
                 ..refusal
             });
         }
-        Ok(_) if groups.len() < 2 && is_large(&model.dag, h) => large::parts(model, h)?,
         Ok(mut space) if groups.len() < 2 => searched(model, &mut space, h)?,
         whole => {
             let whole = whole.ok().filter(|_| !is_large(&model.dag, h));
@@ -178,11 +177,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
                         let mut space = Space::new(model, &[group])
                             .map_err(|limit| NoFlow::of(model, group, limit))?;
                         let label = space.label(group);
-                        let parts = match is_large(&model.dag, group) {
-                            true => large::parts(model, group)?,
-                            false => searched(model, &mut space, group)?,
-                        };
-                        found.push((label, parts));
+                        found.push((label, searched(model, &mut space, group)?));
                     }
                     found.arrange_by_key(|(label, _)| *label);
                     let found = found.into_iter().map(|(_, parts)| parts).collect();
@@ -223,6 +218,9 @@ fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, NoFlow> {
 
 /// The splitting of an expression in its space, whose arena becomes the model's.
 fn searched(model: &mut Model, space: &mut Space, h: Node) -> Result<Parts, NoFlow> {
+    if is_large(&model.dag, h) {
+        return large::parts(model, h);
+    }
     let found = search(space, h).map_err(|node| (node, space.limit(node)));
     model.dag = std::mem::take(&mut space.model.dag);
     found.map_err(|(node, limit)| NoFlow::of(model, node, limit))

@@ -20,7 +20,7 @@ const EXCEPTIONS: [(&str, &str, &str); 2] = [
     ),
 ];
 
-/// What a module declares at its top level, and in modules that it contains.
+/// The types that a module declares at its top level, and in modules that it contains.
 #[derive(Default)]
 struct Declared {
     types: Vec<String>,

@@ -9,10 +9,10 @@ use std::fmt;
 
 // Of one question.
 
-/// The most comparisons; the systems in the tests take 18 at most.
+/// The most comparisons.
 pub(crate) const COMPARISONS: usize = 400;
 
-/// The most nodes that are added to the arena; the systems in the tests add fewer than 1500.
+/// The most nodes that are added to the arena.
 pub const EXPRESSIONS: usize = 6_000;
 
 /// The most products of terms that normal forms take.
@@ -58,7 +58,7 @@ pub(crate) const REFINED: usize = 12;
 
 // Of one group.
 
-/// The most subexpressions of terms in which coordinates and momenta meet.
+/// The most subexpressions of terms in which conjugate variables meet.
 pub(crate) const SUBEXPRESSIONS: usize = 1000;
 
 /// The most pairs, so that a set of variables is a word.
@@ -74,6 +74,8 @@ pub(crate) const MORE_PIECES: usize = 2;
 
 /// The most pieces.
 pub const PIECES: usize = 8;
+
+// Of one loop.
 
 /// The most elements of each array in the body of a loop.
 pub(crate) const BODY_ROWS: usize = 4;
@@ -110,7 +112,7 @@ pub enum Limit {
     Sums,
     /// The number of coupled terms all of whose sums are tried.
     Coupled,
-    /// The number of subexpressions of terms in which coordinates and momenta meet.
+    /// The number of subexpressions of terms in which conjugate variables meet.
     Subexpressions,
     /// The number of degrees of freedom that terms of H join.
     Pairs,
@@ -140,7 +142,7 @@ impl fmt::Display for Limit {
             Limit::Coupled => write!(f, "{COUPLED} coupled terms of which all sums are tried"),
             Limit::Subexpressions => write!(
                 f,
-                "{SUBEXPRESSIONS} subexpressions of terms in which coordinates and momenta meet"
+                "{SUBEXPRESSIONS} subexpressions of terms in which conjugate variables meet"
             ),
             Limit::Pairs => write!(f, "{PAIRS} coupled degrees of freedom"),
             Limit::Pieces => write!(f, "{PIECES} pieces"),

@@ -18,36 +18,39 @@ use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
 
 /// The flow of h for the time s; `None` where no row takes it, or where the budget of one question is spent.
 pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
-    if space.active(h).is_empty() {
-        // Nothing is to be proven.
-        return Some(constant_rates(space, h, s));
-    }
-    if let Some(known) = space.flows.get(&(h, s)) {
-        return known.clone();
-    }
-    let found = space.question(h, |space| part(space, h, s));
-    space.flows.insert((h, s), found.clone());
-    found
+    known(space, h, s).unwrap_or_else(|| {
+        let found = space.question(h, |space| sought(space, h, s));
+        space.flows.insert((h, s), found.clone());
+        found
+    })
 }
 
-/// The flow of h, or of a part of it, within the budget of one question.
+/// The flow of a part of the h in question, within its budget.
 pub(crate) fn part(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
-    if space.active(h).is_empty() {
-        return Some(constant_rates(space, h, s));
+    known(space, h, s).unwrap_or_else(|| {
+        let found = sought(space, h, s);
+        // As a question of its own it may have a flow all the same.
+        if !space.is_spent() {
+            space.flows.insert((h, s), found.clone());
+        }
+        found
+    })
+}
+
+/// The flow of h that takes no search, or the result of an earlier one.
+fn known(space: &mut Space, h: Node, s: Node) -> Option<Option<Flow>> {
+    match space.active(h).is_empty() {
+        true => Some(Some(constant_rates(space, h, s))),
+        false => space.flows.get(&(h, s)).cloned(),
     }
-    if let Some(known) = space.flows.get(&(h, s)) {
-        return known.clone();
-    }
-    let found = whole(space, h, s)
+}
+
+fn sought(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    whole(space, h, s)
         .or_else(|| function(space, h, s))
         .or_else(|| bare(space, h, s))
         .or_else(|| separated(space, h, s))
-        .or_else(|| commuting(space, h, s));
-    // As a question of its own it may have a flow all the same.
-    if !space.is_spent() {
-        space.flows.insert((h, s), found.clone());
-    }
-    found
+        .or_else(|| commuting(space, h, s))
 }
 
 /// The rates of a quadratic form, whose matrix is exponentiated when a run is prepared: of a whole

@@ -1,8 +1,8 @@
 //! H as the terms it is written with, and as finer ones where a term has no flow.
 //!
 //! Input: H. Output: [`Units`]. Invariant: units add up to H with the constant; a term in which no
-//! conjugate pair meets stays as it was written, or is part of such a sum; products are multiplied out only where no row
-//! takes them, and only where that loses few digits.
+//! conjugate pair meets stays as it was written, or is part of a sum of such terms; products are multiplied
+//! out only where no row takes them, and only where that loses few digits.
 
 use super::flow;
 use crate::dag::{Dag, Dependence, Kind, Node};

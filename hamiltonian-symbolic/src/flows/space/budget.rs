@@ -9,10 +9,21 @@ use crate::flows::limits::{
     ALL_EXPRESSIONS, ALL_PRODUCTS, COMPARISON, COMPARISONS, EXPRESSIONS, Limit, PRODUCTS,
 };
 
-/// What the question that is answered has used, and the limits that were met so far.
+/// The questions of a search: the one that is answered, and the limits that others met.
 pub(super) struct Questions {
-    /// True while one is answered.
-    is_open: bool,
+    open: Option<Question>,
+    /// The number of products of all questions before.
+    products: usize,
+    /// The size of the arena before all.
+    start: usize,
+    /// The limits that were met at an expression alone.
+    met: Map<Node, Limit>,
+    /// The expressions of whose flows the search ended at a limit.
+    ended: Vec<(Node, Limit)>,
+}
+
+/// A question that is answered, with its use of the budget.
+struct Question {
     /// The expression whose flow is sought.
     of: Option<Node>,
     /// The number of comparisons.
@@ -23,27 +34,14 @@ pub(super) struct Questions {
     lacks_products: bool,
     /// The size of the arena at its beginning.
     start: usize,
-    /// The number of products of all questions before.
-    all_products: usize,
-    /// The size of the arena before all.
-    first: usize,
-    /// The limits that were met at an expression alone.
-    met: Map<Node, Limit>,
-    /// The expressions of whose flows the search ended at a limit.
-    ended: Vec<(Node, Limit)>,
 }
 
 impl Questions {
     pub(super) fn new(dag: &Dag) -> Questions {
         Questions {
-            is_open: false,
-            of: None,
-            comparisons: 0,
+            open: None,
             products: 0,
-            lacks_products: false,
             start: dag.len(),
-            all_products: 0,
-            first: dag.len(),
             met: Map::default(),
             ended: Vec::new(),
         }
@@ -51,7 +49,7 @@ impl Questions {
 }
 
 impl Space {
-    /// What is sought of an expression, within a budget of its own; `None` also where that is spent.
+    /// The answer to a question on an expression, within a budget of its own; `None` also where that is spent.
     pub(crate) fn question<T>(
         &mut self,
         of: Node,
@@ -76,68 +74,68 @@ impl Space {
         of: Option<Node>,
         answer: impl FnOnce(&mut Space) -> Option<T>,
     ) -> (Option<T>, Option<Limit>) {
-        debug_assert!(!self.questions.is_open, "a question within a question");
-        let nodes = self.model.dag.len();
-        if self.questions.all_products > ALL_PRODUCTS {
+        debug_assert!(
+            self.questions.open.is_none(),
+            "a question within a question"
+        );
+        let start = self.model.dag.len();
+        if self.questions.products > ALL_PRODUCTS {
             return (None, Some(Limit::AllProducts));
         }
-        if nodes - self.questions.first > ALL_EXPRESSIONS {
+        if start - self.questions.start > ALL_EXPRESSIONS {
             return (None, Some(Limit::AllExpressions));
         }
-        self.questions = Questions {
-            is_open: true,
+        self.questions.open = Some(Question {
             of,
             comparisons: 0,
             products: 0,
             lacks_products: false,
-            start: nodes,
-            ..std::mem::replace(&mut self.questions, Questions::new(&self.model.dag))
-        };
+            start,
+        });
         let found = answer(self);
         let limit = self.spent();
-        self.questions.is_open = false;
-        self.questions.all_products += self.questions.products;
+        let used = self.questions.open.take().map_or(0, |open| open.products);
+        self.questions.products += used;
         // Expressions made after the limits may hold anything.
         (found.filter(|_| limit.is_none()), limit)
     }
     /// The limit at which the budget is spent.
     fn spent(&self) -> Option<Limit> {
-        let now = &self.questions;
+        let open = self.questions.open.as_ref()?;
         match () {
-            () if !now.is_open => None,
-            () if now.comparisons > COMPARISONS => Some(Limit::Comparisons),
-            () if now.lacks_products => Some(Limit::Products),
-            () => (self.model.dag.len() - now.start > EXPRESSIONS).then_some(Limit::Expressions),
+            () if open.comparisons > COMPARISONS => Some(Limit::Comparisons),
+            () if open.lacks_products => Some(Limit::Products),
+            () => (self.model.dag.len() - open.start > EXPRESSIONS).then_some(Limit::Expressions),
         }
     }
     /// Returns true if the question has spent its budget.
     pub(crate) fn is_spent(&self) -> bool {
         self.spent().is_some()
     }
-    /// The answer to a comparison that may take a number of products, `None` where that would spend the budget.
+    /// The answer to a comparison that may take a number of products, `None` where that would spend the budget or no
+    /// question is open.
     pub(super) fn compared<T>(
         &mut self,
         compare: impl FnOnce(&mut Space, &mut usize) -> T,
         is_long: impl FnOnce(&T) -> bool,
     ) -> Option<T> {
-        debug_assert!(self.questions.is_open, "a comparison without a question");
-        self.questions.comparisons += 1;
+        let open = self.questions.open.as_mut()?;
+        open.comparisons += 1;
+        let own = COMPARISON.min(PRODUCTS - open.products);
         if self.is_spent() {
             return None;
         }
-        let own = COMPARISON.min(PRODUCTS - self.questions.products);
         let mut left = own;
         let answer = compare(self, &mut left);
-        self.questions.products += own - left;
+        let open = self.questions.open.as_mut()?;
+        open.products += own - left;
         if is_long(&answer) {
             if own < COMPARISON {
-                self.questions.lacks_products = true;
+                open.lacks_products = true;
                 return None;
             }
-            let of = self.questions.of;
-            self.questions
-                .ended
-                .extend(of.map(|of| (of, Limit::Comparison)));
+            let ended = open.of.map(|of| (of, Limit::Comparison));
+            self.questions.ended.extend(ended);
         }
         Some(answer)
     }

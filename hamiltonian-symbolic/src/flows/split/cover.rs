@@ -1,8 +1,8 @@
 //! The ways to make H of pieces that have flows.
 //!
 //! Input: the units of H. Output: candidates, each a list of [`Block`]s. Invariant: the blocks of a
-//! candidate are disjoint and hold every unit; each has a flow; at most [`SUMS`] sums of units are tested for a flow, and at most
-//! [`COVERS`] covers are kept.
+//! candidate are disjoint and hold every unit; each has a flow; at most [`SUMS`] sums of units are
+//! tested for a flow, and at most [`COVERS`] covers are kept.
 
 use crate::dag::{Map, Node};
 use crate::flows::limits::{COUPLED, COVERS, Limit, SUMS, TERMS};

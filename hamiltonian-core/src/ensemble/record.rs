@@ -51,6 +51,16 @@ pub struct Record<'a, S: System<f64>, O> {
     pub(crate) write: Write<'a, S, O>,
 }
 
+impl<S: System<f64>, O> Record<'_, S, O> {
+    /// The number of rows of each member; `None` if it may be any.
+    pub(crate) fn rows_each(&self) -> Option<usize> {
+        match &self.times {
+            Some(times) => Some(times.len()),
+            None => (!self.several).then_some(1),
+        }
+    }
+}
+
 /// How a member ended. The number of a variant is the `status` in stored sweeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -98,8 +108,8 @@ pub struct Row<'r> {
     pub time: f64,
     /// The number of whole steps that the member made.
     pub steps: u64,
-    /// One value per column, NaN for a member that failed. Empty if members have any number of rows and this member
-    /// has none.
+    /// One value per column. They are NaN if the member failed, or ended before the time of the row. Empty if members
+    /// have any number of rows and this member, which did not fail, has none.
     pub values: &'r [f64],
     /// The member's error, if it failed.
     pub error: Option<&'r Error>,
@@ -122,7 +132,10 @@ pub(crate) struct MemberOutcome {
 #[derive(Debug)]
 pub(crate) struct Batch {
     pub(crate) first: usize,
-    pub(crate) columns: usize,
+    /// A row of NaN, for members that failed and for times that were not reached.
+    pub(crate) nan: Vec<f64>,
+    /// The number of rows of each member; `None` if it may be any.
+    pub(crate) rows_each: Option<usize>,
     pub(crate) outcomes: Vec<MemberOutcome>,
     pub(crate) values: Vec<f64>,
     /// True if the sweep was cancelled, so that members may be missing.
@@ -132,20 +145,24 @@ pub(crate) struct Batch {
 impl Batch {
     /// The rows, in the order of the index.
     pub(crate) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        let columns = self.columns.max(1);
+        let columns = self.nan.len().max(1);
         let outcomes = self.outcomes.iter().zip(self.first..);
         outcomes.flat_map(move |(outcome, index)| {
             let values = &self.values[outcome.values.clone()];
             // A member without rows has one `Row` with its status.
-            let rows = (values.len() / columns).max(1);
-            (0..rows).map(move |row| Row {
+            let found = (values.len() / columns).max(1);
+            let missing: &[f64] = match self.rows_each.is_some() || outcome.error.is_some() {
+                true => &self.nan,
+                false => &[],
+            };
+            (0..self.rows_each.unwrap_or(found)).map(move |row| Row {
                 index,
                 status: outcome.status,
                 time: outcome.time,
                 steps: outcome.steps,
                 values: values
                     .get(row * columns..(row + 1) * columns)
-                    .unwrap_or_default(),
+                    .unwrap_or(missing),
                 error: outcome.error.as_ref(),
             })
         })

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::observe::{Observer, Unobserved};
 use crate::shard::Shard;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, clock};
 use crate::table::Table;
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -154,8 +154,9 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
 
     /// Records one row per member and time. The closure receives the member at each time.
     ///
-    /// The times are in the direction of the run, and members end at the last one. The first column of tables,
-    /// `member`, has the index of the member.
+    /// The times are in the direction of the run, and members end at the last one. A member with a time before its
+    /// start fails with [`Error::Behind`]. A member that failed has NaN in the rows of the times that it did not reach.
+    /// If its observer ended a member, the row of the next time has its last state, and later rows have NaN.
     pub fn record_at<const N: usize>(
         self,
         times: impl IntoIterator<Item = f64>,
@@ -167,8 +168,8 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self.recorded(&columns, true, Some(times), Box::new(write))
     }
 
-    /// Records any number of rows per member, for example the states of a section. The first column of tables,
-    /// `member`, has the index of the member.
+    /// Records any number of rows per member, for example the states of a section. A member that failed has one row of
+    /// NaN in a table, and none in a store.
     pub fn rows<const N: usize, I: IntoIterator<Item = [f64; N]>>(
         self,
         columns: [&str; N],
@@ -350,7 +351,9 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]. The error of a member is in its row.
+    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; for the times of
+    /// [`record_at`](Sweep::record_at), [`Error::Unreachable`] if one is NaN or infinite, and [`Error::Behind`] if one
+    /// comes before the previous one. The error of a member is in its row.
     pub fn fold<A>(&self, init: A, mut take: impl FnMut(A, &Row<'_>) -> A) -> Result<A, Error> {
         self.try_fold(init, |all, row| ControlFlow::Continue(take(all, row)))
     }
@@ -382,29 +385,26 @@ where
         all.ok_or(Error::NoMembers)
     }
 
-    /// Runs the sweep and collects the rows into a table. With one row per member, the last column is `status`, see
-    /// [`Status`](crate::Status). With several rows, the first column is `member`.
+    /// Runs the sweep and collects the rows into a table. The first column, `member`, has the index of the member. The
+    /// last column, `status`, says how the member ended, see [`Status`](crate::Status).
     ///
     /// # Errors
     /// Those of [`fold`](Sweep::fold); [`TableError::Twice`](crate::errors::TableError::Twice) for a name that
-    /// occurs twice.
+    /// occurs twice, or is `member` or `status`.
     pub fn collect(&self) -> Result<Table, Error> {
         let columns = self.record.columns.iter().map(String::as_str);
-        let several = self.record.several;
-        let mut table = match several {
-            true => Table::with_index("member", columns)?,
-            false => Table::new(columns.chain(["status"]))?,
-        };
+        let mut table = Table::with_index("member", columns.chain(["status"]))?;
+        let any = self.record.rows_each().is_none();
         let mut line = Vec::new();
         self.each_batch(self.chunks(), false, |batch| {
             for row in batch.rows() {
-                if row.values.is_empty() && several {
+                if row.values.is_empty() && any {
                     continue;
                 }
                 line.clear();
-                line.extend(several.then_some(row.index as f64));
+                line.push(row.index as f64);
                 line.extend_from_slice(row.values);
-                line.extend((!several).then_some(f64::from(row.status as u8)));
+                line.push(f64::from(row.status as u8));
                 table.push(&line)?;
             }
             Ok(ControlFlow::Continue(()))
@@ -412,7 +412,7 @@ where
         Ok(table)
     }
 
-    /// Checks that the sweep has members and that they have ends.
+    /// Checks that the sweep has members, that they have ends, and that the times of its record are in order.
     pub(crate) fn check(&self) -> Result<(), Error> {
         if self.count == 0 {
             return Err(Error::NoMembers);
@@ -420,7 +420,31 @@ where
         match (&self.record.times, &self.end) {
             (Some(times), _) if times.is_empty() => Err(Error::NoEnd),
             (None, EndPoint::Unknown) => Err(Error::NoEnd),
+            (Some(times), _) => self.check_times(times),
             _ => Ok(()),
+        }
+    }
+
+    /// Checks that times are finite, and in the direction of the common step. If each member has its own step, any
+    /// direction is accepted here, and members that run in the other one fail.
+    fn check_times(&self, times: &[f64]) -> Result<(), Error> {
+        let clock = clock::<f64, S>();
+        if let Some(&target) = times.iter().find(|t| !t.is_finite()) {
+            return Err(Error::Unreachable { clock, target });
+        }
+        let direction = match self.step_each {
+            Some(_) => times[times.len() - 1] - times[0],
+            None => self.step,
+        };
+        let is_behind =
+            |pair: &&[f64]| (pair[1] < pair[0]) != (pair[1] != pair[0] && direction < 0.0);
+        match times.windows(2).find(is_behind) {
+            Some(pair) => Err(Error::Behind {
+                clock,
+                target: pair[1],
+                now: pair[0],
+            }),
+            None => Ok(()),
         }
     }
 

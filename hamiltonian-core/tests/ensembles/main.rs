@@ -11,6 +11,7 @@ mod observers;
 mod panics;
 mod stores;
 mod sweeps;
+mod tables;
 mod times;
 
 use hamiltonian::Status;

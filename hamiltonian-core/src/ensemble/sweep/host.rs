@@ -92,7 +92,8 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         };
         Batch {
             first: self.indices.start,
-            columns: sweep.record.columns.len(),
+            nan: sweep.record.columns.iter().map(|_| f64::NAN).collect(),
+            rows_each: sweep.record.rows_each(),
             outcomes: self.outcomes.into_iter().map(missing).collect(),
             values: self.values,
             cancelled: self.cancelled,
@@ -212,7 +213,14 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         made: u64,
     ) -> Result<(), Error> {
         active.target = match (self.time(active), &self.sweep.end) {
-            (Some(t), _) if self.varies && t.is_finite() => None,
+            (Some(t), _) if self.varies && t.is_finite() => {
+                // The clock has the start and the direction, but not the times of these steps.
+                let is_behind = (t - clock_of.start) * clock_of.interval < 0.0;
+                if is_behind {
+                    clock_of.whole_steps(0, t, clock::<f64, S>())?;
+                }
+                None
+            }
             (Some(t), _) => {
                 let (before, after) = clock_of.whole_steps(made, t, clock::<f64, S>())?;
                 Some(made + before.unwrap_or(after))
@@ -350,12 +358,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         error: Option<Error>,
     ) {
         let begin = self.values.len();
-        let record = &self.sweep.record;
-        if error.is_some() && !record.several {
-            self.values.extend(record.columns.iter().map(|_| f64::NAN));
-        } else {
-            self.values.extend_from_slice(values);
-        }
+        self.values.extend_from_slice(values);
         let index = self.indices.start + key;
         let error = error.map(|error| Error::Member {
             index,

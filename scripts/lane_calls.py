@@ -9,6 +9,8 @@ allowed too. Those of a level (`rare…`) call nothing themselves.
 
     python3 scripts/lane_calls.py [BENCH …]        (by default: ensemble functions stages)
 
+Symbols are read through `c++filt` (binutils), which knows the legacy mangling and v0.
+
 A call in such a loop costs a factor of up to a hundred: what is not inlined is compiled without the
 level's instructions and passes its packs through memory.
 """
@@ -19,22 +21,27 @@ import re
 import subprocess
 import sys
 
+# The names below are paths, as `names` makes them of symbols.
 # What is compiled with the instructions of a level; the function around it is a jump.
-ENTRY = re.compile(r"5level8dispatch\d(\w+?)(?:5enter|8enter_at)6inside")
+ENTRY = re.compile(r"level::dispatch::(\w+)::(?:enter|enter_at)::inside$")
 PACKED = re.compile(r"v?(add|sub|mul|div|sqrt|f(n?)m(add|sub)\d{3})pd$")
 # Levels that every x86-64 has.
 LEAST = {"portable", "sse2"}
 # Rare arguments, and functions that enter the level themselves.
-COLD = re.compile(r"replace|4rare5entry|11out_of_line5entry|8dispatch\d\w+?(?:5enter|8enter_at)17h")
+COLD = re.compile(r"::replace\w*$|::(?:rare|out_of_line)::entry$|dispatch::\w+::(?:enter|enter_at)$")
 # The functions of a level for rare arguments.
-RARE = re.compile(r"Register.*4rare5entry")
+RARE = re.compile(r"Register>?::rare::entry$")
 # What runs once for a chunk of members, or where one of them fails, and may call them.
 SELDOM = re.compile(
-    r"replace|remove_failed|record_failures|for_each_with_sections|5cause17h|7at_rest17h|zeros_like17h|4like17h"
-    r"|Linear.*3new17h|9PartialEq2ne17h"
+    r"::replace|remove_failed|record_failures|for_each_with_sections|::cause$|::at_rest$|zeros_like$|::like$"
+    r"|Linear.*::new$|PartialEq>?::ne$"
 )
 # An instruction of a level as a function.
-INTRINSIC = re.compile(r"\s+call.*core_arch.*_mm\d")
+INTRINSIC = re.compile(r"\s+call\w*\s+core::core_arch::.*::_mm\d")
+# A symbol of Rust, in the legacy mangling or in v0, and how it is addressed.
+SYMBOL = re.compile(r"\*?\b((?:_ZN|_R)[\w.$]+)(?:@\w+(?:\(%rip\))?)?")
+# A label other than those within a function.
+LABEL = re.compile(r"([^\s.].*?):(?:\s|$)")
 
 
 def assembly(bench):
@@ -46,23 +53,43 @@ def assembly(bench):
         message = json.loads(line)
         if message.get("executable") and message["target"]["name"] == bench:
             path = pathlib.Path(message["executable"]).with_suffix(".s")
-            return path.read_text()
+            return readable(path.read_text())
     sys.exit(f"cargo named no executable for the bench {bench}")
+
+
+def readable(text):
+    """The assembly with the paths of its items in place of symbols; both manglings give the same paths."""
+    symbols = sorted({symbol for symbol in SYMBOL.findall(text)})
+    run = subprocess.run(["c++filt"], input="\n".join(symbols), stdout=subprocess.PIPE, text=True, check=True)
+    paths = dict(zip(symbols, map(path_of, run.stdout.splitlines()), strict=True))
+    return SYMBOL.sub(lambda found: paths[found[1]], text)
+
+
+def path_of(name):
+    """The path of a demangled item, without hashes and the arguments of functions, which v0 alone has."""
+    name = re.sub(r"\.llvm\.\d+|::h[0-9a-f]{16}\b|(?<=\w)\[[0-9a-f]{8,}\]", "", name).replace("->", "→")
+    name = re.sub(r"\{+closure(?:#\d+)?\}+", "{closure}", name)
+    while (start := name.find("::<")) >= 0:
+        depth, end = 1, start + 3
+        while depth and end < len(name):
+            depth += {"<": 1, ">": -1}.get(name[end], 0)
+            end += 1
+        name = name[:start] + name[end:]
+    return name
 
 
 def functions(text):
     """The entries of levels: (name of the level, instructions, index of each label)."""
     found, level = [], None
     for line in text.splitlines():
-        name = re.match(r"(\S+):", line)
-        if name and not name[1].startswith(".L"):
+        if name := LABEL.match(line):
             entry = ENTRY.search(name[1])
             level = entry and entry[1]
             if level:
                 code, labels = [], {}
                 found.append((level, code, labels))
-        elif level and name:
-            labels[name[1]] = len(code)
+        elif level and (label := re.match(r"(\.\S+):", line)):
+            labels[label[1]] = len(code)
         elif level and re.match(r"\s+[a-z]", line):
             operation, _, operands = line.strip().partition("\t")
             code.append((operation, operands))
@@ -156,8 +183,8 @@ def outside(text):
     instructions of the level."""
     found, name = set(), ""
     for line in text.splitlines():
-        if line.startswith("_"):
-            name = line.rstrip(":")
+        if label := LABEL.match(line):
+            name = label[1]
         elif INTRINSIC.match(line) and not SELDOM.search(name) and not ENTRY.search(name):
             found.add(name)
     return sorted(found)
@@ -167,15 +194,15 @@ def calls_of_rare(text):
     """Functions for rare arguments that call something: a part of them lacks the instructions of the level."""
     found, name = set(), ""
     for line in text.splitlines():
-        if line.startswith("_"):
-            name = line.rstrip(":")
+        if label := LABEL.match(line):
+            name = label[1]
         elif RARE.search(name) and re.match(r"\s+call", line) and "replace" not in line:
             found.add(name)
     return sorted(found)
 
 
 SAMPLE = """
-_ZN5level8dispatch4avx25enter6insideE:
+{}:
 \tvxorpd\t%ymm0, %ymm0, %ymm0
 .LBB0_1:
 \tvmulpd\t%ymm0, %ymm0, %ymm0
@@ -191,21 +218,54 @@ _ZN5level8dispatch4avx25enter6insideE:
 \tjmp\t.LBB0_2
 """
 
+# Symbols of each mangling: an entry, a function for rare arguments and one for a number, an instruction, a part of a
+# scheme, the cause of a failure.
+LEGACY = [
+    "_ZN17hamiltonian_lanes5level8dispatch4avx25enter6inside17h13c655159116b312E",
+    "_ZN94_$LT$core..core_arch..x86..__m256d$u20$as$u20$hamiltonian_lanes..level..register..Register$GT$4rare5entry"
+    "17h0840bdaf592f9012E",
+    "_ZN17hamiltonian_lanes5level4pack4wide16replace_in_packs17he46a06233b30ec16E.llvm.12",
+    "_ZN4core9core_arch3x863avx13_mm256_mul_pd17h13c655159116b312E",
+    "_ZN16hamiltonian_core19Collocated$LT$S$GT$4body28_$u7b$$u7b$closure$u7d$$u7d$17h13c655159116b312E",
+    "_ZN16hamiltonian_core16Outcome$LT$T$GT$5cause17h13c655159116b312E",
+]
+V0 = [
+    "_RINvNvNtNtNtCszHkGgZg4J3_17hamiltonian_lanes5level8dispatch4avx25enter6insideINtCse0GPiH9SR4V_9functions6Values"
+    "NtB1g_2lnEEB1g_",
+    "_RINvNvXNtNtCszHkGgZg4J3_17hamiltonian_lanes5level4avx2NtNtNtCsgEmfK2I1SDS_4core9core_arch3x867___m256dNtNtB7_"
+    "8register8Register4rare5entryNtNtNtCs9FI4qQopIGn_16hamiltonian_real10elementary3arc12AngleOfPointINtNtNtB7_4pack"
+    "8register1VBQ_EKj2_Kj1_KB3R_ECse0GPiH9SR4V_9functions",
+    "_RINvNtNtNtCszHkGgZg4J3_17hamiltonian_lanes5level4pack4wide16replace_in_packsINtNtB4_8register1VNtNtB6_8portable"
+    "3TwoEKj4_ECse0GPiH9SR4V_9functions",
+    "_RNvNtNtNtCsgEmfK2I1SDS_4core9core_arch3x863avx13__mm256_mul_pd",
+    "_RNCNvMCszHkGgZg4J3_16hamiltonian_coreINtB4_10CollocateddE4body0B4_",
+    "_RNvMCszHkGgZg4J3_16hamiltonian_coreINtB2_7OutcomedE5cause",
+]
+
+
+def check_itself():
+    """What is to be found is found, in both manglings, before its absence says anything."""
+    for entry, rare, seldom, instruction, part, cause in [LEGACY, V0]:
+        def loop(call):
+            return list(examine(readable(SAMPLE.format(entry, call))))
+
+        assert loop("sin") == [("avx2", 1, ["sin"])]
+        assert loop(f"*{part}@GOTPCREL(%rip)")[0][2][0].endswith("::body::{closure}")
+        for cold in [seldom, rare, f"*{rare}@GOTPCREL(%rip)", f"memset\n\tcallq\t{seldom}"]:
+            assert loop(cold) == [("avx2", 1, [])]
+        assert list(examine(readable(SAMPLE.format(part, "sin")))) == []
+
+        def calls(search, caller, called):
+            return len(search(readable(f"{caller}:\n\tcallq\t{called}\n")))
+
+        assert calls(outside, part, instruction) == 1
+        assert calls(outside, cause, instruction) == calls(outside, entry, instruction) == 0
+        assert calls(calls_of_rare, rare, "add") == 1
+        assert calls(calls_of_rare, rare, seldom) == calls(calls_of_rare, part, "add") == 0
+
 
 def main():
-    # What is to be found is found, before its absence says anything.
-    assert list(examine(SAMPLE.format("sin"))) == [("avx2", 1, ["sin"])]
-    assert list(examine(SAMPLE.format("replace_in_packs"))) == [("avx2", 1, [])]
-    assert list(examine(SAMPLE.format("memset\n\tcallq\treplace_in_packs"))) == [("avx2", 1, [])]
-    name = "_ZN_Collocated4body28_$u7b$$u7b$closure$u7d$$u7d$17h0E"
-    call = "\tcallq\t_ZN4core9core_arch3x863avx13_mm256_mul_pd17h1E\n"
-    assert outside(f"{name}:\n{call}") == [name]
-    assert outside(f"_ZN_Outcome$GT$5cause17h0E:\n{call}") == []
-
-    rare = "_ZN_Register$GT$4rare5entry17h0E"
-    assert calls_of_rare(f"{rare}:\n\tcallq\tadd\n") == [rare]
-    assert calls_of_rare(f"{name}:\n\tcallq\tadd\n") == []
-
+    check_itself()
     failed = False
     for bench in sys.argv[1:] or ["ensemble", "functions", "stages"]:
         total, text = 0, assembly(bench)

@@ -122,6 +122,47 @@ fn polar_coordinates_give_the_textbook_hamiltonians() {
     );
 }
 
+/// The coordinates of each chart stay inside it where both Hamiltonians are compared, whatever their names are.
+#[test]
+fn several_charts_have_distances_in_both_hamiltonians() {
+    let at = |group| Component { group, row: None };
+    let row = |group, row| Component {
+        group,
+        row: Some(row),
+    };
+    let of_vector = |group| Chart::Spherical([row(group, 0), row(group, 1), row(group, 2)]);
+    let model = system(
+        "q[3], w[3]; p[3], u[3]",
+        "",
+        "k",
+        "(p[0]^2 + p[1]^2 + p[2]^2 + u[0]^2 + u[1]^2 + u[2]^2)/2
+         - k/sqrt(q[0]^2 + q[1]^2 + q[2]^2) - k/sqrt(w[0]^2 + w[1]^2 + w[2]^2)",
+    );
+    assert_becomes(
+        apply(&model, &[of_vector(0), of_vector(1)]).unwrap(),
+        "(p_r^2 + p_theta^2/r^2 + p_phi^2/(r^2*sin(theta)^2)
+          + p_r_2^2 + p_theta_2^2/r_2^2 + p_phi_2^2/(r_2^2*sin(theta_2)^2))/2 - k/r - k/r_2",
+    );
+    let model = system(
+        "a, b, c, d, e, f; p_a, p_b, p_c, p_d, p_e, p_f",
+        "",
+        "",
+        "-ln(sqrt(a^2 + b^2)) - ln(hypot(c, d)) - 1/sqrt(e^2 + f^2)",
+    );
+    let polar = |group| Chart::Polar([at(group), at(group + 1)]);
+    let three = apply(&model, &[polar(0), polar(2), polar(4)]).unwrap();
+    assert_becomes(three, "-ln(r) - ln(r_2) - 1/r_3");
+    // A coordinate that no chart replaces may have the name of one that a chart introduces elsewhere.
+    let model = system(
+        "theta, x, y; p_theta, p_x, p_y",
+        "",
+        "",
+        "p_theta^2 - 1/sqrt(x^2 + y^2) + sqrt(-theta)",
+    );
+    let kept = apply(&model, &[Chart::Polar([at(1), at(2)])]).unwrap();
+    assert_becomes(kept, "p_theta^2 - 1/r + sqrt(-theta)");
+}
+
 #[test]
 fn a_distance_is_not_computed_by_cancellation() {
     let two = polar("1/sqrt((x + a)^2 + y^2)", "a");

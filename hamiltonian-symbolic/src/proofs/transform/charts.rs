@@ -118,10 +118,23 @@ fn total(dag: &mut Dag, terms: &[(Rational, Node)]) -> Node {
     dag.linear(&Rational::ZERO, terms)
 }
 
+/// The values that a new coordinate takes inside its chart.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Values {
+    /// Any number.
+    All,
+    /// Numbers > 0.
+    Positive,
+    /// Angles between 0 and π.
+    HalfTurn,
+}
+
 /// A point transformation of scalars by formulas; the momentum of `x` is `p_x`.
 pub(super) struct Formulas {
     old: &'static [&'static str],
     pub(super) new: &'static [&'static str],
+    /// The values of each new coordinate.
+    pub(super) values: &'static [Values],
     to_old: &'static str,
     to_new: &'static str,
     /// Sine and cosine of each angle, by name.
@@ -133,6 +146,7 @@ pub(super) struct Formulas {
 static POLAR: Formulas = Formulas {
     old: &["x", "y"],
     new: &["r", "phi"],
+    values: &[Values::Positive, Values::All],
     to_old: "s = sin(phi); c = cos(phi); \
         p_x = p_r*c - p_phi*s/r; p_y = p_r*s + p_phi*c/r; x = r*c; y = r*s",
     to_new: "r = hypot(x, y); phi = atan2(y, x); p_r = (x*p_x + y*p_y)/r; p_phi = x*p_y - y*p_x",
@@ -143,6 +157,7 @@ static POLAR: Formulas = Formulas {
 static SPHERICAL: Formulas = Formulas {
     old: &["x", "y", "z"],
     new: &["r", "theta", "phi"],
+    values: &[Values::Positive, Values::HalfTurn, Values::All],
     to_old: "s = sin(theta); c = cos(theta); sf = sin(phi); cf = cos(phi); \
         p_x = p_r*s*cf + p_theta*c*cf/r - p_phi*sf/r/s; \
         p_y = p_r*s*sf + p_theta*c*sf/r + p_phi*cf/r/s; \
@@ -155,6 +170,14 @@ static SPHERICAL: Formulas = Formulas {
 };
 
 impl Formulas {
+    /// The formulas of a chart of scalars by its word.
+    pub(super) fn named(word: &str) -> Option<&'static Formulas> {
+        match word {
+            "polar" => Some(&POLAR),
+            "spherical" => Some(&SPHERICAL),
+            _ => None,
+        }
+    }
     /// The old variables from the new ones; the rules of the chart are added.
     pub(super) fn to_old(&self, dag: &mut Dag, new: &PhaseNodes, rules: &mut Rules) -> PhaseNodes {
         let names = named(dag, self.new, new, self.to_old);

@@ -6,8 +6,8 @@
 
 use super::NoTransform;
 use super::bodies::SizedBodies;
-use super::charts::{self, Chart, Masses, PhaseNodes, Replaced};
-use super::layout::{GroupLayout, Placement, Slot, coordinate, placements};
+use super::charts::{self, Chart, Masses, PhaseNodes, Replaced, Values};
+use super::layout::{ChartVariables, GroupLayout, Placement, Slot, coordinate, placements};
 use super::peel::peel;
 use super::reduce::{self, Rules};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
@@ -33,6 +33,8 @@ pub struct Transformed {
     /// The places of the old variables in a state of the new shape: each element of
     /// phase space once. [`Transformed::forward_placed`] reads them there.
     pub places: Vec<Placement>,
+    /// The new coordinates that take only some values inside their charts.
+    pub(super) bounded: Vec<(Slot, Values)>,
     bodies: Vec<SizedBodies>,
     rules: Rules,
 }
@@ -58,8 +60,18 @@ impl Transformed {
         let mut rules = Rules::default();
         let mut forward = Vec::new();
         let mut inverse = Vec::new();
+        let mut bounded = Vec::new();
         for (chart, place) in charts.iter().zip(&layout.places) {
             for block in &place.blocks {
+                if let Replaced::Scalars(formulas, _) = chart.replaced() {
+                    bounded.extend(
+                        block
+                            .new
+                            .iter()
+                            .copied()
+                            .zip(formulas.values.iter().copied()),
+                    );
+                }
                 let old = block.variables(&mut source.dag, true);
                 let image = to_new(chart, model, &mut source.dag, &old);
                 forward.extend(entries(&block.new, &image));
@@ -79,11 +91,16 @@ impl Transformed {
                 kept.push((REPLACING + bodies.group, place.first));
             }
         }
-        let images = images(&mut new.dag, &roots, &inverse, &kept, &bodies).map_err(|old| {
+        let mut images = images(&mut new.dag, &roots, &inverse, &kept, &bodies).map_err(|old| {
             NoTransform::Wrapped {
                 coordinate: coordinate(model, old),
             }
         })?;
+        for (chart, place) in charts.iter().zip(&layout.places) {
+            if let Replaced::Scalars(..) = chart.replaced() {
+                images.extend(new_scalars(&mut new.dag, &place.blocks));
+            }
+        }
         for of in &bodies {
             forward.extend(of.forward(&mut source.dag));
             inverse.extend(of.inverse(&mut new.dag));
@@ -108,6 +125,7 @@ impl Transformed {
             inverse,
             kept: layout.kept,
             places,
+            bounded,
             bodies,
             rules,
         };
@@ -271,6 +289,21 @@ fn entries<'a>(
                     value: *value,
                 })
         })
+}
+
+/// The scalars of a chart as a declared split reads them, each in the place of an old one, with those of the new model.
+fn new_scalars(dag: &mut Dag, blocks: &[ChartVariables]) -> Vec<(Node, Node)> {
+    let mut found = Vec::new();
+    for block in blocks {
+        for (old, new) in block.old.iter().zip(&block.new) {
+            let group = REPLACING + old.group;
+            for side in [Side::Q, Side::P] {
+                let read = Slot { group, ..*old }.node(dag, side);
+                found.push((read, new.node(dag, side)));
+            }
+        }
+    }
+    found
 }
 
 /// The groups of bodies that are mapped in loops.

@@ -4,7 +4,7 @@
 //! groups of a chart stand where its first old group stood; names are told apart.
 
 use super::NoTransform;
-use super::charts::{Chart, Component, PhaseNodes, Replaced};
+use super::charts::{Chart, Component, Formulas, PhaseNodes, Replaced};
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::Index;
 use crate::model::{Group, Model, Shape};
@@ -173,35 +173,51 @@ fn members(chart: &Chart) -> Vec<u16> {
     groups
 }
 
-/// The groups of each chart. A name that an earlier chart introduces gets a number: `r`, then `r_2`.
-fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
-    let mut all: Vec<Vec<Group>> = Vec::with_capacity(charts.len());
-    for chart in charts {
+/// The names of the scalar coordinates of charts by their words, none for charts of bodies. The momentum of `r` is
+/// `p_r`. A name that an earlier chart introduces gets a number: `r`, then `r_2`.
+#[must_use]
+pub fn names_of_scalars(words: &[&str]) -> Vec<Vec<String>> {
+    let mut all: Vec<Vec<String>> = Vec::with_capacity(words.len());
+    for word in words {
         let scalar = |name: &&str| {
-            let is_taken = |name: &str| all.iter().flatten().any(|g| g.coordinate == name);
+            let is_taken = |name: &str| all.iter().flatten().any(|other| other == name);
             let mut numbered = (2..).map(|number| format!("{name}_{number}"));
-            let name = match is_taken(name) {
+            match is_taken(name) {
                 true => numbered.find(|name| !is_taken(name)).unwrap_or_default(),
                 false => (*name).to_owned(),
-            };
-            let momentum = format!("p_{name}");
-            Group::scalar(name, momentum)
-        };
-        let own = match chart.replaced() {
-            Replaced::Scalars(formulas, _) => formulas.new.iter().map(scalar).collect(),
-            Replaced::Bodies(bodies) => {
-                let old = &model.groups[usize::from(bodies.group)];
-                vec![Group {
-                    coordinate: format!("{}_{}", old.coordinate, chart.word()),
-                    momentum: format!("{}_{}", old.momentum, chart.word()),
-                    velocity: None,
-                    shape: old.shape.clone(),
-                }]
             }
         };
+        let names = Formulas::named(word).map_or(&[][..], |formulas| formulas.new);
+        let own = names.iter().map(scalar).collect();
         all.push(own);
     }
     all
+}
+
+/// The groups of each chart.
+fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
+    let words: Vec<&str> = charts.iter().map(Chart::word).collect();
+    let scalar = |name: String| {
+        let momentum = format!("p_{name}");
+        Group::scalar(name, momentum)
+    };
+    let own = |(chart, names): (&Chart, Vec<String>)| match chart.replaced() {
+        Replaced::Scalars(..) => names.into_iter().map(scalar).collect(),
+        Replaced::Bodies(bodies) => {
+            let old = &model.groups[usize::from(bodies.group)];
+            vec![Group {
+                coordinate: format!("{}_{}", old.coordinate, chart.word()),
+                momentum: format!("{}_{}", old.momentum, chart.word()),
+                velocity: None,
+                shape: old.shape.clone(),
+            }]
+        }
+    };
+    charts
+        .iter()
+        .zip(names_of_scalars(&words))
+        .map(own)
+        .collect()
 }
 
 /// The sets of variables of a chart whose first new group has the given number.

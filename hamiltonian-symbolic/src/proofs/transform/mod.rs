@@ -18,7 +18,7 @@ mod verify;
 
 pub use charts::{Bodies, Chart, Component};
 pub use coordinates::Transformed;
-pub use layout::Placement;
+pub use layout::{Placement, names_of_scalars};
 pub use sum::{Difference, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;

@@ -5,6 +5,7 @@
 //! of the engine, which any point shows.
 
 use super::NoTransform;
+use super::charts::Values;
 use super::coordinates::Transformed;
 use super::layout::Slot;
 use crate::algebra::ball::Ball;
@@ -88,16 +89,16 @@ fn check_at(
         let scale = 4f64.powi(if further % 2 == 0 { further } else { -further });
         for &(side, slot) in &new_slots {
             let node = slot.node(&mut new.dag, side);
-            // Between 1/4 and 9/4: inside every chart as it is. Other variables are of
-            // either sign. A sine that must be positive is that of the second coordinate.
+            // Between 1/4 and 9/4: inside every chart as it is. Variables of any value are of either sign.
             let size = 0.25 + 2.0 * fraction(&mut random);
             let flip = fraction(&mut random) < 0.5;
-            let name = &new.groups[usize::from(slot.group)].coordinate;
-            let value = match (side, name.as_str()) {
-                (Side::Q, "theta") => size,
-                (Side::Q, "r") => scale * size,
-                _ if flip => -scale * size,
-                _ => scale * size,
+            let mut bounded = transformed.bounded.iter();
+            let values = bounded.find(|(of, _)| side == Side::Q && *of == slot);
+            let value = match values.map_or(Values::All, |(_, values)| *values) {
+                Values::HalfTurn => size,
+                Values::Positive => scale * size,
+                Values::All if flip => -scale * size,
+                Values::All => scale * size,
             };
             given.push((node, Ball::exact(value)));
         }

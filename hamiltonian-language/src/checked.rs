@@ -159,7 +159,8 @@ pub enum Variable {
     Coordinate,
     /// The momenta.
     Momentum,
-    /// The coordinates by which a chart of bodies replaces the group, in a split.
+    /// The coordinates by which a chart replaces the group, in a split: bodies row by row, scalars each in the place of
+    /// the one they replace.
     NewCoordinate,
     /// The momenta of these.
     NewMomentum,

@@ -4,16 +4,79 @@
 //! the definition that have the shape it requires, each coordinate once.
 
 use super::Checker;
-use crate::ast::StatementKind;
+use crate::ast::{Ast, StatementKind};
 use crate::checked::{self, Bound, Extent, GroupId, Reach, Type, Variable};
 use crate::names;
 use crate::report::Spans;
 use hamiltonian_symbolic::dag::Parameter;
 use hamiltonian_symbolic::index::Affine;
-use hamiltonian_symbolic::transform::{Bodies, Chart, Component};
+use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component};
 use proc_macro2::Ident;
 
 const CHARTS: &[&str] = &["polar", "spherical", "jacobi", "heliocentric"];
+
+/// A scalar that a chart introduces.
+pub(super) struct NewScalar<'a> {
+    /// The word of the chart.
+    pub(super) chart: String,
+    /// The coordinates that the chart replaces.
+    pub(super) arguments: &'a [Ident],
+    /// A coordinate or a momentum.
+    pub(super) variable: Variable,
+    /// Its number among those of the chart.
+    pub(super) at: usize,
+}
+
+impl<'a> Checker<'a> {
+    /// The chart that introduces a scalar of a name.
+    pub(super) fn new_scalar(&self, name: &str) -> Option<NewScalar<'a>> {
+        let ast: &'a Ast = self.ast;
+        let charts = ast.statements.iter().filter_map(|s| match &s.kind {
+            StatementKind::Coordinates { chart, arguments } => Some((chart.to_string(), arguments)),
+            _ => None,
+        });
+        let charts: Vec<(String, &'a Vec<Ident>)> = charts.collect();
+        let words: Vec<&str> = charts.iter().map(|(word, _)| word.as_str()).collect();
+        let (new, variable) = match name.strip_prefix("p_") {
+            Some(new) => (new, Variable::NewMomentum),
+            None => (name, Variable::NewCoordinate),
+        };
+        let names = transform::names_of_scalars(&words).into_iter();
+        let mut all = names.zip(&charts).flat_map(|(names, chart)| {
+            let named = names.into_iter().enumerate();
+            named.map(move |(at, name)| (name, at, chart))
+        });
+        let (_, at, (word, arguments)) = all.find(|(other, ..)| other == new)?;
+        Some(NewScalar {
+            chart: word.clone(),
+            arguments,
+            variable,
+            at,
+        })
+    }
+
+    /// The old coordinate in whose place a new scalar stands: its group and its row. `None` if the chart does not fit,
+    /// which is reported where it stands.
+    pub(super) fn replaced_by(&self, new: &NewScalar<'_>) -> Option<(GroupId, Option<u32>)> {
+        let place = |name: &Ident| {
+            let mut groups = self.out.groups.iter();
+            let at = groups.position(|group| group.coordinate == *name)?;
+            Some((GroupId(at as u32), self.out.groups[at].ty))
+        };
+        match new.arguments {
+            [vector] => match place(vector)? {
+                (group, Type::Vector(Extent::Literal(rows))) if (new.at as u64) < rows => {
+                    Some((group, Some(new.at as u32)))
+                }
+                _ => None,
+            },
+            scalars => match place(scalars.get(new.at)?)? {
+                (group, Type::Scalar) => Some((group, None)),
+                _ => None,
+            },
+        }
+    }
+}
 
 impl Checker<'_> {
     pub(super) fn chart(&mut self, name: &Ident, arguments: &[Ident]) {
@@ -72,29 +135,6 @@ impl Checker<'_> {
                 limit: Bound::Extent(bodies),
             });
         }
-    }
-
-    /// The chart that introduces a name, with the coordinates that it replaces.
-    pub(super) fn introduced(&self, name: &str) -> Option<(String, String)> {
-        let new = name.strip_prefix("p_").unwrap_or(name);
-        // The names of a second chart of the kind have a number.
-        let number = new.rsplit_once('_');
-        let is_number = |text: &str| text.bytes().all(|c| c.is_ascii_digit());
-        let new = number
-            .filter(|(_, n)| is_number(n))
-            .map_or(new, |(name, _)| name);
-        self.ast.statements.iter().find_map(|s| match &s.kind {
-            StatementKind::Coordinates { chart, arguments } => {
-                let of_polar = matches!(new, "r" | "phi");
-                let is_new = match chart.to_string().as_str() {
-                    "polar" => of_polar,
-                    "spherical" => of_polar || new == "theta",
-                    _ => false,
-                };
-                is_new.then(|| (chart.to_string(), names::listed(arguments)))
-            }
-            _ => None,
-        })
     }
 
     /// The charts of bodies in the definition, with the groups they replace.

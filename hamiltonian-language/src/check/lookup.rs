@@ -8,7 +8,7 @@ use super::{Binding, Checker, Position};
 use crate::ast::{ExprId, LoopVariableId, StatementKind, Symbol};
 use crate::checked::{CaptureId, NodeId, NodeKind, Type, Variable};
 use crate::names;
-use hamiltonian_symbolic::index::{Affine, Domain};
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use proc_macro2::Ident;
 
 /// A name that is known where it is used.
@@ -179,9 +179,20 @@ impl Checker<'_> {
             let message = format!("`{name}` is a keyword of Rust and not a value");
             return self.refuse(raw, message, "choose another name");
         }
-        if let Some((chart, replaced)) = self.introduced(name) {
+        if let Some(new) = self.new_scalar(name) {
+            let (chart, replaced) = (new.chart.clone(), names::listed(new.arguments));
+            if self.in_split {
+                self.unknown[symbol.0 as usize] = false;
+                let (variable, place) = (new.variable, self.replaced_by(&new));
+                let (group, row) = place?;
+                let ty = self.out.groups[group.0 as usize].ty;
+                let base = self.push(raw, NodeKind::Phase(variable, group), ty)?;
+                let Some(row) = row else { return Some(base) };
+                let index = Index::constant(i64::from(row));
+                return self.push(raw, NodeKind::Index { base, index }, Type::Scalar);
+            }
             let message = format!(
-                "`{name}` is a variable of `coordinates {chart}`, and everything is written in the declared ones"
+                "`{name}` is a variable of `coordinates {chart}`, which only `split` reads"
             );
             let help = format!("write it in `{replaced}` and their momenta");
             return self.refuse(raw, message, help);

@@ -54,6 +54,29 @@ const DEFINITIONS: &[&str] = &[
      dt = (r^2 + a^2*cos(theta)^2)*ds;
      invariant carter = p_theta^2 + cos(theta)^2*(a^2*(-2*H - E^2) + L^2/sin(theta)^2);
      #[assume] invariant shell = p_theta^2 + cos(theta)^2 on H = -1/2",
+    // Several charts; splits in their variables, above and below the charts.
+    "pub struct Pair {}
+     H(q[3], w[3]; p[3], u[3]) = (norm_squared(p) + norm_squared(u))/2 - 1/norm(q) - 1/norm(w);
+     coordinates spherical(q);
+     coordinates spherical(w)",
+    "pub struct Three {}
+     H(a[2], b[2], x, y; u[2], v[2], p_x, p_y) = (norm_squared(u) + norm_squared(v) + p_x^2 + p_y^2)/2
+         - 1/norm(a) - 1/norm(b) - ln(x^2 + y^2) + norm(a)*norm(b);
+     coordinates polar(a);
+     split {
+         Free = p_r^2/2 + p_phi^2/(2*r^2) + p_r_2^2/2 + p_phi_2^2/(2*r_2^2) + p_r_3^2/2 + p_phi_3^2/(2*r_3^2);
+         Bound = -1/r - 1/r_2 - 2*ln(r_3) + r*r_2;
+     }
+     coordinates polar(b);
+     coordinates polar(x, y)",
+    "pub struct Ball { g = 1.0 }
+     H(z, q[3]; p_z, p[3]) = p_z^2/2 + norm_squared(p)/2 + g*q[2] + z*norm(q);
+     coordinates spherical(q);
+     split {
+         Free = p_r^2/2 + p_theta^2/(2*r^2) + p_phi^2/(2*r^2*sin(theta)^2);
+         Along = p_z^2/2;
+         Fall = g*r*cos(theta) + z*r;
+     }",
     "H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2);
      let l = x*p_y - y*p_x;
      let b = bracket(l, H);

@@ -5,6 +5,7 @@
 //! each with an exact flow; V and T of a separable H need no search.
 
 use super::Part;
+use super::surface::CLOCK;
 use crate::emit::Reason;
 use hamiltonian_language::checked::{self, Checked, NodeKind, Variable};
 use hamiltonian_language::report::Report;
@@ -94,10 +95,25 @@ pub fn decide(
         return Found::split(Vec::new());
     }
     match found {
-        Ok(splitting) if is_forced && splitting.pieces.len() == PIECES => refused(
-            model,
-            &format!("with its force it has more than {PIECES} pieces"),
-        ),
+        Ok(splitting) if splitting.pieces.len() + usize::from(is_forced) > PIECES => {
+            if let Some((name, _)) = declared.get(PIECES) {
+                let clock = if name == CLOCK {
+                    " with that of `dt`"
+                } else {
+                    ""
+                };
+                report.error(
+                    name.span(),
+                    format!(
+                        "the split has {} pieces{clock}, more than {PIECES}",
+                        splitting.pieces.len()
+                    ),
+                    "join pieces whose sum is of one form, such as those of coordinates alone and those of momenta alone",
+                );
+            }
+            let with = if is_forced { "with its force " } else { "" };
+            refused(model, &format!("{with}it has more than {PIECES} pieces"))
+        }
         Ok(splitting) => {
             let mut facts = facts(&splitting);
             if is_forced {

@@ -63,10 +63,22 @@ pub trait Flow<X: Vector>: Clone + Debug {
     fn apply_reversed(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work) {
         self.apply(t, x, work);
     }
-    /// Moves the point, and returns the piece that made it not finite, if one did.
+    /// Moves the point as [`apply`](Flow::apply) does, and returns the piece that made it not finite, if one did.
     #[cold]
     fn blame(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work) -> Option<&'static str> {
         self.apply(t, x, work);
+        (!x.is_finite()).then_some(Self::NAME)
+    }
+    /// Moves the point as [`apply_reversed`](Flow::apply_reversed) does, and returns the piece that made it not finite,
+    /// if one did.
+    #[cold]
+    fn blame_reversed(
+        &self,
+        t: X::Scalar,
+        x: &mut X,
+        work: &mut Self::Work,
+    ) -> Option<&'static str> {
+        self.apply_reversed(t, x, work);
         (!x.is_finite()).then_some(Self::NAME)
     }
 }
@@ -181,7 +193,7 @@ impl<X: Vector, F: Flow<X>, I: Flow<X>> Flow<X> for Sandwich<F, I> {
     ) -> Option<&'static str> {
         (self.down.blame(t, x, work))
             .or_else(|| self.inside.blame(t, x, inside))
-            .or_else(|| self.up.blame(t, x, work))
+            .or_else(|| self.up.blame_reversed(t, x, work))
     }
 }
 

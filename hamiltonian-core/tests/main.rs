@@ -2,6 +2,7 @@
 
 mod allocation;
 mod between;
+mod blame;
 mod checkpoint;
 mod common;
 mod composition;

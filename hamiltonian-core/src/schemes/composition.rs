@@ -450,6 +450,24 @@ impl<M: Map> Map for Inverted<M> {
         z: &mut M::Carried,
         work: &mut Self::Work,
     ) -> Cause {
-        self.solve(t, end, z, work)
+        let (target, mut x) = (z.clone(), z.clone());
+        let cause = self.solve(t, end, z, work);
+        if cause == Cause::Overflow {
+            return cause;
+        }
+        // If Φ₋ₕ itself left its domain at an iterate, that is the cause.
+        for _ in 0..LIMIT {
+            let mut image = x.clone();
+            let inner = (self.back).explain(end, t, true, &mut image, &mut work.inner);
+            if !image.is_finite() {
+                return match inner {
+                    Cause::Piece(piece) => Cause::Piece(piece),
+                    _ => cause,
+                };
+            }
+            x.accumulate(ScalarOf::<M>::one(), &target);
+            x.accumulate(-ScalarOf::<M>::one(), &image);
+        }
+        cause
     }
 }

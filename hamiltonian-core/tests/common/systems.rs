@@ -47,7 +47,7 @@ pub struct Hand<H, const N: usize>(pub H);
 
 /// A formula, prepared, and with a step coefficient.
 #[derive(Debug, Clone)]
-pub struct Ready<H, const N: usize>(H);
+pub struct Ready<H, const N: usize>(pub H);
 #[derive(Debug, Clone)]
 pub struct Scaled<H, T, const N: usize>(H, T);
 

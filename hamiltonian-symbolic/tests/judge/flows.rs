@@ -7,6 +7,7 @@ use crate::splits::arrays::RINGS;
 use crate::splits::rows::CASES;
 use crate::splits::table::FOUND;
 use crate::tree::Random;
+use hamiltonian_lanes::{DoubleDouble, Real};
 
 /// The wrong verdicts on definitions, with the number of right ones and the definitions whose flow is
 /// missing somewhere.
@@ -168,4 +169,99 @@ fn body_axes_pass_the_pole() {
     for (a, b) in there.iter().zip(&beside) {
         assert!((a - b).abs() < 1e-7, "{there:?} is not {beside:?}");
     }
+}
+
+/// H with fixed points at which a formula might divide by 0.
+const RESTING: &[(&str, &str, &str)] = &[
+    ("q; p", "a b c", "(a*q^2 + b*q^3 + c*q^4)*p^2"),
+    ("q; p", "a b", "(a*q^3 + b*q^4)*p^2"),
+    ("q; p", "a", "(a*p^2 + p^4)*q^2"),
+    ("q; p", "", "(q^2 + q^4)*p^2"),
+    ("q; p", "", "(q^2 + q^3 + 2*q^4)*p^2/3"),
+    ("q; p", "", "(q^2 - q^4)*p^2"),
+    ("q; p", "", "(2*q^3 + q^4)*p^2"),
+    ("q; p", "", "(q^3 - 2*q^2)*p^2"),
+    ("q; p", "a b c", "exp(-(a*q^2 + b*q^3 + c*q^4)*p^2)"),
+    ("x, y; u, v", "", "(x*v - y*u)^2"),
+    ("x, y; u, v", "a", "exp(a*(x*v - y*u))"),
+    ("x, y; u, v", "", "(x*v - y*u)*(x^2 + y^2)"),
+    ("x, y; u, v", "", "sin(x*v - y*u + x^2 + y^2)"),
+    (
+        "x, y; u, v",
+        "a",
+        "a*x*v/sqrt(x^2 + y^2 + 1) - a*y*u/sqrt(x^2 + y^2 + 1)",
+    ),
+    (
+        "x, y, z; u, v, w",
+        "",
+        "x*v/(x^2 + y^2 + z^2) - y*u/(x^2 + y^2 + z^2)",
+    ),
+    ("x, y; u, v", "", "x^2*v^2 + y^2*u^2 - 2*x*y*u*v"),
+    ("r, f; p, L", "", "p^2/2 + L^2/(2*r^2)"),
+    ("r, f; p, L", "k", "p^2/2 + (L^2 + k)/(2*r^2)"),
+    ("th, f; p, L", "", "p^2/2 + L^2/(2*sin(th)^2)"),
+    ("th; p", "k", "p^2/2 + k^2/(2*sin(th)^2)"),
+    ("l, g; L, G", "A", "sqrt(G^2 - L^2)*cos(l)/A"),
+    ("l, g; L, G", "A", "(G^2 - L^2)*sin(l)^2/(2*A)"),
+];
+
+/// Fixed points of H at which its flow has no value or moves, with the number of fixed points that were met; `None` if
+/// no flow is found.
+fn moved_from_rest(definition: &Definition) -> Option<(Vec<String>, usize)> {
+    let subject = Subject::whole(definition)?;
+    let velocity = Subject::velocity(definition);
+    let mut random = Random(11 + definition.h.len() as u64);
+    let (mut faults, mut count) = (Vec::new(), 0);
+    for _ in 0..common::cases(200, 2000) {
+        let world = subject.world(&mut random);
+        let z = subject.resting(&mut random);
+        let moves = |of: &Subject, c: f64| {
+            let end = of.act(0, &world, &z, DoubleDouble::from(c), false);
+            let stays = |(a, b): (&DoubleDouble, &DoubleDouble)| (*a - *b).to_f64().abs() < 1e-24;
+            (!end.iter().zip(&z).all(stays)).then_some(end)
+        };
+        // There is no spin whose component L is longer than it is.
+        let is_no_spin = definition.h.contains("G^2 - L^2") && z[2] * z[2] > z[3] * z[3];
+        if is_no_spin || moves(&velocity, 1.0).is_some() {
+            continue;
+        }
+        count += 1;
+        for c in [0.375, -1.25] {
+            if let Some(end) = moves(&subject, c) {
+                let [z, end] = [&z, &end].map(|z| z.iter().map(|x| x.to_f64()).collect::<Vec<_>>());
+                let (h, parameters) = (&definition.h, &world.parameters);
+                faults.push(format!("{h}: {z:?} ends at {end:?}, {parameters:?}"));
+            }
+        }
+    }
+    Some((faults, count))
+}
+
+/// A fixed point of H is one of each flow: the formula of a row may divide by what is 0 there.
+#[test]
+fn flows_rest_at_fixed_points() {
+    let cases = CASES
+        .iter()
+        .map(|case| (&case.signature, &case.parameters, &case.h));
+    let others = OTHERS
+        .iter()
+        .chain(RESTING)
+        .map(|(signature, parameters, h)| (signature, parameters, h));
+    let (mut wrong, mut met, mut resting) = (Vec::new(), 0, 0);
+    for (signature, parameters, h) in cases.chain(others) {
+        if signature.contains('n') {
+            continue;
+        }
+        let Some((faults, count)) = moved_from_rest(&Definition::of(signature, parameters, h, 0))
+        else {
+            continue;
+        };
+        wrong.extend(faults.into_iter().take(2));
+        met += usize::from(count > 0);
+        let is_resting = RESTING.iter().any(|(_, _, other)| h == other);
+        resting += usize::from(is_resting && count > 0);
+    }
+    assert!(wrong.is_empty(), "{} {wrong:#?}", wrong.len());
+    assert_eq!(resting, RESTING.len());
+    assert!(met > 40, "{met}");
 }

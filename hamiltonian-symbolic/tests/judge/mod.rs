@@ -14,6 +14,7 @@ use crate::common;
 use crate::tree::Random;
 use field::{Field, Layout, World, extents};
 use hamiltonian_lanes::{DoubleDouble as D, Real};
+use hamiltonian_symbolic::PI_LOW;
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Parameter, Side};
 use hamiltonian_symbolic::index::Domain;
 use hamiltonian_symbolic::interpret::{Point, run, run_reversed};
@@ -64,6 +65,14 @@ impl Subject {
         let name = definition.h.clone();
         model.pieces = vec![Piece { h, name, flow }];
         Some(Subject::of(model, definition.n))
+    }
+    /// The velocity of the whole, which is added to a point.
+    fn velocity(definition: &Definition) -> Subject {
+        let mut model = definition.model();
+        let (h, name) = (model.h(), definition.h.clone());
+        let flow = ExactFlow::Linear;
+        model.pieces = vec![Piece { h, name, flow }];
+        Subject::of(model, definition.n)
     }
     /// The pieces that are found.
     pub fn split(definition: &Definition) -> Option<Subject> {
@@ -214,6 +223,17 @@ impl Subject {
         numbers.collect()
     }
 
+    /// A point many of whose numbers are 0, 1 or a quarter of a turn.
+    fn resting(&self, random: &mut Random) -> Vec<D> {
+        let quarter = D::constant(std::f64::consts::FRAC_PI_2, PI_LOW / 2.0);
+        let numbers = (0..2 * self.layout.half).map(|_| match random.unit() {
+            x if x < 0.55 => D::from(0.0),
+            x if x < 0.7 => D::from(1.0),
+            x if x < 0.85 => quarter,
+            _ => D::from(number(random, 0.0)),
+        });
+        numbers.collect()
+    }
     /// Compares the flow of a piece with orbits, there and back.
     pub fn judge(&self, at: usize, world: &World, z: &[D], c: f64) -> Verdict {
         let fields = self.fields(at, world);

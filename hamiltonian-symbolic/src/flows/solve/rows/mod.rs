@@ -158,7 +158,7 @@ pub static ROWS: &[Row] = &[
     Row {
         name: "rotation",
         pattern: "G(x·p_y − y·p_x, x² + y², c)",
-        domain: "x² + y² > 0",
+        domain: "everywhere",
         source: "a kick along the radius, then a turn about the axis",
         solve: Solve::Whole(rotation::solve),
     },

@@ -27,6 +27,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let dag = space.dag();
     let (scaled, p_scaled) = (dag.scale(&scale, x), dag.scale(&over, px));
     let mut names = Names::of(&[
+        ("x0", x),
         ("x", scaled),
         ("y", y),
         ("px", p_scaled),
@@ -138,5 +139,17 @@ fn rate(space: &mut Space, h: Node, l: Node, names: &Names) -> Option<Node> {
     if space.same(hpy, ahead) && space.same(hpx, aside) {
         return Some(slope);
     }
-    names.one(space.dag(), "(x*hpy - y*hpx)/(x^2 + y^2)")
+    let off = names.one(space.dag(), "(x*hpy - y*hpx)/(x^2 + y^2)")?;
+    // On the axis the point rests and the momenta turn, if they are not 0.
+    let zero = space.dag().integer(0);
+    let there = space.at(h, &[(names.get("x0")?, zero), (names.get("y")?, zero)]);
+    if !space.value(there).is_defined() {
+        return Some(off);
+    }
+    let on = names.one(
+        space.dag(),
+        "pick(0 < px^2 + py^2, (hx*py - hy*px)/(px^2 + py^2), 0)",
+    )?;
+    let is_off = names.one(space.dag(), "0 < x^2 + y^2")?;
+    Some(space.dag().select(is_off, off, on))
 }

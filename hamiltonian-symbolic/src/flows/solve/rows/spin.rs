@@ -184,7 +184,7 @@ fn scaled(
     if !rest.is_empty() {
         names.read(
             space.dag(),
-            "C = sqrt(square); k = abs(K)/c; less = ((N/c)^2 + L^2)/(C + k); \
+            "C = sqrt(square); k = abs(K)/c; less = pick(0 < C, ((N/c)^2 + L^2)/(C + k), 0); \
              chi0 = atan2(N/c, L); chi1 = chi0 + c*s",
         )?;
         names.read(space.dag(), SWEPT)?;

@@ -1,6 +1,6 @@
 //! Faults of programs are found.
 
-use hamiltonian_symbolic::dag::{Array, Column, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side, StandIn};
 use hamiltonian_symbolic::index::Index;
 use hamiltonian_symbolic::program::{
     Function, Instruction, Program, Purpose, Step, Target, Update, Value,
@@ -72,6 +72,27 @@ fn faults_are_found() {
     faulty(
         |p| p.instructions[1] = Instruction::PairedCos(Value(0)),
         "_1 is the cosine of no sine in GradientQ",
+    );
+    faulty(
+        |p| p.instructions[0] = Instruction::StandIn(StandIn::Spent),
+        "_0 is Spent, which has no value in GradientQ",
+    );
+    let parameters = [
+        Instruction::Scalar(Parameter(2)),
+        Instruction::Load(Array::Parameter(Parameter(2)), Index::constant(0), None),
+    ];
+    for reads in parameters {
+        let mut known = program();
+        known.instructions[0] = reads;
+        known.parameters = 3;
+        assert_eq!(known.validate(), Ok(()));
+        known.parameters = 2;
+        let fault = "_0 reads parameter 2 of 2 in GradientQ".to_owned();
+        assert_eq!(known.validate(), Err(fault));
+    }
+    faulty(
+        |p| p.instructions[0] = Instruction::Load(Array::Hoisted(0), Index::constant(0), None),
+        "_0 reads prepared array 0 of 0 in GradientQ",
     );
     let velocity = |p: &mut Program| {
         let velocity = Array::Velocity(Column::first(Side::Q, 0));

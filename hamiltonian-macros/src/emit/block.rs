@@ -238,6 +238,7 @@ impl Writer<'_> {
             Instruction::Scalar(parameter) => self.context.generics.lifted(parameter.0),
             Instruction::Time => "_t".into(),
             Instruction::Coefficient => "_c".into(),
+            Instruction::StandIn(what) => unreachable!("a valid program has no {what:?}"),
             Instruction::Variable(domain) => real(&variable(*domain)),
             Instruction::Extent(size) => real(self.context.indices.size(*size)),
             Instruction::Count(start, end) => {

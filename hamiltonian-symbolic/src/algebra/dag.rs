@@ -84,6 +84,20 @@ impl Partial {
     }
 }
 
+/// A node that the engine puts in the place of another. None is in a program, which
+/// [`Program::validate`](crate::program::Program::validate) checks.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum StandIn {
+    /// A derivative that was not made, because the budget of the search was spent.
+    Spent,
+    /// A part of an expression that is differentiated by it.
+    Part,
+    /// A part of an expression that is held.
+    Held,
+    /// The value of H, a constant of the motion.
+    Energy,
+}
+
 /// The kind of a node.
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Kind {
@@ -125,6 +139,8 @@ pub enum Kind {
     Or(Node, Node),
     /// The second where the first (a condition) holds, the third elsewhere.
     Select(Node, Node, Node),
+    /// A node in the place of another, which has no value.
+    StandIn(StandIn),
 }
 
 impl Kind {
@@ -155,7 +171,8 @@ impl Kind {
             | Kind::Variable(_)
             | Kind::Extent(_)
             | Kind::Element(..)
-            | Kind::Count(_) => {}
+            | Kind::Count(_)
+            | Kind::StandIn(_) => {}
         }
     }
 }
@@ -517,6 +534,7 @@ impl Dag {
         let own = match kind {
             Kind::Scalar(_)
             | Kind::Extent(_)
+            | Kind::StandIn(_)
             | Kind::Element(Array::Parameter(_) | Array::Hoisted(_), ..) => Dependence::PARAMETER,
             Kind::Element(Array::Phase(Column { side: Side::Q, .. }), ..) => Dependence::Q,
             Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => Dependence::P,

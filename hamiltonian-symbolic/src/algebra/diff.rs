@@ -85,9 +85,11 @@ fn sweep(
                 }
             }
             Kind::Reduce(domain, body) => give(dag, body, Some(domain), adjoint),
-            Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Element(..) => {
-                leaves.push((node, adjoint))
-            }
+            Kind::Scalar(_)
+            | Kind::Time
+            | Kind::Coefficient
+            | Kind::Element(..)
+            | Kind::StandIn(_) => leaves.push((node, adjoint)),
             Kind::Constant(_)
             | Kind::Pi
             | Kind::Variable(_)

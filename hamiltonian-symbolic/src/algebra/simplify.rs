@@ -7,7 +7,7 @@
 
 mod conditions;
 
-use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Partial, Side};
+use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Partial, Side, StandIn};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
 use crate::product::{Factors, Product};
@@ -36,6 +36,10 @@ impl Dag {
     /// A scalar parameter.
     pub fn parameter(&mut self, parameter: Parameter) -> Node {
         self.intern(Kind::Scalar(parameter))
+    }
+    /// A node in the place of another.
+    pub(crate) fn stand_in(&mut self, what: StandIn) -> Node {
+        self.intern(Kind::StandIn(what))
     }
     /// Time.
     pub fn time(&mut self) -> Node {

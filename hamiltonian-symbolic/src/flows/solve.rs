@@ -8,7 +8,7 @@ pub(crate) mod growth;
 pub(crate) mod rows;
 pub(crate) mod units;
 
-use crate::dag::{Kind, Map, Node};
+use crate::dag::{Kind, Map, Node, StandIn};
 use crate::flows::limits::{COMMUTING, Limit, PARTS};
 use crate::flows::space::{Space, Variables};
 use crate::model::{EXPONENTIAL, Flow, Motion};
@@ -135,7 +135,7 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 
 /// ∂h/∂v with u held.
 fn partial(space: &mut Space, h: Node, u: Node, variable: Node) -> Node {
-    let place = space.dag().parameter(crate::dag::Parameter(u16::MAX - 1));
+    let place = space.dag().stand_in(StandIn::Held);
     let over = space
         .dag()
         .substitute(h, |_, node| (node == u).then_some(place));

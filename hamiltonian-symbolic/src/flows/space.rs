@@ -12,7 +12,7 @@ mod labels;
 pub(crate) mod tape;
 
 use crate::algebra::ball::Ball;
-use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side, Sign};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side, Sign, StandIn};
 use crate::diff;
 use crate::flows::limits::{COMPONENTS, Limit, PAIRS, POINTS};
 use crate::index::Index;
@@ -240,10 +240,10 @@ impl Space {
         (motion.moves.iter()).fold(none, |set, m| set | self.set(m.leaf))
     }
 
-    /// ∂h/∂v of a variable v. If the budget is spent, a placeholder: no later answer is kept.
+    /// ∂h/∂v of a variable v. If the budget is spent, a node in its place: no later answer is kept.
     pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
         if self.is_spent() {
-            return self.model.dag.parameter(Parameter(u16::MAX));
+            return self.model.dag.stand_in(StandIn::Spent);
         }
         self.derivative(h, variable)
     }
@@ -276,7 +276,7 @@ impl Space {
         if h == u {
             return dag.integer(1);
         }
-        let place = dag.parameter(Parameter(u16::MAX));
+        let place = dag.stand_in(StandIn::Part);
         let over = dag.substitute(h, |_, node| (node == u).then_some(place));
         let slope = diff::gradient(dag, over, Dependence::PARAMETER)
             .into_iter()

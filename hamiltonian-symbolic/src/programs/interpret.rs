@@ -356,6 +356,7 @@ impl<T: Real> Machine<'_, T> {
             Instruction::Scalar(parameter) => self.point.scalars[parameter.0 as usize],
             Instruction::Time => self.point.t,
             Instruction::Coefficient => self.point.c,
+            Instruction::StandIn(_) => T::constant(f64::NAN, 0.0),
             Instruction::Variable(domain) => real(self.variables[domain]),
             Instruction::Extent(size) => real(self.point.sizes[size.0 as usize] as i64),
             Instruction::Count(start, end) => real((self.affine(end) - self.affine(start)).max(0)),

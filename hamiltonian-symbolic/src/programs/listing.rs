@@ -108,6 +108,7 @@ impl Display for Instruction {
             Instruction::Scalar(Parameter(number)) => write!(f, "a{number}"),
             Instruction::Time => f.write_char('t'),
             Instruction::Coefficient => f.write_char('c'),
+            Instruction::StandIn(what) => write!(f, "{what:?}"),
             Instruction::Variable(domain) => write!(f, "i{}", domain.0),
             Instruction::Extent(size) => write!(f, "n{}", size.0),
             Instruction::Count(start, end) => write!(f, "max({end} - ({start}), 0)"),

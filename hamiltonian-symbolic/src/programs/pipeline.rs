@@ -69,7 +69,8 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgra
         return Err(NoProgram::TooManyLoops);
     }
     let (wanted, images) = preparation(&mut model.dag, &mut requests);
-    let program = schedule(&model.dag, &requests, (&wanted, &images), arrays.hoisted);
+    let mut program = schedule(&model.dag, &requests, (&wanted, &images), arrays.hoisted);
+    program.parameters = model.parameters.len();
     program.validate().map_err(internal)?;
     for (function, request) in program.functions.iter().zip(&requests) {
         if stores(&function.evaluation) != request.stores.len() {

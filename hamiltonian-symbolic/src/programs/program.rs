@@ -8,7 +8,7 @@
 
 #[cfg(doc)]
 use crate::dag::Side;
-use crate::dag::{Array, Column, Parameter, Partial, Relation};
+use crate::dag::{Array, Column, Parameter, Partial, Relation, StandIn};
 use crate::hoist::Hoisted;
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::Op;
@@ -83,6 +83,8 @@ pub enum Instruction {
     Or(Value, Value),
     /// The second where the first (a mask) is set, the third elsewhere.
     Select(Value, Value, Value),
+    /// A node in the place of another, which no valid program has.
+    StandIn(StandIn),
 }
 
 impl Instruction {
@@ -98,7 +100,8 @@ impl Instruction {
             | Instruction::Extent(_)
             | Instruction::Count(..)
             | Instruction::Load(..)
-            | Instruction::Accumulator => {}
+            | Instruction::Accumulator
+            | Instruction::StandIn(_) => {}
             Instruction::Neg(a)
             | Instruction::Recip(a)
             | Instruction::PairedSin(a)
@@ -260,6 +263,8 @@ pub struct Function {
 /// A program.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Program {
+    /// The number of parameters that the model declares.
+    pub parameters: usize,
     /// The instructions, by value.
     pub instructions: Vec<Instruction>,
     /// Work done once, from parameters alone, for all functions.

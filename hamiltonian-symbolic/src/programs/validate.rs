@@ -13,8 +13,9 @@ type Known = Map<Value, ()>;
 type Stored = Map<(Target, Index, Option<Index>), ()>;
 
 impl Program {
-    /// Checks that every value is computed once and before its uses, that no number is handed on by name, and
-    /// that an element that is overwritten is stored once.
+    /// Checks that every value is computed once and before its uses, that parameters and prepared arrays are declared,
+    /// that no node stands in the place of another, that no number is handed on by name, and that an element that is
+    /// overwritten is stored once.
     ///
     /// # Errors
     /// The first violation.
@@ -70,8 +71,31 @@ impl Program {
                     if let Some(operand) = missing {
                         return Err(format!("{value} reads {operand} before it is computed"));
                     }
-                    if let Instruction::Load(Array::Velocity(_), ..) = instruction {
-                        return Err(format!("{value} reads a velocity"));
+                    match instruction {
+                        Instruction::Load(Array::Velocity(_), ..) => {
+                            return Err(format!("{value} reads a velocity"));
+                        }
+                        Instruction::StandIn(what) => {
+                            return Err(format!("{value} is {what:?}, which has no value"));
+                        }
+                        Instruction::Scalar(parameter)
+                        | Instruction::Load(Array::Parameter(parameter), ..)
+                            if usize::from(parameter.0) >= self.parameters =>
+                        {
+                            return Err(format!(
+                                "{value} reads parameter {} of {}",
+                                parameter.0, self.parameters
+                            ));
+                        }
+                        Instruction::Load(Array::Hoisted(number), ..)
+                            if usize::from(*number) >= self.hoisted.len() =>
+                        {
+                            return Err(format!(
+                                "{value} reads prepared array {number} of {}",
+                                self.hoisted.len()
+                            ));
+                        }
+                        _ => {}
                     }
                     if let Instruction::PairedCos(sine) = instruction
                         && !matches!(self.instruction(*sine), Instruction::PairedSin(_))

@@ -366,7 +366,7 @@ impl Maker<'_> {
                 let (c, a, b) = (self.node(c), self.node(a), self.node(b));
                 Operation::Select(c, a, b)
             }
-            other @ (Kind::Coefficient | Kind::External(..)) => {
+            other @ (Kind::Coefficient | Kind::External(..) | Kind::StandIn(_)) => {
                 panic!("{other:?} is not in the judge's books")
             }
         };

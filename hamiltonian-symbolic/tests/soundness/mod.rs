@@ -50,7 +50,7 @@ pub fn operands(instruction: &Instruction) -> Vec<Value> {
     use Instruction::*;
     match instruction {
         Constant(_) | Pi | Scalar(_) | Time | Coefficient | Variable(_) | Extent(_) | Count(..)
-        | Load(..) | Accumulator => vec![],
+        | Load(..) | Accumulator | StandIn(_) => vec![],
         Neg(a) | Recip(a) | PairedSin(a) | PairedCos(a) | Not(a) => vec![*a],
         Add(a, b) | Sub(a, b) | Mul(a, b) | Div(a, b) | Compare(_, a, b) | And(a, b) | Or(a, b) => {
             vec![*a, *b]

@@ -245,11 +245,8 @@ impl Meaning for Evaluator<'_> {
         }
         match dag.kind(node) {
             Kind::Scalar(parameter) => {
-                let declared = self.model.parameters.get(usize::from(parameter.0));
-                // A parameter that stands for a node of the engine has no value.
-                let Some(name) = declared.map(|declared| declared.name.clone()) else {
-                    return Ball::exact(f64::NAN);
-                };
+                let declared = &self.model.parameters[usize::from(parameter.0)];
+                let name = declared.name.clone();
                 let size = self.leaf(&(1u8, parameter), 0, false);
                 let is_negative = self.how.signs.of(*parameter);
                 let value = self.given_parameter(if is_negative { -size } else { size });
@@ -263,6 +260,7 @@ impl Meaning for Evaluator<'_> {
                 });
                 self.named(&name, value)
             }
+            Kind::StandIn(_) => Ball::exact(f64::NAN),
             Kind::Coefficient => Ball::exact(self.leaf(&3u8, 0, false)),
             Kind::Variable(domain) => Ball::exact(place.variable(*domain) as f64),
             Kind::Extent(size) => Ball::exact(place.size(*size) as f64),

@@ -55,6 +55,7 @@ impl Algebra {
             | Kind::Variable(_)
             | Kind::Extent(_)
             | Kind::Count(_)
+            | Kind::StandIn(_)
             | Kind::Element(..) => Poly::atom(self.leaf(dag, node), 1),
             Kind::Sum(c, terms) => {
                 let mut sum = Sum::default();

@@ -6,7 +6,7 @@
 //! needs them.
 
 use super::names::LoopNames;
-use crate::dag::{Array, Dag, Kind, Node, Parameter, Partial, Relation};
+use crate::dag::{Array, Dag, Kind, Node, Parameter, Partial, Relation, StandIn};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{External, Model, Shape};
 use crate::op::Op;
@@ -198,6 +198,8 @@ impl<'a> Writer<'a> {
             Kind::Scalar(parameter) => vec![self.name(&self.parameter(*parameter))],
             Kind::Time => vec![self.name(self.model.time_name())],
             Kind::Coefficient => vec![Fragment::Static("h")],
+            Kind::StandIn(StandIn::Energy) => vec![Fragment::Static("H")],
+            Kind::StandIn(_) => vec![Fragment::Static("…")],
             Kind::Variable(domain) => vec![Fragment::Owned(self.variable(*domain))],
             Kind::Extent(size) => vec![self.name(&self.size(*size))],
             Kind::Element(array, row, column) => {
@@ -305,6 +307,7 @@ impl<'a> Writer<'a> {
             | Kind::Coefficient
             | Kind::Variable(_)
             | Kind::Extent(_)
+            | Kind::StandIn(_)
             | Kind::Element(..) => Level::Atom,
         }
     }

@@ -57,6 +57,7 @@ impl Tape {
                 Kind::Constant(value) => TapeStep::Number(number(value)),
                 Kind::Pi => TapeStep::Number(std::f64::consts::PI),
                 Kind::Coefficient => TapeStep::Coefficient,
+                Kind::StandIn(_) => TapeStep::Number(f64::NAN),
                 Kind::Element(Array::Phase(_), ..) => TapeStep::Variable(variables(node).number()),
                 Kind::Scalar(_) | Kind::Time | Kind::Extent(_) | Kind::Element(..) => {
                     TapeStep::Number(given(node))

@@ -73,6 +73,7 @@ impl Placer<'_> {
             Kind::Scalar(parameter) => Instruction::Scalar(*parameter),
             Kind::Time => Instruction::Time,
             Kind::Coefficient => Instruction::Coefficient,
+            Kind::StandIn(what) => Instruction::StandIn(*what),
             Kind::Variable(domain) => Instruction::Variable(*domain),
             Kind::Extent(size) => Instruction::Extent(*size),
             Kind::Count(domain) => {

@@ -7,15 +7,12 @@
 use super::Claim;
 use crate::bracket::branches::STEP;
 use crate::bracket::derivative;
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Parameter, Partial};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Partial, StandIn};
 use crate::facts::{Facts, Given};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::{Far, Op, SingularSet};
 use crate::rational::Rational;
-
-/// The constant that stands for the energy: no parameter of a definition has this number.
-const ENERGY: Parameter = Parameter(u16::MAX);
 
 /// The most expressions that are looked at.
 const MOST: usize = 64;
@@ -106,7 +103,7 @@ pub(in crate::proofs::bracket) fn without_energy(
         return None;
     }
     let dag = &mut model.dag;
-    let energy = dag.parameter(ENERGY);
+    let energy = dag.stand_in(StandIn::Energy);
     let mut rest = dag.substitute(expression, |_, node| (node == h).then_some(energy));
     // A sum that H is added to has the terms of H among its own.
     if let (Kind::Sum(_, terms), Kind::Sum(_, of_h)) = (dag.kind(rest), dag.kind(h))

@@ -3,7 +3,8 @@
 //! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`Motion`] and [`FieldBody`] for a
 //! prepared system, one for each kind. Output: [`Kernel`], the vector field, the flow and the piece of each kind.
 //! Invariant: a body has two stages. The first computes the held values from the prepared system and a coefficient, once
-//! for each map. The second computes the change of a point from the held values and the point.
+//! for each map. The second computes the change of a point from the held values, the data of the prepared system and the
+//! point.
 
 use crate::exponential::Exponential;
 use crate::flow::{Flow, Piece, VectorField};
@@ -15,8 +16,16 @@ use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 
+/// A prepared system with the data that its bodies read beside held values.
+pub trait WithData<T: Real>: Dynamics<T> {
+    /// The arithmetic of loops, the sizes set at run time, the functions and the arrays. A flow or a field has a copy.
+    type Data: Clone + Debug;
+    /// The data.
+    fn data(&self) -> &Self::Data;
+}
+
 /// A body that reads one half of phase space and adds to the other: a kick, a drift.
-pub trait Shift<K, T: Real>: Dynamics<T> {
+pub trait Shift<K, T: Real>: WithData<T> {
     /// The piece in the author's notation.
     const NAME: &'static str;
     /// True if momenta move, false if coordinates do.
@@ -28,11 +37,17 @@ pub trait Shift<K, T: Real>: Dynamics<T> {
     /// Computes these values.
     fn fold(&self, c: T) -> Self::Held;
     /// Adds to one half of phase space the change that the other half determines.
-    fn add(held: &Self::Held, t: T, from: &Self::Vector, into: &mut Self::Vector);
+    fn add(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        from: &Self::Vector,
+        into: &mut Self::Vector,
+    );
 }
 
 /// A body that reads and writes one point: an exact flow.
-pub trait Motion<K, T: Real>: Dynamics<T> {
+pub trait Motion<K, T: Real>: WithData<T> {
     /// The piece in the author's notation.
     const NAME: &'static str;
     /// See [`Flow::MERGES`].
@@ -42,11 +57,23 @@ pub trait Motion<K, T: Real>: Dynamics<T> {
     /// Computes these values.
     fn fold(&self, c: T) -> Self::Held;
     /// Moves a point.
-    fn apply(held: &Self::Held, t: T, q: &mut Self::Vector, p: &mut Self::Vector);
+    fn apply(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        q: &mut Self::Vector,
+        p: &mut Self::Vector,
+    );
     /// The same with the terms of loops in the opposite order.
     #[inline(always)]
-    fn apply_reversed(held: &Self::Held, t: T, q: &mut Self::Vector, p: &mut Self::Vector) {
-        Self::apply(held, t, q, p);
+    fn apply_reversed(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        q: &mut Self::Vector,
+        p: &mut Self::Vector,
+    ) {
+        Self::apply(held, data, t, q, p);
     }
 }
 
@@ -57,7 +84,7 @@ pub trait Origin<T: Real>: Dynamics<T> {
 }
 
 /// A body that adds the values of a vector field at a point.
-pub trait FieldBody<K, T: Real>: Dynamics<T> {
+pub trait FieldBody<K, T: Real>: WithData<T> {
     /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
     /// Computes these values.
@@ -65,6 +92,7 @@ pub trait FieldBody<K, T: Real>: Dynamics<T> {
     /// See [`VectorField::add`].
     fn add(
         held: &Self::Held,
+        data: &Self::Data,
         t: T,
         q: &Self::Vector,
         p: &Self::Vector,
@@ -85,18 +113,19 @@ impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
     #[inline(always)]
     fn add(
         (kick, drift): &Self::Held,
+        data: &Self::Data,
         t: T,
         q: &Self::Vector,
         p: &Self::Vector,
         into_q: &mut Self::Vector,
         into_p: &mut Self::Vector,
     ) {
-        <D as Shift<Kick, T>>::add(kick, t, q, into_p);
-        <D as Shift<Drift, T>>::add(drift, t, p, into_q);
+        <D as Shift<Kick, T>>::add(kick, data, t, q, into_p);
+        <D as Shift<Drift, T>>::add(drift, data, t, p, into_q);
     }
 }
 
-impl<T: Real, D: Dynamics<T>> FieldBody<OfGradient, T> for D {
+impl<T: Real, D: WithData<T>> FieldBody<OfGradient, T> for D {
     type Held = (D, T);
     #[inline(always)]
     fn fold(&self, c: T) -> Self::Held {
@@ -105,6 +134,7 @@ impl<T: Real, D: Dynamics<T>> FieldBody<OfGradient, T> for D {
     #[inline(always)]
     fn add(
         (prepared, c): &Self::Held,
+        _: &Self::Data,
         t: T,
         q: &Self::Vector,
         p: &Self::Vector,
@@ -115,6 +145,56 @@ impl<T: Real, D: Dynamics<T>> FieldBody<OfGradient, T> for D {
         let _ = prepared.energy_and_gradient(t, q, p, &mut x, &mut y);
         into_q.accumulate(*c, &y);
         into_p.accumulate(-*c, &x);
+    }
+}
+
+/// ∂V/∂q of a separable H without a force, by its kick.
+#[inline(always)]
+pub fn slopes_by_kick<T: Real, D: Shift<Kick, T>>(
+    prepared: &D,
+    t: T,
+    q: &D::Vector,
+    out: &mut D::Vector,
+) {
+    out.set_zero();
+    D::add(&prepared.fold(-T::one()), prepared.data(), t, q, out);
+}
+
+/// ∂T/∂p of a separable H, by its drift.
+#[inline(always)]
+pub fn velocities_by_drift<T: Real, D: Shift<Drift, T>>(
+    prepared: &D,
+    t: T,
+    p: &D::Vector,
+    out: &mut D::Vector,
+) {
+    out.set_zero();
+    D::add(&prepared.fold(T::one()), prepared.data(), t, p, out);
+}
+
+/// ∂H/∂q and ∂H/∂p of an H without a force, by its field.
+#[inline(always)]
+pub fn gradient_by_field<T: Real, D: FieldBody<Whole, T>>(
+    prepared: &D,
+    t: T,
+    [q, p]: [&D::Vector; 2],
+    [by_q, by_p]: [&mut D::Vector; 2],
+) {
+    by_q.set_zero();
+    by_p.set_zero();
+    D::add(
+        &prepared.fold(-T::one()),
+        prepared.data(),
+        t,
+        q,
+        p,
+        by_p,
+        by_q,
+    );
+    for k in 0..D::Vector::PARTS {
+        for place in by_p.part_mut(k) {
+            *place = -*place;
+        }
     }
 }
 
@@ -204,17 +284,21 @@ impl<D, K, H: Debug> Debug for Kernel<D, K, H> {
 }
 
 /// The flow of the [`Shift`] of kind `K`.
-pub type ShiftOf<D, K, T> = Kernel<D, Shifts<K>, <D as Shift<K, T>>::Held>;
+pub type ShiftOf<D, K, T> =
+    Kernel<D, Shifts<K>, (<D as Shift<K, T>>::Held, <D as WithData<T>>::Data)>;
 /// The flow of the [`Motion`] of kind `K`.
-pub type MotionOf<D, K, T> = Kernel<D, Moves<K>, <D as Motion<K, T>>::Held>;
+pub type MotionOf<D, K, T> =
+    Kernel<D, Moves<K>, (<D as Motion<K, T>>::Held, <D as WithData<T>>::Data)>;
 /// The [`FieldBody`] of kind `K`.
-pub type FieldOf<D, K, T> = Kernel<D, Adds<K>, <D as FieldBody<K, T>>::Held>;
+pub type FieldOf<D, K, T> =
+    Kernel<D, Adds<K>, (<D as FieldBody<K, T>>::Held, <D as WithData<T>>::Data)>;
 
-impl<V, D, K, H> Flow<Point<V>> for Kernel<D, Shifts<K>, H>
+impl<V, D, K, H, A> Flow<Point<V>> for Kernel<D, Shifts<K>, (H, A)>
 where
     V: Vector,
-    D: Shift<K, V::Scalar, Vector = V, Held = H>,
+    D: Shift<K, V::Scalar, Vector = V, Held = H, Data = A>,
     H: Clone + Debug,
+    A: Clone + Debug,
 {
     const NAME: &'static str = D::NAME;
     const MERGES: bool = D::MERGES;
@@ -222,53 +306,56 @@ where
     type Work = ();
     #[inline(always)]
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        let (held, data) = &self.held;
         if D::KICKS {
-            D::add(&self.held, t, &x.q, &mut x.p);
+            D::add(held, data, t, &x.q, &mut x.p);
         } else {
-            D::add(&self.held, t, &x.p, &mut x.q);
+            D::add(held, data, t, &x.p, &mut x.q);
         }
     }
 }
 
-impl<V, D, K, H> Flow<Point<V>> for Kernel<D, Moves<K>, H>
+impl<V, D, K, H, A> Flow<Point<V>> for Kernel<D, Moves<K>, (H, A)>
 where
     V: Vector,
-    D: Motion<K, V::Scalar, Vector = V, Held = H>,
+    D: Motion<K, V::Scalar, Vector = V, Held = H, Data = A>,
     H: Clone + Debug,
+    A: Clone + Debug,
 {
     const NAME: &'static str = D::NAME;
     const MERGES: bool = D::MERGES;
     type Work = ();
     #[inline(always)]
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
-        D::apply(&self.held, t, &mut x.q, &mut x.p);
+        D::apply(&self.held.0, &self.held.1, t, &mut x.q, &mut x.p);
     }
     #[inline(always)]
     fn apply_reversed(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
-        D::apply_reversed(&self.held, t, &mut x.q, &mut x.p);
+        D::apply_reversed(&self.held.0, &self.held.1, t, &mut x.q, &mut x.p);
     }
 }
 
-impl<V, D, K, H> VectorField<V> for Kernel<D, Adds<K>, H>
+impl<V, D, K, H, A> VectorField<V> for Kernel<D, Adds<K>, (H, A)>
 where
     V: Vector,
-    D: FieldBody<K, V::Scalar, Vector = V, Held = H>,
+    D: FieldBody<K, V::Scalar, Vector = V, Held = H, Data = A>,
     H: Clone + Debug,
+    A: Clone + Debug,
 {
     #[inline(always)]
     fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
-        D::add(&self.held, t, q, p, into_q, into_p);
+        D::add(&self.held.0, &self.held.1, t, q, p, into_q, into_p);
     }
 }
 
-impl<D, K, H> Kernel<D, Adds<K>, H> {
+impl<D, K, H, A: Clone> Kernel<D, Adds<K>, (H, A)> {
     /// The field for the coefficient `c`.
     #[inline(always)]
     pub fn fold<T: Real>(prepared: &D, c: T) -> Self
     where
-        D: FieldBody<K, T, Held = H>,
+        D: FieldBody<K, T, Held = H, Data = A>,
     {
-        Kernel::holding(prepared.fold(c))
+        Kernel::holding((prepared.fold(c), prepared.data().clone()))
     }
 }
 
@@ -290,10 +377,10 @@ macro_rules! piece {
 }
 
 piece!(Shifts<K>, [K: 'static], [Shift<K, T>], ShiftOf<D, K, T>, |prepared, c| {
-    Kernel::holding(prepared.fold(c))
+    Kernel::holding((prepared.fold(c), prepared.data().clone()))
 });
 piece!(Moves<K>, [K: 'static], [Motion<K, T>], MotionOf<D, K, T>, |prepared, c| {
-    Kernel::holding(prepared.fold(c))
+    Kernel::holding((prepared.fold(c), prepared.data().clone()))
 });
 piece!(
     Matrices<K, N>,
@@ -302,7 +389,7 @@ piece!(
     Exponential<MotionOf<D, K, T>, T, N>,
     |prepared, c| {
         let raised = Self::Flow::raised(c);
-        let rates = MotionOf::<D, K, T>::holding(prepared.fold(raised));
+        let rates = MotionOf::<D, K, T>::holding((prepared.fold(raised), prepared.data().clone()));
         Exponential::new(&rates, &Point { q: D::origin(), p: D::origin() })
     }
 );
@@ -312,8 +399,11 @@ piece!(
     [Motion<Push, T> + Shift<Kick, T>],
     Both<MotionOf<D, Push, T>, ShiftOf<D, Kick, T>>,
     |prepared, c| Both(
-        Kernel::holding(Motion::<Push, T>::fold(prepared, c)),
-        Kernel::holding(Shift::<Kick, T>::fold(prepared, c)),
+        Kernel::holding((
+            Motion::<Push, T>::fold(prepared, c),
+            prepared.data().clone()
+        )),
+        Kernel::holding((Shift::<Kick, T>::fold(prepared, c), prepared.data().clone())),
     )
 );
 piece!(

@@ -32,7 +32,8 @@ pub use crate::function::Function;
 pub use crate::held::{Given, Held, LaneValue, gathered};
 pub use crate::kernel::{
     Adds, Damped, Drift, FieldBody, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
-    Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
+    Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole, WithData,
+    gradient_by_field, slopes_by_kick, velocities_by_drift,
 };
 use crate::lattice::write_indices;
 pub use crate::lattice::{
@@ -291,10 +292,18 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __prepared {
-    ([$visibility:vis struct $name:ident] [$($generics:tt)*] [$($arguments:tt)*] $held:ty) => {
+    ([$visibility:vis struct $name:ident] [$($generics:tt)*] [$($arguments:tt)*] $data:ty; $($counts:literal),*) => {
         #[doc(hidden)]
         #[derive($crate::private::Clone, $crate::private::fmt::Debug)]
-        $visibility struct $name $($generics)* ($held);
+        $visibility struct $name $($generics)* ($crate::private::Held<T, $($counts,)* $data>);
+        #[automatically_derived]
+        impl $($generics)* $crate::private::WithData<T> for $name<$($arguments)* T> {
+            type Data = $data;
+            #[inline(always)]
+            fn data(&self) -> &Self::Data {
+                &self.0.data
+            }
+        }
         #[automatically_derived]
         impl $($generics)* $crate::private::Gather<T> for $name<$($arguments)* T> {
             type Over<__U: $crate::private::Real> = $name<$($arguments)* __U>;
@@ -313,19 +322,68 @@ macro_rules! __prepared {
 }
 
 /// The field of a kind, and the methods of a prepared system whose data begins with how it is computed, in lanes where
-/// there are some. The derivative by time of an H that does not depend on it is 0.
+/// there are some. The derivative by time of an H that does not depend on it is 0. A gradient that is not written out
+/// comes from the kick and the drift, or from the field.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __computed_as_chosen {
-    ($scalar:ident, $field:ty $(, $zero:ident)?) => {
-        $(#[inline(always)]
-        fn $zero(&self, _: $scalar, _: &Self::Vector, _: &Self::Vector) -> $scalar {
+    (@timeless $scalar:ident) => {
+        #[inline(always)]
+        fn time_derivative(&self, _: $scalar, _: &Self::Vector, _: &Self::Vector) -> $scalar {
             <$scalar as $crate::private::Real>::constant(0.0, 0.0)
-        })?
+        }
+    };
+    (@gradient_by_halves $scalar:ident) => {
+        #[inline(always)]
+        fn gradient_q(&self, _t: $scalar, _q: &Self::Vector, _: &Self::Vector, _out: &mut Self::Vector) {
+            $crate::private::slopes_by_kick(self, _t, _q, _out);
+        }
+        #[inline(always)]
+        fn gradient_p(&self, _t: $scalar, _: &Self::Vector, _p: &Self::Vector, _out: &mut Self::Vector) {
+            $crate::private::velocities_by_drift(self, _t, _p, _out);
+        }
+    };
+    (@gradient_by_field $scalar:ident) => {
+        #[inline(always)]
+        fn gradient(
+            &self,
+            _t: $scalar,
+            _q: &Self::Vector,
+            _p: &Self::Vector,
+            _by_q: &mut Self::Vector,
+            _by_p: &mut Self::Vector,
+        ) {
+            $crate::private::gradient_by_field(self, _t, [_q, _p], [_by_q, _by_p]);
+        }
+        #[inline(always)]
+        fn gradient_q(&self, _t: $scalar, _q: &Self::Vector, _p: &Self::Vector, _out: &mut Self::Vector) {
+            self.gradient(_t, _q, _p, _out, &mut $crate::private::Vector::zeros_like(_p));
+        }
+        #[inline(always)]
+        fn gradient_p(&self, _t: $scalar, _q: &Self::Vector, _p: &Self::Vector, _out: &mut Self::Vector) {
+            self.gradient(_t, _q, _p, &mut $crate::private::Vector::zeros_like(_q), _out);
+        }
+    };
+    ($scalar:ident, $field:ty $(, $more:ident)*) => {
+        $($crate::__computed_as_chosen! { @$more $scalar })*
         type Field = $crate::private::FieldOf<Self, $field, $scalar>;
         #[inline(always)]
         fn field(&self, _c: $scalar) -> Self::Field {
             Self::Field::fold(self, _c)
+        }
+        #[inline(always)]
+        fn add_field(
+            &self,
+            _c: $scalar,
+            _t: $scalar,
+            _q: &Self::Vector,
+            _p: &Self::Vector,
+            _into_q: &mut Self::Vector,
+            _into_p: &mut Self::Vector,
+        ) {
+            let _held = $crate::private::FieldBody::<$field, $scalar>::fold(self, _c);
+            let _data = $crate::private::WithData::data(self);
+            <Self as $crate::private::FieldBody<$field, $scalar>>::add(&_held, _data, _t, _q, _p, _into_q, _into_p);
         }
         #[inline(always)]
         fn arithmetic(&self) -> $crate::private::Arithmetic {

@@ -12,7 +12,7 @@ mod surface;
 mod variables;
 mod verdicts;
 
-use crate::emit;
+use crate::emit::{self, Gradient};
 use hamiltonian_language::check::SHARE_LOOPS;
 use hamiltonian_language::checked::{Checked, Definition};
 use hamiltonian_language::lower::{Beyond, ends, lower};
@@ -121,7 +121,11 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
     let split = splits::decide(checked, &mut model, &structure, &part, report);
     text.facts.extend(split.facts);
     let structure = verdicts::verdicts(&mut model, &structure, split.verdict);
-    let wanted = wanted(checked, &model, large, &structure);
+    let gradient = match large {
+        true => Gradient::Written,
+        false => source_of_gradient(&model, &structure),
+    };
+    let wanted = wanted(checked, &model, (large, gradient), &structure);
     let (program, third) = derive(frame, &mut model, wanted, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
@@ -135,6 +139,7 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
         model: &model,
         program: &program,
         third: third.as_deref(),
+        gradient,
         structure,
         text,
     }))
@@ -159,11 +164,23 @@ fn too_large(checked: &Checked, operations: usize, report: &mut Report) {
     );
 }
 
+/// The source of the gradient. Where H has loops, each function more is many lines, and the kick, the drift and the
+/// field have the same loops as the gradient; without loops, functions of their own take fewer operations.
+fn source_of_gradient(model: &Model, verdicts: &emit::Structure) -> Gradient {
+    let is_loop = |node: &Node| matches!(model.dag.kind(*node), Kind::Reduce(..));
+    let has_loops = model.dag.reachable(&[model.h()]).iter().any(is_loop);
+    match (has_loops && model.force.is_empty(), &verdicts.separable) {
+        (false, _) => Gradient::Written,
+        (true, Ok(())) => Gradient::Halves,
+        (true, Err(_)) => Gradient::Field,
+    }
+}
+
 /// The functions of a system. Those of a large one that the gradient can stand in for are left out.
 fn wanted(
     checked: &Checked,
     model: &Model,
-    large: bool,
+    (large, gradient): (bool, Gradient),
     verdicts: &emit::Structure,
 ) -> Vec<Purpose> {
     let mut wanted = vec![
@@ -172,11 +189,11 @@ fn wanted(
         Purpose::TimeDerivative,
         Purpose::HessianVector,
     ];
-    if !large {
+    if !large && gradient == Gradient::Written {
         wanted.extend([Purpose::GradientQ, Purpose::GradientP, Purpose::Gradient]);
     }
     // The gradient does not contain the force.
-    if !large || !model.force.is_empty() {
+    if !model.force.is_empty() || !large && gradient != Gradient::Halves {
         wanted.push(Purpose::VectorField);
     }
     if let Some(kick) = verdicts.kick {

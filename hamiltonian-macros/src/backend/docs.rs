@@ -97,12 +97,22 @@ pub fn operations(model: &Model, program: &Program) -> Vec<String> {
         "| | + − × | ÷ | √ | functions | together |".to_owned(),
         "|---|--:|--:|--:|--:|--:|".to_owned(),
     ];
+    let has_gradient = program.function(Purpose::Gradient).is_some();
     for (method, purpose) in [
         ("`energy`", Purpose::Energy),
         ("`gradient`", Purpose::Gradient),
+        ("kick", Purpose::Kick),
+        ("drift", Purpose::Drift),
+        ("field", Purpose::VectorField),
         ("`energy_and_gradient`", Purpose::EnergyAndGradient),
     ] {
-        let Some(function) = program.function(purpose) else {
+        let is_part = matches!(
+            purpose,
+            Purpose::Kick | Purpose::Drift | Purpose::VectorField
+        );
+        let function = program.function(purpose);
+        // The parts stand for a gradient that is made of them.
+        let Some(function) = function.filter(|_| !(is_part && has_gradient)) else {
             continue;
         };
         let counts = count::operations(model, program, function);

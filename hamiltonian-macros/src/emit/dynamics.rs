@@ -12,7 +12,7 @@ use super::halves::are_apart;
 use super::holder::{Holder, Receiver, shape};
 use super::layout::{Layout, Slice};
 use super::scan::scan;
-use super::{derived, observables, reach};
+use super::{Gradient, derived, observables, reach};
 use hamiltonian_symbolic::dag::Array;
 use hamiltonian_symbolic::model::{Model, ParameterDeclaration, Shape, VectorUse};
 use hamiltonian_symbolic::print;
@@ -62,7 +62,7 @@ fn prepared(context: Context) -> Holder {
         .flat_map(|f| [&f.coefficient, &f.evaluation]);
     let slices = stages.flat_map(|steps| scan(context, steps, &[]).slices);
     let name = "__Prepared".to_owned();
-    Holder::new(context, name, &program.prepared, slices.collect()).prepared()
+    Holder::prepared(context, name, &program.prepared, slices.collect())
 }
 
 /// The text of the implementations as far as it is written.
@@ -126,8 +126,7 @@ impl<'a> Emission<'a> {
             arrays: &read,
         };
         let results = self.bodies.write(&mut self.out, body);
-        let default = "__h::Default::default()";
-        let fill = self.prepared.fill(context, &results, default, |array| {
+        let fill = self.prepared.fill_prepared(context, &results, |array| {
             let place = match array {
                 Slice::Read(Array::Hoisted(number)) => format!("_made.{number}"),
                 _ => format!("_b{}", array.name().trim_start_matches("_a")),
@@ -193,6 +192,8 @@ impl<'a> Emission<'a> {
             let halves = [Purpose::GradientQ, Purpose::GradientP];
             match purpose {
                 Purpose::Gradient if are_apart(context.program, purpose, halves) => {}
+                Purpose::Gradient | Purpose::GradientQ | Purpose::GradientP
+                    if context.definition.gradient != Gradient::Written => {}
                 Purpose::TimeDerivative if is_timeless(context) => {}
                 _ => self.method(name, purpose, more, returns),
             }
@@ -216,10 +217,18 @@ impl<'a> Emission<'a> {
         }
         let field = self.field_kind();
         let zero = match is_timeless(context) {
-            true => ", time_derivative",
+            true => ", timeless",
             false => "",
         };
-        line!(self, "__h::computed_as_chosen!(T, {field}{zero});\n}}");
+        let gradient = match context.definition.gradient {
+            Gradient::Written => "",
+            Gradient::Halves => ", gradient_by_halves",
+            Gradient::Field => ", gradient_by_field",
+        };
+        line!(
+            self,
+            "__h::computed_as_chosen!(T, {field}{zero}{gradient});\n}}"
+        );
     }
 
     /// The arguments of an evaluation: t, and vectors that are read or written.
@@ -279,12 +288,8 @@ impl<'a> Emission<'a> {
     pub(super) fn held_by(&self, purpose: Purpose, name: String) -> Option<(&'a Function, Holder)> {
         let function = self.context.program.function(purpose)?;
         let scan = scan(self.context, &function.evaluation, &function.results);
-        let holder = Holder::new(self.context, name, &scan.reads, scan.slices);
-        let has_loop = (function.evaluation.iter()).any(|step| matches!(step, Step::Loop(_)));
-        match has_loop {
-            true => Some((function, holder.with_arithmetic())),
-            false => Some((function, holder)),
-        }
+        let holder = self.prepared.beside(self.context, name, &scan.reads);
+        Some((function, holder))
     }
 
     /// The body that makes the holder of a function from prepared values and the coefficient.
@@ -301,9 +306,7 @@ impl<'a> Emission<'a> {
             arrays: &[],
         };
         let results = self.bodies.write(&mut text, body);
-        let (context, prepared) = (self.context, &self.prepared);
-        let clone = |array| format!("{}.clone()", prepared.array(context, array));
-        text + &holder.fill(context, &results, "_self.0.data.0", clone)
+        text + &holder.fill(&results)
     }
 
     /// H, the force and the pieces as text, which a saved run is compared with.

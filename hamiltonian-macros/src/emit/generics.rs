@@ -185,6 +185,12 @@ impl Generics {
         self.declared_with_functions(["T: __h::Real".to_owned()])
     }
 
+    /// The same without bounds, for the alias of a type.
+    pub fn holder_declaration_without_bounds(&self) -> String {
+        let functions = self.functions.iter().map(|(name, _)| name.clone());
+        self.declared(functions.chain(["T".to_owned()]))
+    }
+
     /// `Name<N0, F0, T>` of a holder.
     pub fn holder_type(&self, name: &str) -> String {
         self.type_over(name, ["T".to_owned()])

@@ -14,7 +14,7 @@ use hamiltonian_symbolic::program::Value;
 use hamiltonian_symbolic::sort::Arrange;
 use std::fmt::Write;
 
-/// The values computed before an evaluation, and the data read with them: core's `Held`.
+/// The values computed before an evaluation, core's `Held`, and the data of the prepared system that is read with them.
 #[derive(Debug)]
 pub struct Holder {
     /// The name of its functions' parts, and of the prepared system.
@@ -22,8 +22,6 @@ pub struct Holder {
     values: Values,
     /// Parameter arrays, lifted to the state's scalar, and arrays that preparation fills.
     pub arrays: Vec<Slice>,
-    /// True if it says how work on the system is computed.
-    pub arithmetic: bool,
     /// True for the prepared system, a struct around the held values.
     is_prepared: bool,
 }
@@ -47,8 +45,13 @@ fn pairs(list: &[String]) -> String {
 }
 
 impl Holder {
-    /// A holder of these values, and of the arrays among these slices.
-    pub fn new(context: Context, name: String, values: &[Value], mut slices: Vec<Slice>) -> Holder {
+    /// The prepared system: a holder of these values, and of the arrays among these slices.
+    pub fn prepared(
+        context: Context,
+        name: String,
+        values: &[Value],
+        mut slices: Vec<Slice>,
+    ) -> Holder {
         slices
             .retain(|slice| matches!(slice, Slice::Read(Array::Parameter(_) | Array::Hoisted(_))));
         slices.arrange();
@@ -57,24 +60,17 @@ impl Holder {
             name,
             values: Values::of(context.program, values.iter().copied()),
             arrays: slices,
-            arithmetic: false,
-            is_prepared: false,
-        }
-    }
-
-    /// The same with the choice of how work on the system is computed.
-    pub fn with_arithmetic(self) -> Holder {
-        Holder {
-            arithmetic: true,
-            ..self
-        }
-    }
-
-    /// The same as the prepared system.
-    pub fn prepared(self) -> Holder {
-        Holder {
             is_prepared: true,
-            ..self.with_arithmetic()
+        }
+    }
+
+    /// A holder of these values beside the data of the prepared system.
+    pub fn beside(&self, context: Context, name: String, values: &[Value]) -> Holder {
+        Holder {
+            name,
+            values: Values::of(context.program, values.iter().copied()),
+            arrays: self.arrays.clone(),
+            is_prepared: false,
         }
     }
 
@@ -82,13 +78,25 @@ impl Holder {
     pub fn ty(&self, context: Context) -> String {
         match self.is_prepared {
             true => context.generics.holder_type(&self.name),
-            false => self.held(context),
+            false => self.held(),
         }
     }
 
     /// The type of the held values.
-    pub fn held(&self, context: Context) -> String {
-        let (numbers, masks) = (self.values.numbers.len(), self.values.masks.len());
+    pub fn held(&self) -> String {
+        match self.counts() {
+            (numbers, 0) => format!("__h::Held<T, {numbers}>"),
+            (numbers, masks) => format!("__h::Held<T, {numbers}, {masks}>"),
+        }
+    }
+
+    /// The numbers of held numbers and masks.
+    fn counts(&self) -> (usize, usize) {
+        (self.values.numbers.len(), self.values.masks.len())
+    }
+
+    /// The type of the data.
+    fn data_type(&self, context: Context) -> String {
         let ty = |datum: &Datum| match *datum {
             Datum::Arithmetic => "__h::Arithmetic".to_owned(),
             Datum::Size(_) => "__h::usize".to_owned(),
@@ -107,17 +115,12 @@ impl Holder {
             }
         };
         let data: Vec<String> = self.data(context).iter().map(ty).collect();
-        match (masks, data.is_empty()) {
-            (0, true) => format!("__h::Held<T, {numbers}>"),
-            (_, true) => format!("__h::Held<T, {numbers}, {masks}>"),
-            (_, false) => format!("__h::Held<T, {numbers}, {masks}, {}>", pairs(&data)),
-        }
+        pairs(&data)
     }
 
     fn data(&self, context: Context) -> Vec<Datum> {
         let functions = 0..context.generics.functions.len();
-        let arithmetic = self.arithmetic.then_some(Datum::Arithmetic);
-        (arithmetic.into_iter())
+        ([Datum::Arithmetic].into_iter())
             .chain(context.run_time_sizes().map(Datum::Size))
             .chain(functions.map(Datum::Function))
             .chain(self.arrays.iter().copied().map(Datum::Array))
@@ -137,12 +140,10 @@ impl Holder {
         let mut data = self.data(context).into_iter();
         let at = data.position(|known| known == datum);
         let rest = ".1".repeat(at.expect("a body reads what is held"));
-        format!("{}.data{rest}.0", self.root())
-    }
-
-    /// The expression of an array, in a body.
-    pub fn array(&self, context: Context, array: Slice) -> String {
-        self.place(context, Datum::Array(array))
+        match self.is_prepared {
+            true => format!("_self.0.data{rest}.0"),
+            false => format!("_d{rest}.0"),
+        }
     }
 
     /// The expression of a function that is a parameter, in a body.
@@ -150,44 +151,53 @@ impl Holder {
         format!("{}.0", self.place(context, Datum::Function(at)))
     }
 
-    /// The declaration of the prepared system, and its `Gather` implementation.
+    /// The declaration of the prepared system with its data, and its `Gather` implementation.
     pub fn declare(&self, out: &mut String, context: Context) {
         let generics = context.generics;
         let (declaration, name) = (generics.holder_declaration(), &self.name);
+        let (numbers, masks) = self.counts();
         let _ = writeln!(
             out,
-            "__h::prepared!([{} struct {name}] [{declaration}] [{}] {});",
+            "type __D{} = <{} as __h::WithData<T>>::Data;\n\
+             __h::prepared!([{} struct {name}] [{declaration}] [{}] {}; {numbers}, {masks});",
+            generics.holder_declaration_without_bounds(),
+            generics.holder_type(name),
             generics.visibility,
             generics.holder_arguments(),
-            self.held(context),
+            self.data_type(context),
         );
     }
 
-    /// The expression that makes one of the texts of its values; `array` is the expression of an array and
-    /// `arithmetic` that of the arithmetic.
-    pub fn fill(
+    /// The expression that makes one of the texts of its values.
+    pub fn fill(&self, values: &[String]) -> String {
+        let [numbers, masks] = self.lists(values);
+        format!("__h::Held::new([{numbers}], [{masks}], ())")
+    }
+
+    /// The expression that makes the prepared system of the texts of its values; `array` is the expression of an array.
+    pub fn fill_prepared(
         &self,
         context: Context,
         values: &[String],
-        arithmetic: &str,
         array: impl Fn(Slice) -> String,
     ) -> String {
         let value = |datum: &Datum| match *datum {
-            Datum::Arithmetic => arithmetic.to_owned(),
+            Datum::Arithmetic => "__h::Default::default()".to_owned(),
             Datum::Size(size) => format!("_n{size}"),
             Datum::Function(at) => format!("__h::Given(__h::Clone::clone(_f{at}))"),
             Datum::Array(own) => array(own),
         };
         let data: Vec<String> = self.data(context).iter().map(value).collect();
+        let ([numbers, masks], data) = (self.lists(values), pairs(&data));
+        format!(
+            "let _v = [{numbers}];\n{}(__h::Held::new(_v, [{masks}], {data}))",
+            self.name
+        )
+    }
+
+    fn lists(&self, values: &[String]) -> [String; 2] {
         let (numbers, masks) = values.split_at(self.values.numbers.len());
-        let (numbers, masks, data) = (numbers.join(", "), masks.join(", "), pairs(&data));
-        match self.is_prepared {
-            true => format!(
-                "let _v = [{numbers}];\n{}(__h::Held::new(_v, [{masks}], {data}))",
-                self.name
-            ),
-            false => format!("__h::Held::new([{numbers}], [{masks}], {data})"),
-        }
+        [numbers, masks].map(|texts| texts.join(", "))
     }
 
     /// All values, in the order they are filled.
@@ -243,8 +253,8 @@ impl Receiver<'_> {
     pub fn arithmetic(self) -> &'static str {
         match self {
             Receiver::Holder(holder) if holder.is_prepared => "_self.0.data.0",
-            Receiver::Holder(holder) if holder.arithmetic => "_self.data.0",
-            _ => "__h::Default::default()",
+            Receiver::Holder(_) => "_d.0",
+            Receiver::System => "__h::Default::default()",
         }
     }
 
@@ -302,7 +312,7 @@ impl Receiver<'_> {
                 }
             ),
             (Receiver::Holder(holder), _) => {
-                let place = holder.array(context, array);
+                let place = holder.place(context, Datum::Array(array));
                 writeln!(out, "let {name} = {place}.as_slice();")
             }
             (Receiver::System, _) => unreachable!("preparation reads parameters alone"),

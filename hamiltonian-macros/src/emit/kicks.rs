@@ -3,9 +3,9 @@
 //! Input: a definition. Output: text of the bodies of fields, kicks and drifts.
 //! Invariant: a kick reads no coordinate it moves and moves momenta alone.
 
-use super::Kick;
 use super::dynamics::Emission;
 use super::halves::are_apart;
+use super::{Gradient, Kick};
 use hamiltonian_symbolic::program::Purpose;
 use std::fmt::Write;
 
@@ -41,7 +41,7 @@ impl Emission<'_> {
     /// The kind of the vector field.
     pub(super) fn field_kind(&self) -> &'static str {
         match self.context.program.function(Purpose::VectorField) {
-            Some(_) if self.is_in_halves() => "__h::Halves",
+            _ if self.is_in_halves() => "__h::Halves",
             Some(_) => kind(Purpose::VectorField),
             None => "__h::OfGradient",
         }
@@ -51,9 +51,10 @@ impl Emission<'_> {
     pub(super) fn is_in_halves(&self) -> bool {
         let structure = &self.context.definition.structure;
         let halves = [Purpose::Kick, Purpose::Drift];
-        structure.separable.is_ok()
-            && structure.kick == Some(Kick::Plain)
-            && are_apart(self.context.program, Purpose::VectorField, halves)
+        self.context.definition.gradient == Gradient::Halves
+            || structure.separable.is_ok()
+                && structure.kick == Some(Kick::Plain)
+                && are_apart(self.context.program, Purpose::VectorField, halves)
     }
 
     /// The body of a vector field.

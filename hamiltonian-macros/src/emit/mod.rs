@@ -87,6 +87,8 @@ pub struct Definition<'a> {
     pub program: &'a Program,
     /// The Rust function whose third derivative is in H's second derivatives, which are then not in the program.
     pub third: Option<&'a str>,
+    /// The source of the gradient.
+    pub gradient: Gradient,
     /// The proven structure.
     pub structure: Structure,
     /// The printed text.
@@ -128,6 +130,17 @@ fn piece_type(item: &Header, piece: &Ident) -> Ident {
 /// The method that gives a piece.
 pub fn piece_method(piece: &str) -> String {
     format!("piece_{}", piece.to_lowercase())
+}
+
+/// The source of ∂H/∂q and ∂H/∂p.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Gradient {
+    /// Functions of their own, or `energy_and_gradient` of a large H.
+    Written,
+    /// The kick and the drift.
+    Halves,
+    /// The vector field.
+    Field,
 }
 
 /// The proven structure of H.

@@ -171,7 +171,7 @@ impl Emission<'_> {
              {constants}type Held = {};\n#[inline(always)]\nfn fold(&self, _c: T) -> Self::Held {{\n{made}\n}}",
             self.context.generics.holder_declaration(),
             self.prepared.ty(self.context),
-            holder.held(self.context),
+            holder.held(),
         );
     }
 
@@ -183,7 +183,10 @@ impl Emission<'_> {
         vectors: &[&'static str],
         function: &Function,
     ) {
-        let (name, arguments) = (format!("{}_{method}", holder.name), self.arguments(vectors));
+        let name = format!("{}_{method}", holder.name);
+        let data = format!("&{}", self.context.generics.holder_type("__D"));
+        let mut arguments = vec![("_d", data)];
+        arguments.extend(self.arguments(vectors));
         let (text, _) = self.evaluation(&name, Some(holder), &arguments, function);
         let list = declared(&arguments);
         line!(

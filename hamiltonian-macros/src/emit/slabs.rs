@@ -107,7 +107,7 @@ impl Writer<'_> {
     }
 
     /// Returns true if the loops may be computed on threads.
-    fn has_threads(&self) -> bool {
-        self.arithmetic.starts_with("_self")
+    pub(super) fn has_threads(&self) -> bool {
+        self.arithmetic.ends_with(".0")
     }
 }

@@ -101,7 +101,7 @@ impl Writer<'_> {
     fn is_whole(&self, loops: &[&Loop], reads: &[Value]) -> bool {
         let program = self.context.program;
         let is_mask = |value: &Value| program.instruction(*value).is_mask();
-        self.arithmetic.starts_with("_self")
+        self.has_threads()
             && self.context.layout != Layout::Scalars
             && self.context.generics.is_run_time.iter().all(|is| *is)
             && !reads.iter().any(is_mask)

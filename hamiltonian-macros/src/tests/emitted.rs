@@ -76,12 +76,31 @@ fn a_third_derivative_names_the_function_and_who_needs_it() {
 fn halves_without_common_work_make_the_gradient() {
     let code = |definition| emitted(definition).to_string();
     assert!(!code(PENDULUM).contains("fn gradient ("));
-    // The cosine of the time is work of both, and one loop serves both.
-    let shared = "H(q; p; t) = cos(t)*(p^2 + q^2)";
-    let looped = "H(q[9]; p[9]) = sum(i in 0..9) { p[i]^2 + q[i]^2 }";
-    for whole in [shared, looped].map(code) {
-        assert!(whole.contains("fn gradient ("));
+    // The cosine of the time is work of both.
+    assert!(code("H(q; p; t) = cos(t)*(p^2 + q^2)").contains("fn gradient ("));
+}
+
+/// Loops are written once for the gradient and the equations of motion, unless a force is in these.
+#[test]
+fn gradients_with_loops_come_from_the_equations_of_motion() {
+    for (definition, source) in [
+        (
+            "H(q[9]; p[9]) = sum(i in 0..9) { p[i]^2 + q[i]^2 }",
+            "gradient_by_halves",
+        ),
+        (
+            "H(q[9]; p[9]) = sum(i in 0..9) { p[i]^2*q[i]^2 }",
+            "gradient_by_field",
+        ),
+    ] {
+        let code = emitted(definition).to_string();
+        assert!(code.contains(source), "{definition}");
+        assert!(!code.contains("fn gradient"), "{definition}");
     }
+    let forced = "pub struct Forced {} H(q[9]; p[9]) = sum(i in 0..9) { p[i]^2 + q[i]^2 };
+        force(q[i]; p[i]) = -p[i]";
+    let forced = emitted(forced).to_string();
+    assert!(forced.contains("fn gradient_q") && !forced.contains("gradient_by"));
 }
 
 #[test]

@@ -3,16 +3,17 @@
 //! Input: the states of a run, step by step, and [`Event`]s: declared ones by name, others as closures.
 //! Output: [`Located`] states in the order of the run, and the end of the run if an event is ending.
 //! Invariants: the bits of the run do not change. An event is a change of sign of the function, so a start on a root is
-//! no event, and neither is a function that touches 0.
+//! no event, and neither is a function that touches 0. Each root is an event of one step only.
 
 mod event;
+mod locate;
 
 pub use event::Event;
 
 use crate::checkpoint::Memory;
 use crate::error::{Error, Known};
 use crate::observe::{FollowVisitor, MemberSection, Observer, View, one_trajectory};
-use crate::root::{Sample, dip, root, side};
+use crate::root::{Sample, side};
 use crate::state::State;
 use crate::system::{Dynamics, Observable, System};
 use crate::vector::Vector;
@@ -23,6 +24,7 @@ use alloc::vec::Vec;
 use core::cell::OnceCell;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
+use locate::Stretch;
 
 /// A state at which an event occurred.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +47,13 @@ pub struct Located<V: Vector> {
 ///
 /// Two roots within one step are found if the values after three consecutive steps indicate them: the function has
 /// approached 0 by more than half its value in the previous step, and by less than half as much in this step. More
-/// roots within one step are missed; shorter steps find them. A change of sign at a pole or a jump is no event. Several
-/// events in one step are in the order of time.
+/// roots within one step are missed; shorter steps find them. Several events in one step are in the order of time.
+///
+/// If the function is exactly 0 after a step, it is evaluated between the steps before and after it, so roots between
+/// zeros on steps are found. Such a root is an event if the sign changes there; this is known after the next step, so a
+/// root at the last state of a run is not located yet. A change of sign at a pole or a jump is no event, also if the
+/// function has the value 0 at the jump: it must tend to 0 from both sides. The function `sign(x)` has no events;
+/// use `x`.
 ///
 /// An event that is [ending](Event::ending) ends the run, and the state of the run is then the one at the
 /// event. After [`go_on`](crate::Integrator::go_on) the run continues from the end of its last step.
@@ -251,55 +258,33 @@ impl<V: Vector> Events<V> {
             };
             // Angles are unwrapped from the previous value, so that they do not jump.
             let from = history.value;
-            let unwrapped = |value| event.unwrapped(from, value);
             let here = at(view.state);
-            let value = unwrapped(here);
-            let mut function = |theta| Ok(unwrapped(at(&part(theta)?)));
-            let start = Sample {
-                at: zero,
-                value: from,
+            let end = event.unwrapped(from, here);
+            let mut stretch = Stretch {
+                function: |theta| Ok(event.unwrapped(from, at(&part(theta)?))),
+                rounding: |theta| {
+                    let state = part(theta)?;
+                    let change = |moved: &State<V>| event.difference(at(moved) - at(&state));
+                    Ok(rounding(&state, change))
+                },
+                ends: [(zero, from), (one, end)].map(|(at, value)| Sample { at, value }),
+                was: history.side,
+                change: history.change,
+                slope: event.slope,
             };
-            let end = Sample { at: one, value };
-            let (now, was) = (side(value), history.side);
-            // Twice the approach to 0 in the previous step and in this one.
-            let toward_zero = V::Scalar::constant(-2.0 * f64::from(was), 0.0);
-            let (last_approach, approach) =
-                (toward_zero * history.change, toward_zero * (value - from));
-            let is_convex = (approach + approach).lt(last_approach).any();
-            let may_dip = was != 0 && now == was && is_convex && from.abs().lt(last_approach).any();
-            let mut ends = Vec::new();
-            if was != 0 && now == -was {
-                ends.push((start, end));
-            } else if may_dip && let Some(middle) = dip(was, &mut function)? {
-                ends.extend([(start, middle), (middle, end)]);
-            }
-            for (left, right) in ends {
-                let rising = side(right.value) > 0;
-                if event.slope == -i8::from(rising) + i8::from(!rising) {
-                    continue;
-                }
-                let sample = match side(left.value) {
-                    0 => left,
-                    _ => root(left, right, &mut function)?,
-                };
-                // At a pole or a jump, the value near the change of sign is as large as at the ends.
-                let bound = left.value.magnitude().max(right.value.magnitude());
-                let is_end = [left, right]
-                    .iter()
-                    .any(|end| end.at.equals(sample.at).all());
-                let is_root = is_end || 2.0 * sample.value.magnitude() <= bound;
-                if !is_root {
-                    continue;
-                }
-                let state = part(sample.at)?;
+            let (roots, side) = stretch.roots()?;
+            for root in roots {
                 let located = Located {
                     event: number,
-                    rising,
-                    state,
+                    rising: root.rising,
+                    state: part(root.at)?,
                 };
-                found.push((sample.at, located));
+                found.push((root.at, located));
             }
             history.advance(event, here);
+            if let Some(side) = side {
+                history.side = side;
+            }
         }
         // The sort is stable: simultaneous events are in the order of the list of events.
         found.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
@@ -344,6 +329,30 @@ impl<V: Vector> Events<V> {
     }
 }
 
+/// The largest change of a function where the state is changed in its last digits.
+fn rounding<V: Vector>(state: &State<V>, change: impl Fn(&State<V>) -> V::Scalar) -> f64 {
+    /// Units in the last place.
+    const ULPS: f64 = 64.0;
+    /// 2⁶⁴ divided by the golden ratio: the signs of the changes are bits of its multiples.
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mut multiple = 0_u64;
+    let mut moved = state.clone();
+    (0..8).fold(0.0, |largest: f64, _| {
+        let mut factor = || {
+            multiple = multiple.wrapping_add(GOLDEN);
+            let by = ULPS * V::Scalar::epsilon();
+            V::Scalar::constant(1.0, if multiple >> 63 == 0 { by } else { -by })
+        };
+        moved.t = factor() * state.t;
+        for (to, from) in [(&mut moved.q, &state.q), (&mut moved.p, &state.p)] {
+            for index in 0..to.len() {
+                *to.component_mut(index) = factor() * from.component(index);
+            }
+        }
+        largest.max(change(&moved).magnitude())
+    })
+}
+
 /// Adds the fraction `part` of the difference between an end and the point reached.
 fn correct<V: Vector>(to: &mut V, part: V::Scalar, end: &V, reached: &V) {
     for index in 0..to.len() {
@@ -370,15 +379,19 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         // A run that ended between two steps may have been restarted at that state, with another step.
         let is_there = |end: &State<S::Vector>| end.t.equals(view.between.start()).all();
         if let Some(end) = self.end.take().filter(is_there) {
-            self.pending.clear();
-            let last = self.located.last().map(|located| located.event);
+            // Roots of other events at this state are yet to come; later ones are located again.
+            self.pending
+                .retain(|located| located.state.t.equals(end.t).all());
             for (number, (event, history)) in
                 self.events.iter().zip(&mut self.histories).enumerate()
             {
+                let mut roots = self.located.last().into_iter().chain(&self.pending);
                 let value = Self::value::<S>(event, history.observable, view.prepared, &end);
                 (history.value, history.change) = (event.difference(value), T::zero());
-                if last != Some(number) {
-                    history.side = side(history.value);
+                history.side = side(history.value);
+                if let Some(root) = roots.find(|located| located.event == number) {
+                    history.value = T::zero();
+                    history.side = if root.rising { 1 } else { -1 };
                 }
             }
             before = end;

@@ -240,6 +240,9 @@ fn solve_momentum<T: Real, D: Dynamics<T>>(
     best.map(|root| polished(root, &mut at)).ok_or(closest)
 }
 
+/// The largest value at a zero, relative to the values around it.
+const SMALL: f64 = 1.0 / 1024.0;
+
 /// The zero of `f` nearest to `x`, by its change of sign; the value at `x` if none is found.
 fn crossing<T: Real>(x: T, mut f: impl FnMut(T) -> T) -> Result<T, T> {
     let start = f(x);
@@ -265,8 +268,8 @@ fn crossing<T: Real>(x: T, mut f: impl FnMut(T) -> T) -> Result<T, T> {
             }
             if is_negative(value) != is_negative(before) {
                 let (zero, left) = narrowed(from, before, at, value, &mut f);
-                // At a pole the values grow as the bracket shrinks.
-                if left <= before.magnitude().max(value.magnitude()) {
+                // At a pole the values grow as the bracket shrinks, at a jump they stay.
+                if left <= SMALL * before.magnitude().max(value.magnitude()) {
                     return Ok(zero);
                 }
             }

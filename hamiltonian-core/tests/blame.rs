@@ -3,6 +3,7 @@
 //! Input: random pieces, some of them sweeps, whose terms have walls, and schemes of splittings. The flows themselves
 //! note which of them left its domain first, so nothing is replayed. Control: flows that are replayed in the wrong order.
 
+use crate::common::random::Random;
 use crate::common::systems::{Formula, Hand, Ready, scalar};
 use core::cell::Cell;
 use hamiltonian_core::prelude::*;
@@ -12,23 +13,6 @@ use hamiltonian_core::schemes::{Aba864, Adjoint, CheapProcessed4, Processed4, Ru
 use hamiltonian_core::{Error, Exact, Real, Scheme, Split, Vector};
 
 type Plane<T> = Point<SVector<T, 2>>;
-
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-    /// Between `low` and `high`.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// Adds `rate`·c times one component to another: component 0 is x, 1 is y, 2 is p_x, 3 is p_y. Beyond the wall the
 /// result is NaN.

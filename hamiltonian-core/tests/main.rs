@@ -21,6 +21,7 @@ mod processed;
 #[cfg(feature = "progress")]
 mod progress;
 mod reach;
+mod roots;
 mod run;
 mod schemes;
 mod shard;

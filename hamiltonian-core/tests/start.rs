@@ -45,6 +45,11 @@ impl Formula<2> for Schwarzschild {
             kind: ObservableKind::Event,
             depends_on_time: false,
         },
+        Observable {
+            name: "jump",
+            kind: ObservableKind::Event,
+            depends_on_time: false,
+        },
     ];
     fn energy<T: Real>(&self, _: T, [r, theta]: &[T; 2], [p_r, p_theta]: &[T; 2]) -> T {
         let (two, half) = (number::<T>(2.0), number::<T>(0.5));
@@ -62,7 +67,8 @@ impl Formula<2> for Schwarzschild {
             // Depends on the momentum that is solved for.
             1 => q[0] * number(0.2) - p[1],
             2 => q[0] * q[0] + T::one(),
-            _ => T::one() / (q[0] - number(3.1)) + number(40.0),
+            3 => T::one() / (q[0] - number(3.1)) + number(40.0),
+            _ => number(if q[0].to_f64() < 10.7 { -0.01 } else { 1.0 }),
         }
     }
 }
@@ -331,7 +337,7 @@ fn what_is_not_there_is_an_error() {
     );
     assert_eq!(
         coordinate_on_event(&system, &start, 9, 0),
-        Err(Error::Observable { index: 9, count: 4 })
+        Err(Error::Observable { index: 9, count: 5 })
     );
     let broken = State::new([f64::NAN, 1.0], [0.0, 0.0]);
     assert!(matches!(
@@ -352,6 +358,11 @@ fn what_is_not_there_is_an_error() {
     let near = State::new([3.2, 1.0], [0.0, 0.0]);
     let found = coordinate_on_event(&system, &near, 3, 0).unwrap();
     assert!((found.q[0] - 3.075).abs() < 1e-12, "{}", found.q[0]);
+    // Neither is a jump.
+    assert!(matches!(
+        coordinate_on_event(&system, &start, 4, 0),
+        Err(Error::NoCrossing { event: "jump", .. })
+    ));
     // No momentum where the event is.
     let section = Section {
         event: 0,

@@ -7,6 +7,7 @@ pub mod chain;
 pub mod four;
 pub mod pieces;
 pub mod python;
+pub mod random;
 pub mod systems;
 pub mod walk;
 

@@ -178,3 +178,67 @@ fn events_before_a_failure_are_found_once() {
         }
     });
 }
+
+hamiltonian! {
+    /// Free motion past marks, many of them at the ends of steps.
+    pub struct Passing { a = 0.25, b = 0.5, c = 0.75, k = 0.0 }
+    H(q; p) = p^2/2 + k*q;
+    event marks = (q - a)*(q - b)*(q - c);
+    event pole = (q - a)/(q - b);
+    event turn = q*(q - c)
+}
+
+#[test]
+fn zeros_on_steps_are_found_in_lanes() {
+    // With p = ±1 and steps of 1/4, every q is exact. In units of a step, the marks of members lie on steps or between.
+    let passing = |member: Member| {
+        let at = |k: usize| 0.25 * ((member.index * k) % 13) as f64 / 2.0;
+        let system = Passing {
+            a: at(1),
+            b: at(3),
+            c: at(5) + 0.01,
+            ..Default::default()
+        };
+        let p = if member.index % 2 == 0 { 1.0 } else { -1.0 };
+        (system, State::new([if p > 0.0 { 0.0 } else { 2.0 }], [p]))
+    };
+    let sought = |member: Member| {
+        let marks = Event::named("marks");
+        Events::new([
+            if member.index % 5 == 0 {
+                marks.rising()
+            } else {
+                marks
+            },
+            Event::named("pole"),
+            Event::named("turn"),
+        ])
+    };
+    at_each_level(|cpu| {
+        let mut swarm = Ensemble::new(COUNT, passing, StormerVerlet::default(), 0.25)
+            .expect("there are members")
+            .reproducible()
+            .observe(sought);
+        swarm.advance(20);
+        let mut found = 0;
+        for (index, events) in swarm.observers().enumerate() {
+            let member = Member::new(index, 0);
+            let (system, start) = passing(member);
+            let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.25)
+                .expect("a good start")
+                .observe(sought(member));
+            run.advance(20).expect("finite");
+            let place = format!("{cpu:?}, member {index}");
+            assert_eq!(events.located(), run.observer().located(), "{place}");
+            // The pole is no root.
+            let pole = events.states("pole");
+            assert!(
+                pole.into_iter()
+                    .all(|state| (state.q[0] - system.a).abs() < 1e-14),
+                "{place}"
+            );
+            found += events.located().len();
+        }
+        assert!(found > 600, "{found}");
+    });
+}

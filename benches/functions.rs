@@ -135,6 +135,8 @@ functions! {
     hypot(x) in -5.0 .. 5.0: x.hypot(T::one() - x), std f64::hypot(x, 1.0 - x);
     erf(x) in -3.0 .. 3.0: x.erf();
     erfc(x) in -3.0 .. 3.0: x.erfc();
+    floor(x) in -9.0 .. 9.0: Real::floor(x);
+    round(x) in -9.0 .. 9.0: Real::round(x);
 }
 
 /// A level's way through the arguments.

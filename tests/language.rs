@@ -305,3 +305,45 @@ fn what_does_not_couple_is_not_multiplied_out() {
     let mut run = Integrator::new(&h, StormerVerlet::default(), at, 1e-3).unwrap();
     run.advance(1).unwrap();
 }
+
+hamiltonian! {
+    /// A particle in a periodic box, with remainders of each kind.
+    pub struct Boxed { L = 2.0 }
+    let place = x % L;
+    H(x; p) = p^2/2 + (place*(L - place))^2 + (L^2/4 - remainder(x, L)^2)^2/8;
+    monitor cell = floor(x/L);
+    monitor nearest = round(x/L)
+}
+
+/// Values, slopes and a run across cells; names of one's own hide the functions.
+#[test]
+fn whole_numbers_and_remainders() {
+    let boxed = Boxed::default();
+    for (x, place, image, cell, nearest) in [
+        (-0.5, 1.5, -0.5, -1.0, -0.0),
+        (3.5, 1.5, -0.5, 1.0, 2.0),
+        (0.75, 0.75, 0.75, 0.0, 0.0),
+        (-3.25, 0.75, 0.75, -2.0, -2.0),
+    ] {
+        let at = State::new([x], [0.0]);
+        let (bump, dip) = (place * (2.0 - place), 1.0 - image * image);
+        assert_eq!(boxed.energy(&at), bump * bump + dip * dip / 8.0);
+        let slope = 2.0 * bump * (2.0 - 2.0 * place) - dip * image / 2.0;
+        assert_eq!(boxed.gradient(&at).q[0], slope);
+        assert_eq!((boxed.cell(&at), boxed.nearest(&at)), (cell, nearest));
+        assert_eq!(boxed.cell_gradient(&at).q[0], 0.0);
+    }
+    // H and its slopes are continuous across the borders of cells, so a run over several of them preserves H.
+    let start = State::new([0.25], [1.5]);
+    let mut run = Integrator::new(&boxed, StormerVerlet::default(), start, 1e-3)
+        .unwrap()
+        .observe(EnergyDrift::new());
+    run.advance(20_000).unwrap();
+    assert!(run.state().q[0] > 4.0 && run.observer().max_relative() < 1e-5);
+    let (floor, remainder) = (2.0, 3.0);
+    let named = hamiltonian! {
+        let round(x) = x + floor;
+        H = p^2/2 + round(q)*remainder
+    };
+    assert_eq!(named.energy(&State::new([1.0], [0.0])), 9.0);
+}

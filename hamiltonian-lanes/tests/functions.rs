@@ -10,3 +10,4 @@ mod points;
 mod shape;
 mod special;
 mod subnormal;
+mod whole;

@@ -177,8 +177,14 @@ impl Real for Pack {
     fn pow(self, exponent: Self) -> Self {
         self.zip(exponent, Real::pow)
     }
+    fn modulo(self, other: Self) -> Self {
+        self.zip(other, Real::modulo)
+    }
+    fn remainder(self, other: Self) -> Self {
+        self.zip(other, Real::remainder)
+    }
     by_lane!(sqrt cbrt abs sign sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh
-        exp exp_m1 ln ln_1p erf erfc);
+        exp exp_m1 ln ln_1p erf erfc floor round);
 }
 
 /// Everything that decides lane by lane, in one value each.
@@ -189,6 +195,8 @@ fn decisions<T: Real>(x: T, y: T) -> Vec<T> {
         x.pow(y),
         x.hypot(y),
         x.atan2(y),
+        x.modulo(y) - x.remainder(y),
+        x.floor() + x.round(),
         x.sqrt(),
         x.tanh(),
         x.abs() * x.sign(),

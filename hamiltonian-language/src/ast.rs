@@ -7,7 +7,7 @@
 //!   that every pass over expressions is a forward loop and depth costs no stack. A
 //!   [`ExprKind::Bind`] stands after the bounds of its loop variable and before the body of the sum.
 //! - The nodes of one [`Expression`] are contiguous.
-//! - `%` occurs only as [`ExprKind::Index::modulo`]; `ds` was taken out of `dt = g*ds`.
+//! - The `%` of an index is [`ExprKind::Index::modulo`], that of numbers [`BinaryOp::Rem`]; `ds` was taken out of `dt = g*ds`.
 //! - No identifier is raw, `_`, or holds a `·`.
 //!
 //! Decisions where the description of the language leaves a choice:

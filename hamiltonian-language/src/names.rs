@@ -58,7 +58,9 @@ const OTHERS: [Entry; 5] = {
 
 /// All functions of the language: the operation table, and those that are not elementary.
 pub fn functions() -> impl Iterator<Item = Entry> {
-    let elementary = Op::all().iter().map(|op| Entry {
+    // A remainder ≥ 0 is written `x % y`.
+    let called = Op::all().iter().filter(|op| **op != Op::Modulo);
+    let elementary = called.map(|op| Entry {
         function: Builtin::Elementary(*op),
         name: op.row().name,
         arguments: op.row().arguments,
@@ -94,6 +96,9 @@ pub const STATEMENTS: &[&str] = &[
 /// Words inside expressions and statements that cannot name anything either.
 const RESERVED: &[&str] = &["ds", "sum", "if", "else", "in", "on"];
 
+/// Functions that a name of the definition hides: definitions used these names before they were functions.
+const HIDDEN: &[&str] = &["floor", "round", "remainder"];
+
 /// Names of functions and constants in other languages.
 const SYNONYMS: &[(&str, &str)] = &[
     ("log", "ln"),
@@ -117,6 +122,11 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("th", "tanh"),
     ("fabs", "abs"),
     ("sgn", "sign"),
+    ("mod", "x % y"),
+    ("fmod", "x % y"),
+    ("rem", "remainder"),
+    ("rint", "round"),
+    ("ceil", "-floor(-x)"),
     ("signum", "sign"),
     ("power", "pow"),
     ("powi", "pow"),
@@ -156,11 +166,16 @@ pub fn function(name: &str) -> Option<Entry> {
     functions().find(|entry| entry.name == name)
 }
 
+/// Returns true if a declared or captured name hides the function of that name.
+pub fn is_hidden(name: &str) -> bool {
+    HIDDEN.contains(&name)
+}
+
 /// The meaning of a reserved word.
 pub fn meaning(name: &str) -> Option<&'static str> {
     if name == "H" {
         Some("the Hamiltonian")
-    } else if function(name).is_some() {
+    } else if function(name).is_some() && !is_hidden(name) {
         Some("a function of the language")
     } else if CONSTANTS.contains(&name) {
         Some("a constant of the language")

@@ -360,13 +360,6 @@ impl<'a> Parser<'a> {
         }
         let first = self.ast.nodes.len() as u32;
         let root = self.expression()?;
-        for id in std::mem::take(&mut self.remainders) {
-            self.report.error(
-                self.ast.nodes[id.0 as usize].at,
-                "`%` is allowed only in an index",
-                "write `q[(i + 1) % N]` to go round; elsewhere there is no remainder",
-            );
-        }
         Ok(Expression {
             nodes: first..self.ast.nodes.len() as u32,
             root,

@@ -23,7 +23,8 @@ const FEW: usize = 8;
 /// Nested, `Dual<Dual<T>>` carries two directions and the mixed second derivative in `eps.eps`.
 ///
 /// # Conventions where a derivative does not exist
-/// - `abs′ = sign`, so 0 at 0; `sign′ = 0` everywhere.
+/// - `abs′ = sign`, so 0 at 0; `sign′ = floor′ = round′ = 0` everywhere.
+/// - `x.modulo(y)` and `x.remainder(y)` are x − n·y: their derivatives are 1 and −n, at jumps too.
 /// - `sqrt′(0) = cbrt′(0) = +∞`, `asin′(±1) = +∞`, `acos′(±1) = −∞`, `acosh′(1) = +∞`,
 ///   `atanh′(±1) = ln′(0) = ln_1p′(−1) = +∞`.
 /// - `hypot` and `atan2` have no derivative at the origin: NaN.
@@ -100,6 +101,16 @@ impl<T: Real> Dual<T> {
         Self {
             re,
             eps: slope.mul_absorbing(self.eps),
+        }
+    }
+
+    /// The value `re = self − n·other` for a whole number n, with its derivative.
+    #[inline(always)]
+    fn less_multiples(self, re: T, other: Self) -> Self {
+        let n = ((self.re - re) / other.re).round();
+        Self {
+            re,
+            eps: self.eps - n.mul_absorbing(other.eps),
         }
     }
 }
@@ -365,6 +376,14 @@ impl<T: Real> Real for Dual<T> {
         Self::fixed(self.re.sign())
     }
     #[inline(always)]
+    fn floor(self) -> Self {
+        Self::fixed(self.re.floor())
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        Self::fixed(self.re.round())
+    }
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
@@ -491,6 +510,16 @@ impl<T: Real> Real for Dual<T> {
                 by_base + slope.mul_absorbing(exponent.eps),
             ),
         }
+    }
+    #[inline(always)]
+    fn modulo(self, other: Self) -> Self {
+        let re = self.re.modulo(other.re);
+        self.less_multiples(re, other)
+    }
+    #[inline(always)]
+    fn remainder(self, other: Self) -> Self {
+        let re = self.re.remainder(other.re);
+        self.less_multiples(re, other)
     }
     #[inline(always)]
     fn universal_anomaly(self, b: Self, c: Self) -> Self {

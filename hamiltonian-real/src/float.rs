@@ -177,7 +177,13 @@ float! { f32 {
     // An f64 has more than twice the digits of an f32 and two, so rounding the root twice equals
     // rounding it once.
     rounded! { sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp exp_m1 ln ln_1p
-        cbrt erf erfc; pow hypot atan2 }
+        cbrt erf erfc floor round; pow hypot atan2 remainder }
+    #[inline(always)]
+    fn modulo(self, other: Self) -> Self {
+        let rest = <f64 as Real>::modulo(f64::from(self), f64::from(other)) as f32;
+        // A number below |other| may round to it.
+        if rest >= other.abs() && other.is_finite() { 0.0 } else { rest }
+    }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = <f64 as Real>::sin_cos(f64::from(self));

@@ -73,7 +73,14 @@ fn balls_hold_the_exact_value() {
             2 => (format!("power {n}"), a.powi(n), power(u, n)),
             _ => match TABLE[op as usize].arguments.len() {
                 1 => (format!("{op:?}"), Ball::call(op, &[a]), op.eval(&[u])),
-                2 => (format!("{op:?}"), Ball::call(op, &[a, b]), op.eval(&[u, v])),
+                2 => {
+                    // Remainders of `f64` are exact, those of double-doubles lose the digits of large quotients.
+                    let exact = match op {
+                        Op::Modulo | Op::Remainder => D::from(op.eval(&[x, y])),
+                        _ => op.eval(&[u, v]),
+                    };
+                    (format!("{op:?}"), Ball::call(op, &[a, b]), exact)
+                }
                 _ => continue,
             },
         };

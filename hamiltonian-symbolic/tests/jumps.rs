@@ -29,11 +29,19 @@ fn nothing_is_proven_across_a_jump() {
         "if t < 1 { 1 } else { 2 }",
         "if x < 0 && y < 0 { 1 } else { 2 }",
         "atan2(x, u) - t",
+        "floor(x)",
+        "round(3*u)",
+        "x % 2 - x",
+        "remainder(x, 3) - x",
+        "floor(t)",
     ] {
         jumps(&mut oscillator, invariant);
     }
     accepted(&mut oscillator, "u^2 + if x < 0 { x^2 } else { x*abs(x) }");
     accepted(&mut oscillator, "max(x^2 + u^2, y^2 + v^2)");
+    accepted(&mut oscillator, "floor(x^2 + u^2)*(x*v - y*u) % 3");
+    accepted(&mut oscillator, "(x % 1 + floor(x))^2 + u^2");
+    accepted(&mut oscillator, "remainder(x*v - y*u, u^2 + x^2)");
     // At q = k the first term is 0, and the pole of the second may be there.
     let mut free = system("q; p", "", "k", "p^2/2");
     jumps(

@@ -4,1282 +4,1282 @@ use hamiltonian::hamiltonian;
 
 hamiltonian! {
     pub struct E0 { a, b, c }
-    H(x, y; px, py; t) = ((if ((if (atan2((-1), (1/3)) <= t) { a } else { (1/2) }) <= b) { atan2(((t - (py^2))*max((-7/4), (1/2))), a) } else { px }) + ln_1p((((t + a)^2) + 2)))
+    H(x, y; px, py; t) = ((if ((if (max((-1), (1/3)) <= t) { a } else { (1/2) }) <= b) { hypot(((t - (py^2))*max((-7/4), (1/2))), a) } else { px }) + round(((a*y) + (3/10))))
 }
 
 hamiltonian! {
     pub struct E1 { a, b, c }
-    H(x, y; px, py; t) = (((if (min((y - (1/10)), 1) < y) { ((-((if (asinh((py - b)) <= b) { 1 } else { py })*x))/(b - atanh(((pi*y)/(1 + ((pi*y)^2)))))) } else { cosh(atan(((asinh((py - b)) + a) + (max(px, c) - tanh(tanh((1/2))))))) })*(-(tanh(tanh((1/2))) + t)))*((py - (asinh((py - b)) + a))/x))
+    H(x, y; px, py; t) = (((if (min((y - (1/10)), 1) < y) || ((min(a, b) + (1/2)) < c) { ((-((if (ln_1p(abs(atan2(b, y))) <= b) { (1/10) } else { min((y - (1/10)), 1) })*min((y - (1/10)), 1)))/(if (c <= pi) && (ln(abs(a)) < px) { (b*c) } else { (if ((a + (b - px)) < t) || (asin(((y*py)/(1 + ((y*py)^2)))) <= (1/10)) { a } else { (1/2) }) })) } else { (((cos(((py - (1/3)) - a)) + (2*pi)) + c)^6) })*((-t) - c))*cosh(tanh(hypot((981/100), (1/3)))))
 }
 
 hamiltonian! {
     pub struct E2 { a, b, c }
-    H(x, y; px, py; t) = (((if !((px - 5) == (1/2)) { (px - 5) } else { (-(ln(cosh(atan(px)))*c)) })*((x/abs(b))^2))*(t*(px*(sinh(atan((-7/4)))*exp_m1(atan((a + b)))))))
+    H(x, y; px, py; t) = ((if !((x*x) == px) { ((2 + x)/((2/((((px + acosh((((x^2) + 1) + 1))) - tan(x))^2) + (a^2)))*(if (((b*a) + pi) == c) || (x <= c) { (2^2) } else { (-7/4) }))) } else { ((atanh((asin((((x*t) + (if ((-x) < a) { (a - py) } else { (5 + 2) }))/(1 + (((x*t) + (if ((-x) < a) { (a - py) } else { (5 + 2) }))^2))))/(1 + (asin((((x*t) + (if ((-x) < a) { (a - py) } else { (5 + 2) }))/(1 + (((x*t) + (if ((-x) < a) { (a - py) } else { (5 + 2) }))^2))))^2))))^2)*(acos(cos(((exp((y*((t/((y^2) + (px^2))) + (y - px))))^(-7/5)) + (sinh(cos(((c + x)^4)))/c))))*(-remainder(((-7/4) + (3/10)), t)))) }) + a)
 }
 
 hamiltonian! {
     pub struct E3 { a, b, c }
-    H(x, y; px, py; t) = ((abs(asin((tan(erf(((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + ((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + px))))/(1 + (tan(erf(((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + ((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + px))))^2)))))^(2/3)) + asin(cos((((exp(atan(cosh(cos((x*y)))))^(-7/5)) - ((x*y) + (abs((x + y)) + b))) + x))))
+    H(x, y; px, py; t) = ((((1/3)*((((1/3) - b) - max((1/2), tanh(((1/2) - (-7/4))))) + 3))*(((((py^2) + (1/4))^(1/3)) - (px/(1/2))) - cosh(asin((min(c, pi)/(1 + (min(c, pi)^2))))))) + tan(((exp(cos(a)) - atanh((t/(1 + (t^2)))))*(max(y, atan((exp(cos(a))^-3))) + (((max(y, atan((exp(cos(a))^-3)))^2) + (1/4))^(-1/2))))))
 }
 
 hamiltonian! {
     pub struct E4 { a, b, c }
-    H(x, y; px, py; t) = atan2((atan2((((c*px)/(px*(c*py)))*b), pi) + (x - py)), py)
+    H(x, y; px, py; t) = ((c*y) - (exp(atan((5/cosh((y*py)))))^(1/2)))
 }
 
 hamiltonian! {
     pub struct E5 { a, b, c }
-    H(x, y; px, py; t) = (((max(c, (py*a)) + (abs((if (y <= py) && (((pi*y) + c) < a) { (if (pow(abs((-7/4)), tanh((y - (-7/4)))) == (-7/4)) { (if (py < 1) || ((((a^2) + (pi^2))^(5/2)) <= pi) { py } else { x }) } else { min(py, (px*t)) }) } else { y }))^(1/3)))*sinh(((((1/10) + y) - y)/(cos(cbrt(py))*a))))^2)
+    H(x, y; px, py; t) = (((abs((cos((asin(((y^4)/(1 + ((y^4)^2)))) - (((t*py) + (3/10)) % c)))*((abs(sqrt(((max((3/10), acos(tanh(x)))^2) + (1/4))))^(-1/2))*(py*px))))^(3/10))/3) + tanh(a))
 }
 
 hamiltonian! {
     pub struct E6 { a, b, c }
-    H(x, y; px, py; t) = (((if ((px/exp(tanh(px))) == px) { (px*(py*b)) } else { c })*asin(tanh((a - ((-1) - ((((abs(c)^(3/10))^2) + 1)^-1)))))) + (hypot(t, (981/100)) + min(hypot(((((t + y)*sin(pi))*((((x - pi)/exp(atan((pi*(((y - a) + (1 + t))*(y/((b^2) + 1))))))) - ((abs(x)^(-7/5))*5))^2))^6), 1), (((exp(((-b)*(-7/4)))^7)*cbrt((((c^2) + (b^2))^-2)))/t))))
+    H(x, y; px, py; t) = ((((px + px)*py) - min(hypot(((px + px)*py), px), (-1))) + ((((x/x) + (if (ln_1p(exp(atan(ln(abs(a))))) < atan(ln(abs(a)))) { y } else { 1 }))*exp_m1(atan(acos(((1 + atan(ln(abs(a))))/(1 + ((1 + atan(ln(abs(a))))^2))))))) - atan2(y, (x*t))))
 }
 
 hamiltonian! {
     pub struct E7 { a, b, c }
-    H(x, y; px, py; t) = (if (px < c) || (((pi^2)*((1/3) + 3)) <= c) { ((5*x)*((1/3) + 3)) } else { ((5*x) - 5) })
+    H(x, y; px, py; t) = (((((1/10) + y) - ((abs(y)*abs(y))*a))/exp((pow(exp(py), tanh((px*y)))^3)))/((y^2) + 1))
 }
 
 hamiltonian! {
     pub struct E8 { a, b, c }
-    H(x, y; px, py; t) = sinh(tanh((((if (((if (((-7/4) - (x - a)) <= py) { c } else { 5 })^2) <= x) && ((a - (1/3)) == t) { ((-exp((1 - ((x*pi)*a))))^4) } else { ((((py + py)^2) + 1)^(-3/2)) })*x) + ln_1p((((if ((a/exp(cos(x))) <= 3) { 2 } else { ((1/10) + c) }) + (t*px))*(a*py))))))
+    H(x, y; px, py; t) = ln((((exp(atan(((((-1) - (-1)) + a) - (((t*cosh((acosh((((t^2) + (c^2)) + 1)) + py))) + ((if ((a + c) <= t) || (b < px) { (py*a) } else { 3 })*t)) + (((t + py)*acos((t/(1 + (t^2)))))*(y + (((((((pi*(pi*py))^2) + (1/4))^(3/2))^2) + (1/4))^(-4/3))))))))^(-7/5))^2) + (1/4)))
 }
 
 hamiltonian! {
     pub struct E9 { a, b, c }
-    H(x, y; px, py; t) = (((((b*(981/100)) + (if (px <= px) { px } else { erf(py) })) - ((if !(((1/2)^-2) < b) { c } else { px })*(1/2))) + erfc((b - ((981/100) + b)))) + (((-x) - cos(1)) - ((3 - pi) + c)))
+    H(x, y; px, py; t) = (((b/(cosh(erfc(t))^-2))*((a - px)/abs(((((a^2) + 1)^(-4/3)) - py)))) + ((((max((-1), t)^4) - (sinh(cos(exp_m1(tanh(b)))) + ((1/3) + ((x + b)*cosh(((abs((((x + b)*(1/3))*b))^-3)^5))))))*b) - (if ((981/100) < y) && (sign(x) <= x) { a } else { x })))
 }
 
 hamiltonian! {
     pub struct E10 { a, b, c }
-    H(x, y; px, py; t) = ((sinh(max(x, (ln(abs(b)) - c)))^5) + (exp((if ((py*(sinh(max(x, (ln(abs(b)) - c)))^5)) < x) && (b <= t) { sinh(max(x, (ln(abs(b)) - c))) } else { pi }))^(-3/2)))
+    H(x, y; px, py; t) = ((if (erfc(x) <= px) && ((b + b) < t) { x } else { px }) + sign((atan2(tanh(c), 2) - floor((3 + (3/10))))))
 }
 
 hamiltonian! {
     pub struct E11 { a, b, c }
-    H(x, y; px, py; t) = (((if ((a*5) <= a) { sqrt((x^6)) } else { (px + a) }) - (x + b))^2)
+    H(x, y; px, py; t) = ((2*(-7/4))*(((y/(((t^2) + (py^2))^-3)) + acos((a/(1 + (a^2))))) + 2))
 }
 
 hamiltonian! {
     pub struct E12 { a, b, c }
-    H(x, y; px, py; t) = ((((b*py)/(((((-2) - a) - px)^2) + 1))/((atan(c)^2) + 1)) + sqrt((if (y <= y) || (t <= t) { ((pow(((2^2) + 2), sin((if ((2*(x^-1)) < c) || (erf(b) < t) { ((((if (t < x) { b } else { y })^2) + (1/4))^(5/2)) } else { y }))) + cosh(cos((a/t))))^2) } else { atanh(cos(x)) })))
+    H(x, y; px, py; t) = (((cosh((abs((((1/3) - (px*px))*(px - remainder((px + (3/10)), py))))^(3/2)))^(-4/3))*((t - py)*pi)) + (acos(cos((-(a*(((if ((((tanh(a)^2) + (tanh(a)^2))^(3/10)) <= x) && (x < y) { (b^5) } else { x })*y) + (pi + 1))))))^-1))
 }
 
 hamiltonian! {
     pub struct E13 { a, b, c }
-    H(x, y; px, py; t) = (exp((asinh((a + (2 + acos(sin(px)))))*(if ((-y) < c) && ((t + (pi/cosh(cos(b)))) < t) { asinh((a + (2 + acos(sin(px))))) } else { (acos(sin(px))^5) })))*acosh(((((c/(if ((abs((1/((b^2) + (1/4))))^(-7/5)) < c) { a } else { (1/10) }))^2) + (1^2)) + 1)))
+    H(x, y; px, py; t) = ((-((((((((x + (if !(((if (((-7/4) - (x - a)) <= py) { c } else { 5 })^2) <= x) { 5 } else { x }))*(981/100))*x)^2) + (a^2))^(5/2)) + asinh(a)) + ((if (((-7/4) - (x - a)) <= py) { c } else { 5 })^2)))*t)
 }
 
 hamiltonian! {
     pub struct E14 { a, b, c }
-    H(x, y; px, py; t) = ((if (((exp(c)^(-3/2)) + b) < a) && (py < (y - px)) { ((-(t + atan((y - px))))^2) } else { (-1) })*((py*(if ((atan2(c, x)*(-7/4)) < a) || ((if (asinh(y) < py) { y } else { px }) < b) { y } else { (sign((px/px)) - c) })) - (erfc((((sin((1/3)) + exp_m1(atan((exp(tanh(a))^(3/2))))) + c) - 2))*y)))
+    H(x, y; px, py; t) = exp_m1(((((((-px)^7)*t)*sign((1/10)))/((pow((((px - acosh((((pi^2) + (((-px)^7)^2)) + 1)))^2) + 2), ((px + y)^5))^2) + (pi^2)))*(((((-px)^7)*t)*sign((1/10)))*sin(((-1)*3)))))
 }
 
 hamiltonian! {
     pub struct E15 { a, b, c }
-    H(x, y; px, py; t) = ((((t/c)*py)*(erfc(py) - (((1/2)/(py*(t + (3*a))))^6))) + (-((((y*1)/(((exp(x)^(-7/5))*x) + y)) + pi) + (x + x))))
+    H(x, y; px, py; t) = ((if ((c/((t^2) + 1)) < b) { a } else { ((-7/4)*py) }) + (-(asinh(((1/(981/100)) + ((remainder((x + (3/10)), ((1^2) + 2))/a) + (((y + pi)*atan2(x, 3))*(x + (3/10)))))) + round((t + (3/10))))))
 }
 
 hamiltonian! {
     pub struct E16 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p((((sinh(cos(((sqrt((((px^5)^2) + (px^2))) - pow(((py^2) + 1), tanh(py))) + c)))^2) + (1/4))^(3/2)))*max(x, (sin(ln_1p(exp(x)))^-2)))
+    H(x, y; px, py; t) = ((b/((tan(x)^2) + (px^2)))*(t/(-c)))
 }
 
 hamiltonian! {
     pub struct E17 { a, b, c }
-    H(x, y; px, py; t) = asinh(((1/3)*(py + (((((1/3) + y) + (1/2))*x) + y))))
+    H(x, y; px, py; t) = (-((a + (-(atan2(px, 2)*((x - b)*(a/((t^2) + (y^2)))))))*(((((if !((c/c) <= x) { y } else { ((1/3) - (1/3)) })^2) + (a^2))^(-3/2)) - ((py*((((if !((c/c) <= x) { y } else { ((1/3) - (1/3)) })^2) + (a^2))^(-3/2)))^2))))
 }
 
 hamiltonian! {
     pub struct E18 { a, b, c }
-    H(x, y; px, py; t) = ((ln_1p(((a^2) + 1))*(py - t)) + (((abs((if !(y < x) { y } else { y }))^(-1/2)) + b) - (t + x)))
+    H(x, y; px, py; t) = (erfc(((px - (-(-1)))*t)) + tanh(((exp(sin((-(((min(x, ((-((a + pi) + y)) + ((b - x)/((pi^2) + 1))))^2) + 2)^(2/3))))) + (2 + 3)) + erfc(ln(abs((((((y*t) - (981/100))*(if (y < x) || (t <= x) { (if (((3 + (3/10)) % (((pi^2) + 1)^(5/2))) < x) || ((c*(t + x)) == b) { (if ((pi + cosh((3/10))) < x) || (sinh(pow(((x^2) + 2), b)) < y) { x } else { c }) } else { hypot(3, 1) }) } else { (t*(if (tan(x) <= a) && ((cosh(atan(t))^(-1/2)) <= y) { floor((cos((t/c)) + (3/10))) } else { atan(x) })) }))*x) + tanh(((1/3)*((y*y)*x))))))))))
 }
 
 hamiltonian! {
     pub struct E19 { a, b, c }
-    H(x, y; px, py; t) = cosh(atan(((if (t <= b) { acos((x/(1 + (x^2)))) } else { ((y*c) + py) })*hypot((b/((cosh(1)^(1/2))^3)), ((((-max(t, (b/((cosh(1)^(1/2))^3))))^2) + 1)^(-1/2))))))
+    H(x, y; px, py; t) = floor(((((((abs((((-t)*acos((t/(1 + (t^2))))) + (-(if (c <= t) && (((-t)*acos((t/(1 + (t^2))))) < a) { y } else { (1/10) }))))^-2)^2) + 2)^(-3/2)) - hypot(px, (sqrt((((pow(exp(x), pi)*py)^2) + 2))/exp(((1/2) + x))))) + (3/10)))
 }
 
 hamiltonian! {
     pub struct E20 { a, b, c }
-    H(x, y; px, py; t) = (ln(abs(exp_m1(((if !(px <= y) { (1/3) } else { (if !((b*sin(1)) <= px) { a } else { c }) }) - (b - x))))) + ((((((2 + (1/3))*py)/x)^2) + 1)^(-3/2)))
+    H(x, y; px, py; t) = (((px/a) + y) + ((max(b, (x^6)) + (px + 1))^4))
 }
 
 hamiltonian! {
     pub struct E21 { a, b, c }
-    H(x, y; px, py; t) = ((((if (py == py) || (((((b^4)^2) + (1/4))^-1) <= px) { (-(-(pow(((b^2) + (a^2)), cos(c))*t))) } else { (t/exp(((((b^2) + (a^2))*(px^4))*t))) })*(py + (-erf(tan(((c*3)^5))))))^-2) + tan(sin(((-((-1)*(b + tanh(((b - (1/3))*b)))))^2))))
+    H(x, y; px, py; t) = ((if (((-py) + c) < c) && ((t + py) <= a) { (cosh(atan((pow(((py^2) + 2), cos(px)) + py)))^(-3/2)) } else { (remainder((t + (3/10)), (((1/10)^2) + 2))*px) }) + (((y + (y*pi))*(1/2)) - (cosh(atan(((if (((exp(c)^(-3/2)) + b) < a) && (y <= b) { ((y + (y*pi))^3) } else { t })*((((-1)^2) + 1)^(-1/2)))))^(1/2))))
 }
 
 hamiltonian! {
     pub struct E22 { a, b, c }
-    H(x, y; px, py; t) = (px*((acosh((((((y + px)/abs(t))^2) + (px^2)) + 1)) - a)*(acosh((((((y + px)/abs(t))^2) + (px^2)) + 1)) - a)))
+    H(x, y; px, py; t) = ((((t - (if ((py*(py^7)) == (1/3)) { y } else { py })) - (3*atanh((py/(1 + (py^2))))))/((((1/3) + (py/(1 + (py^2))))^2) + 2))*(((-7/4) + y)*(1/3)))
 }
 
 hamiltonian! {
     pub struct E23 { a, b, c }
-    H(x, y; px, py; t) = (((py*pi)/abs((py + a))) + (if ((x*t) <= y) && (tan((b^2)) < y) { px } else { py }))
+    H(x, y; px, py; t) = (if (((y*x)*x) == 3) && ((t + px) < (((3 + (-7/4))^2) + 1)) { floor(((-(x*c)) + (3/10))) } else { erf((((((3 + (-7/4))^2) + 1)^(-4/3)) + t)) })
 }
 
 hamiltonian! {
     pub struct E24 { a, b, c }
-    H(x, y; px, py; t) = (min((px*(-7/4)), a) + (((c + y) + ((2*b) + ((((c - (1/3))^2) + (x^2))^(13/4)))) - (y^2)))
+    H(x, y; px, py; t) = ((min(px, a)*tan(asinh(t))) + (sinh(cos((t + b)))/y))
 }
 
 hamiltonian! {
     pub struct E25 { a, b, c }
-    H(x, y; px, py; t) = (max(((b*(-7/4)) - a), px)*(b - ((py*(x - py))*(b*px))))
+    H(x, y; px, py; t) = (((y + t) + (if (1 < t) || (c < py) { (if (ln(abs((if !(y < x) { y } else { y }))) <= x) { b } else { px }) } else { x })) - tan(cos(((if ((((b^2) + (pi^2))^(1/3)) <= px) && (((c*px)*a) <= px) { px } else { (1/2) }) + (y - acos((c/(1 + (c^2)))))))))
 }
 
 hamiltonian! {
     pub struct E26 { a, b, c }
-    H(x, y; px, py; t) = (b + (((((t - (((ln_1p(((t^2) + (py^2))) + b) + ((b*sinh(cos(x)))/((sinh(cos((b + (abs((c - x))^-2))))^2) + 1))) - (px - c))) - max(c, c))^2) + (1/4))^(-3/2)))
+    H(x, y; px, py; t) = ln_1p((((((a/((y + a) - (b*pi)))^-3) + (py - ((981/100)*(1/3))))^2) + ((-1)^2)))
 }
 
 hamiltonian! {
     pub struct E27 { a, b, c }
-    H(x, y; px, py; t) = ((exp(sin((if ((t/py) <= py) && ((px + b) < py) { ((px + asinh(px))^2) } else { py }))) - tanh((if (px < (if ((t/py) <= py) && ((px + b) < py) { ((px + asinh(px))^2) } else { py })) || (atan2(((-1)*t), px) <= a) { py } else { acosh((((px^2) + (1/4)) + 1)) }))) + ((cosh((exp(b)/abs((x + x))))^-2)/((-1)^4)))
+    H(x, y; px, py; t) = ((c + (tanh((px*py))/cosh(cos(((abs((5/px))^(2/3))*(a*(b + py))))))) + ((b*x)*(((b^5)/(x*min(2, (exp(pi)^-3)))) + x)))
 }
 
 hamiltonian! {
     pub struct E28 { a, b, c }
-    H(x, y; px, py; t) = (if ((t/t) <= c) { ((x/abs(px))/((1/2) - c)) } else { exp_m1(cos(((a - b)*pi))) })
+    H(x, y; px, py; t) = (((-(c + py))/((x - pi)/((x^2) + 1))) + (1/3))
 }
 
 hamiltonian! {
     pub struct E29 { a, b, c }
-    H(x, y; px, py; t) = cos(((y - (atanh(tanh(py))*a)) - a))
+    H(x, y; px, py; t) = min((((y^2) - (exp(1) + x)) + atan(max((b - pi), px))), ((pi + pi)/t))
 }
 
 hamiltonian! {
     pub struct E30 { a, b, c }
-    H(x, y; px, py; t) = (hypot((py - py), hypot((pi/((px^2) + (pi^2))), (px - px))) + ((y*(-(y + y)))*atanh((((c*(y/y)) + a)/(1 + (((c*(y/y)) + a)^2))))))
+    H(x, y; px, py; t) = ((-(min(b, c)*(b - ((1/10)*px)))) + ((abs(((-x) + floor((ln_1p(abs(erfc((round((c + (3/10))) - (1/10))))) + (3/10)))))^(2/3))^5))
 }
 
 hamiltonian! {
     pub struct E31 { a, b, c }
-    H(x, y; px, py; t) = atanh(((abs(((erf((((-7/4)^2)*((if (max(hypot(y, c), a) <= x) { (-1) } else { max(hypot(y, c), a) })*(1/10))))*px)^7))^(5/2))/(1 + ((abs(((erf((((-7/4)^2)*((if (max(hypot(y, c), a) <= x) { (-1) } else { max(hypot(y, c), a) })*(1/10))))*px)^7))^(5/2))^2))))
+    H(x, y; px, py; t) = ((b + exp_m1(cos((if (atan((y + py)) <= 5) && (c <= y) { (if (max(c, c) <= t) { floor((px + (3/10))) } else { c }) } else { atanh(((py - 5)/(1 + ((py - 5)^2)))) }))))/((atan(sin(x))^2) + 1))
 }
 
 hamiltonian! {
     pub struct E32 { a, b, c }
-    H(x, y; px, py; t) = (a/(max((if (hypot(2, tan(atan(y))) < b) || ((c + a) < a) { exp(pi) } else { tanh((2/(((y*(5/a))^2) + 1))) }), py)^-2))
+    H(x, y; px, py; t) = (acosh((exp(atanh((((if (py < px) { (if (y == (1/3)) || ((y - py) <= a) { y } else { (-1) }) } else { (((-b) + (3/10)) % abs(py)) })*a)/(1 + (((if (py < px) { (if (y == (1/3)) || ((y - py) <= a) { y } else { (-1) }) } else { (((-b) + (3/10)) % abs(py)) })*a)^2))))) + 1)) + (c + atanh((((if (py < px) { (if (y == (1/3)) || ((y - py) <= a) { y } else { (-1) }) } else { (((-b) + (3/10)) % abs(py)) })*a)/(1 + (((if (py < px) { (if (y == (1/3)) || ((y - py) <= a) { y } else { (-1) }) } else { (((-b) + (3/10)) % abs(py)) })*a)^2))))))
 }
 
 hamiltonian! {
     pub struct E33 { a, b, c }
-    H(x, y; px, py; t) = ((a/(((if ((px + (-a)) <= t) { (((-a)/(if ((a*px) <= a) { pi } else { pi })) - erf((b + 3))) } else { min((px - (t/exp(t))), a) })^2) + (b^2))) + erf(min(tanh((min(max(x, (x + sinh(x))), (if ((cosh(sin((x^2)))^(-7/5)) < pi) || ((acosh((((a^2) + 1) + 1))/abs(max(x, (x + sinh(x))))) < (-7/4)) { (y^2) } else { (cosh(sin((x^2)))^(-7/5)) })) - (1*t))), sin(x))))
+    H(x, y; px, py; t) = (((px*cos((py - (px*(a/px)))))^(3/2)) + ((((y + (tan(tanh(t)) - ((y^2)^6)))^6)*(ln_1p(abs(c))/((y^2) + (y^2)))) + (((-1)/((y^2) + 1)) + (a - atanh(((1/10)/(1 + ((1/10)^2))))))))
 }
 
 hamiltonian! {
     pub struct E34 { a, b, c }
-    H(x, y; px, py; t) = hypot((if (t <= x) && ((asin(tanh(1)) + y) < c) { (abs((exp(atan(acosh((abs((t/asin(tanh(1)))) + 1))))^(-1/2)))^(2/3)) } else { (t + (py + py)) }), (((1 + a)*(5 - pi)) - (t/((x^2) + 2))))
+    H(x, y; px, py; t) = (if ((px - atan2(px, t)) <= y) { ((abs((a - t)) + px) + ((3/((asin(sin(px))^2) + (py^2)))*abs(floor((c + (3/10)))))) } else { (floor((y + (3/10))) + ((py^2) - c)) })
 }
 
 hamiltonian! {
     pub struct E35 { a, b, c }
-    H(x, y; px, py; t) = (((t - 5)*b) + ((if ((a + (a*x)) <= (-7/4)) && (cosh(sin(t)) <= 2) { a } else { px }) - (x*a)))
+    H(x, y; px, py; t) = (if !(acos(tanh(tan(atan(x)))) <= x) { pi } else { (if ((t/py) <= y) && (((1/3)/px) < y) { (((((ln(abs(x))*py) + tan(atan(x)))^2) + (1/4))^(-3/2)) } else { exp_m1(sin((py + pi))) }) })
 }
 
 hamiltonian! {
     pub struct E36 { a, b, c }
-    H(x, y; px, py; t) = (((((exp(((py/((py^2) + 2))/atan2(((py + abs((1/10))) - (t + py)), pi)))^(5/2))^2) + 1)^(2/3)) + (if (y <= a) { ((abs((((-7/4)/y) - (abs(max(a, x))^(2/3))))^(1/3))^-2) } else { c }))
+    H(x, y; px, py; t) = (((5*pi) + ((((t - py) + max(a, py)) - (py/((atan(py)^2) + (px^2)))) + b)) + (pow(abs((if !((c - pi) <= b) { b } else { t })), a)*(((((sinh(sin(c))^3)/((y^2) + 2))^-2)*((x*t) + acos(sin(y)))) - ((c - pi) + c))))
 }
 
 hamiltonian! {
     pub struct E37 { a, b, c }
-    H(x, y; px, py; t) = (((erf((((a^2) + a)*((py + (if (b < (1/10)) { (((x/c)/(abs((1/2))^(13/4)))/cosh((((y^2) + (a^2))^(-1/2)))) } else { (a - t) })) + ((((t + b)^2) + 1)^(1/3)))))^2) + (b^2))^(-4/3))
+    H(x, y; px, py; t) = (pow(abs(((((c*c)^2) + 1)^(-3/2))), sin(((if ((1/10) <= px) { (b*y) } else { (1/10) }) - ((px + px) - c)))) + t)
 }
 
 hamiltonian! {
     pub struct E38 { a, b, c }
-    H(x, y; px, py; t) = ((-((atanh((5/(1 + (5^2)))) + pi) - t))/abs((if (sign(cbrt(px)) <= pi) || (((-1) + x) < px) { erf(c) } else { px })))
+    H(x, y; px, py; t) = (atan2(x, px)*(pow(exp(sin(t)), cos(remainder((t + (3/10)), abs(1))))/(y/t)))
 }
 
 hamiltonian! {
     pub struct E39 { a, b, c }
-    H(x, y; px, py; t) = ((atanh(tanh((-cbrt((b/((px^2) + (1/4))))))) + (py*((((py - py)^2) + 1)^(2/3)))) + min(((y - a) + b), (sqrt((ln(exp_m1(x)) + ((x - c)/(((x*1)^2) + 2))))*(x/x))))
+    H(x, y; px, py; t) = ((min(t, px) - (((((min(t, px)^2) + 2)^(-7/5))^2)^5)) + (a/(max((if !(atan2(2, cosh(t)) < x) { sign(y) } else { (cosh(y) - (if ((y + a) == (y + a)) { ((-7/4)*c) } else { a })) }), (y + a))^(1/2))))
 }
 
 hamiltonian! {
     pub struct E40 { a, b, c }
-    H(x, y; px, py; t) = ((erf((acosh(((((cbrt(t)/abs((-(min(a, px) - t))))^2) + 1) + 1))/(-1)))*(1/3))/exp((x + (y + 1))))
+    H(x, y; px, py; t) = (if ((px + (-px)) <= t) && ((px*(a^2)) < b) { ((t/(if ((a*x) <= a) { pi } else { pi })) - exp_m1(sin((b + 3)))) } else { (x/t) })
 }
 
 hamiltonian! {
     pub struct E41 { a, b, c }
-    H(x, y; px, py; t) = ((py/((y^2) + (x^2))) + (((-7/4) + ((y^2) + (x^2))) + sign((py - ((y^2) + (x^2))))))
+    H(x, y; px, py; t) = acos((cosh(((py/(a - b))*(if (acos(sin(c)) <= 2) { (x*(py + (1/2))) } else { sqrt(((ln(abs(exp(sin(y))))^2) + 2)) })))/(1 + (cosh(((py/(a - b))*(if (acos(sin(c)) <= 2) { (x*(py + (1/2))) } else { sqrt(((ln(abs(exp(sin(y))))^2) + 2)) })))^2))))
 }
 
 hamiltonian! {
     pub struct E42 { a, b, c }
-    H(x, y; px, py; t) = ((tanh((pi + (pi*a)))*(if ((atan2(pi, 2)*1) <= 3) { py } else { a })) + ((cosh(cos(sqrt((((a - (((t^3)*a)*(-t)))^2) + (1/4)))))^(3/2))*acos(tanh((((c^2) + (1^2))^(3/10))))))
+    H(x, y; px, py; t) = ((-(-((((((round((a + (3/10)))^2) + 1)^(3/10))^4)*pi) - py))) + sqrt(((((pi - b) + ((b + b)*(y - (-7/4))))^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E43 { a, b, c }
-    H(x, y; px, py; t) = hypot((a - (if ((x + t) <= a) { acosh((((b^2) + 1) + 1)) } else { y })), atanh((((if ((acosh((((b^2) + 1) + 1))*(a/px)) < pi) || ((py/py) < y) { t } else { cos(a) }) - (pi - max(px, a)))/(1 + (((if ((acosh((((b^2) + 1) + 1))*(a/px)) < pi) || ((py/py) < y) { t } else { cos(a) }) - (pi - max(px, a)))^2)))))
+    H(x, y; px, py; t) = exp(sin(hypot(asin(cos(((sin(((-((y + (3/10)) % cosh(cos(y))))^5)) + x) + (if !(ln(abs(t)) == px) { py } else { ((py*b) + b) })))), cbrt(atan(y)))))
 }
 
 hamiltonian! {
     pub struct E44 { a, b, c }
-    H(x, y; px, py; t) = ((x - py)*py)
+    H(x, y; px, py; t) = ln((((max(min(((px - atan(5))*b), (if !(min(pi, (if (t < py) || ((-1) <= 5) { y } else { 5 })) <= c) { tan(atan(2)) } else { (asinh(((y + tan(atan(2))) - a))^2) })), ((erf((c + t))*cos(px)) - (if (sin((a*py)) < c) { (asinh(((-1)*x))/abs((pow(((atan2(2, x)^2) + 2), atan((-1))) + (1/10)))) } else { y })))^2)^2) + 1))
 }
 
 hamiltonian! {
     pub struct E45 { a, b, c }
-    H(x, y; px, py; t) = (((sign(t)/cosh(atan((if !((if ((t*(-t)) <= a) { a } else { sinh(5) }) < py) { (1 - 1) } else { py })))) + ((((sign(t)/cosh(atan((if !((if ((t*(-t)) <= a) { a } else { sinh(5) }) < py) { (1 - 1) } else { py }))))*b)/abs((1/10)))*(sinh(sin(px)) + (if !(atan(py) == pi) { tan(t) } else { px })))) + (((x/(x - tan(((1/10)*y))))/cosh((atan2(tanh(y), b) + (if ((tan(((1/10)*y))*pi) <= c) && (((x - tan(((1/10)*y))) - x) <= y) { a } else { x }))))^6))
+    H(x, y; px, py; t) = ((((((px/((c^2) + (1/4))) - c) + max((px*1), ((py/abs(px))*(if (pi <= t) { t } else { py }))))/(px/((floor((acosh((abs(px) + 1)) + (3/10)))^2) + 1)))^4) + cosh((remainder((asin(tanh((1/3))) + (3/10)), (abs((erf(atanh((min((981/100), c)/(1 + (min((981/100), c)^2)))))*(x/x)))^(-4/3)))^2)))
 }
 
 hamiltonian! {
     pub struct E46 { a, b, c }
-    H(x, y; px, py; t) = pow(cosh(tanh(((x - a)*min(py, (if (x <= px) { py } else { x }))))), (atanh(sin((cosh(sin(((pi*c)/((if ((if (((y - c) + (1/10)) <= a) || ((((1/3) - t) - (1/3)) < pi) { (((x^2) + 1)^(1/2)) } else { c }) < px) && (y < py) { t } else { 1 })*(if (b < t) { (-x) } else { c })))))/(((((((1/2) + ((py + atan2(c, (981/100)))*(1/10)))^2) + (a^2))^(3/10))^2) + (b^2)))))*hypot(a, x)))
+    H(x, y; px, py; t) = ((((y*c)*(py - (1/10)))/((px*a)*hypot(pi, 2)))/((abs(y)^2) + ((981/100)^2)))
 }
 
 hamiltonian! {
     pub struct E47 { a, b, c }
-    H(x, y; px, py; t) = ((pow(((pow(px, (px*(((tanh(c)^2) + (1/4))^(5/2))))^2) + 2), tan(px)) + cos((-(ln_1p(((acos((((abs((y*a))^(2/3))*(hypot((t - t), b) - ((px*(((tanh(c)^2) + (1/4))^(5/2))) + (px*(-7/4)))))/(1 + (((abs((y*a))^(2/3))*(hypot((t - t), b) - ((px*(((tanh(c)^2) + (1/4))^(5/2))) + (px*(-7/4)))))^2))))^2) + 2))/(a*(((-(px^-2))^3)^7))))))*(((hypot(pi, (-1))^2) + 1)^(1/3)))
+    H(x, y; px, py; t) = ((erfc((a - (((t^3)*a)*(-t))))^-3)*(if (tanh((((c^2) + (1^2))^(3/10))) < px) && ((((1/2) + py)^2) < c) { x } else { (pi*pi) }))
 }
 
 hamiltonian! {
     pub struct E48 { a, b, c }
-    H(x, y; px, py; t) = ((((b*px)*py) - c) + acosh((exp(cos((y/y))) + 1)))
+    H(x, y; px, py; t) = ((atanh(tanh((((if ((px*(a/px)) < pi) && ((px/pi) <= px) { t } else { exp_m1((px/((py^2) + (1/4)))) }) - pi)/abs(a))))*exp_m1(sin(((((-(t/cosh(px)))/t) - ((if (px < 5) && (c <= a) { ((px - (a*((-(t/cosh(px)))/t)))/((((py + t) + a)^2) + 1)) } else { (py*b) })*(atan2(c, ((py + (3/10)) % abs(py)))^2)))*(px + (floor((a + (3/10)))^-1)))))) + ((5 - (y*y)) + (b + (if (((1/2) + (-t)) <= y) && ((pi/t) < 5) { (x + 1) } else { (x/x) }))))
 }
 
 hamiltonian! {
     pub struct E49 { a, b, c }
-    H(x, y; px, py; t) = (tan(sin(asinh((((-1)/cosh(sin(px))) + sign(y))))) + ((x - pi) + py))
+    H(x, y; px, py; t) = (x/abs(sqrt(abs(px))))
 }
 
 hamiltonian! {
     pub struct E50 { a, b, c }
-    H(x, y; px, py; t) = ((((y^2) + 1)^(-1/2))*((if (((if (y == py) { y } else { 5 })/abs(x)) < (-7/4)) || (b <= c) { ((px - c)/5) } else { a })*((py + (c + px))/(3 - exp_m1(cos(((a + b) - (1/3))))))))
+    H(x, y; px, py; t) = sign((atanh(sin(((x - (((b/exp(atan(px)))/y)*(t + a))) - exp(atan(px))))) - (if (((x + (3/10)) % abs(((1/10)*py))) < x) { remainder(((981/100) + (3/10)), ((y^2) + (x^2))) } else { (2 - ((pi - ((b + (3/10)) % ((c^2) + (1/4))))*2)) })))
 }
 
 hamiltonian! {
     pub struct E51 { a, b, c }
-    H(x, y; px, py; t) = (((-asinh((py*(-((if !(atanh((sin(t)/(1 + (sin(t)^2)))) <= c) { px } else { py })*(px + ((1/10)*px))))))) - (py - asinh((py*(-((if !(atanh((sin(t)/(1 + (sin(t)^2)))) <= c) { px } else { py })*(px + ((1/10)*px)))))))) + (x*(x - x)))
+    H(x, y; px, py; t) = ((5*(((sqrt((((py + py)^2) + 1)) + (exp_m1(((if ((-7/4) < 1) { pi } else { (1/2) }) + px)) + ((((((ln(cosh(((if ((-7/4) < 1) { pi } else { (1/2) }) + px))) - py)^2) + 1)^(1/3))^2)/(((t*(c*px))^2) + (px^2)))))^4)^6)) + ((pi*c)/((if ((if (((y - c) + (1/10)) <= a) || ((((1/3) - t) - (1/3)) < pi) { (((x^2) + 1)^(1/2)) } else { c }) < x) && (y < y) { t } else { 1 })*(if (b < t) { (-x) } else { c }))))
 }
 
 hamiltonian! {
     pub struct E52 { a, b, c }
-    H(x, y; px, py; t) = asinh(((if ((atanh((3/(1 + (3^2)))) - py) == t) || (py <= x) { (((cbrt(cosh(sin((x/b))))^2) + 1)^(3/2)) } else { (a*py) }) + (((b^2) + 1)^-3)))
+    H(x, y; px, py; t) = max(floor(((py + (py/(((y + y)^2) + 2))) + (3/10))), sin((sin((acosh((abs((-floor((asin((y/(1 + (y^2)))) + (3/10))))) + 1)) + (b + py)))/y)))
 }
 
 hamiltonian! {
     pub struct E53 { a, b, c }
-    H(x, y; px, py; t) = (1*((abs(((if ((y*(c*1)) < a) { b } else { ((-7/4)*c) })*b))^(-1/2))/((((if ((y*(((a^2) + 2)^(-4/3))) < t) && ((py - (x/((t^2) + 2))) <= pi) { t } else { b })/py)^2) + (5^2))))
+    H(x, y; px, py; t) = (((hypot(py, (px - ((c - px) + y)))^2) + 2)^(3/10))
 }
 
 hamiltonian! {
     pub struct E54 { a, b, c }
-    H(x, y; px, py; t) = (sinh(sin(ln_1p(((((-(pi*(px - (-7/4))))*py)^2) + (1/4))))) + sqrt((((abs((5 + (5*(y*((x*(-x))*((t + c)*y))))))^(-7/5))^2) + 2)))
+    H(x, y; px, py; t) = ((py + (if ((t - t) < py) || (t <= t) { c } else { sign(py) })) + tanh(((abs((5/5))^(-4/3)) - ((((((x/((y^2) + (1/4))) + b)^2) + 1)^(-4/3)) - ((pi/x)^3)))))
 }
 
 hamiltonian! {
     pub struct E55 { a, b, c }
-    H(x, y; px, py; t) = (((((if !(((x - a) - 3) < py) { (acos(((x*(py + t))/(1 + ((x*(py + t))^2)))) + (pi + (x*(if ((if ((y/t) < py) { c } else { (py*y) }) < py) && ((pi - (c*px)) < b) { 3 } else { c })))) } else { atan((y/t)) })*((atan((if ((if ((y/t) < py) { c } else { (py*y) }) < py) && ((pi - (c*px)) < b) { 3 } else { c })) - py) - (t - a)))^2) + 1)^(3/10))
+    H(x, y; px, py; t) = ((if (x <= pi) && ((if (((-1) - a) == a) || ((if (t <= 5) { px } else { x }) < (1/10)) { pi } else { t }) <= px) { pi } else { (x*x) })*((((-a) - acos((a/(1 + (a^2))))) - y)*py))
 }
 
 hamiltonian! {
     pub struct E56 { a, b, c }
-    H(x, y; px, py; t) = (acosh((exp(cos(((py*c)*(-(c/((t^2) + 1)))))) + 1)) - (t + ((abs(x)^(5/2))*py)))
+    H(x, y; px, py; t) = min(erfc((atan2(x, (2 - px))*((a + pi)/y))), b)
 }
 
 hamiltonian! {
     pub struct E57 { a, b, c }
-    H(x, y; px, py; t) = (((-7/4) + ((((tanh(px) + ((((px/(-7/4))^2) + 2)^(-4/3)))^2) + (a^2))^(-4/3))) + (cosh(atan((((y^2)*x)/(x - ((1/10) - erf((y + y)))))))^-3))
+    H(x, y; px, py; t) = ((tan(sin(py))*((py - px) - py)) + ((y - t) - floor((sin((atan2((y - t), (b*y))*exp_m1((if (y <= 1) { t } else { (y - t) })))) + (3/10)))))
 }
 
 hamiltonian! {
     pub struct E58 { a, b, c }
-    H(x, y; px, py; t) = ((cosh(cos((if (py <= c) && (hypot(y, ((1/2)*t)) <= t) { a } else { (py*(-1)) })))^(3/10))/cosh(cos((x*sin(t)))))
+    H(x, y; px, py; t) = ((b + ((-7/4)*c)) + ln(abs(((981/100) - ((if ((y*(((a^2) + 2)^(-4/3))) < t) { (abs(b)^(-4/3)) } else { (x/py) })/((t^2) + 2))))))
 }
 
 hamiltonian! {
     pub struct E59 { a, b, c }
-    H(x, y; px, py; t) = erf(asinh((x - px)))
+    H(x, y; px, py; t) = (erfc(acosh((((((abs((((x*t) - (1/3))/((1^2) + 2)))^(-3/2))*(abs((((a + (3/10)) % pi)*(cbrt(px) - floor(((atanh(cos(b))*ln(((pi^2) + ((981/100)^2)))) + (3/10))))))^(-3/2)))^2) + 2) + 1)))^7)
 }
 
 hamiltonian! {
     pub struct E60 { a, b, c }
-    H(x, y; px, py; t) = (((((1/2) - b)/((py^2) + 1)) - (exp(tanh(((py*acosh((((px^2) + 1) + 1)))*px)))^7)) + ((((((y - ((y + c)/((c^2) + 1)))*x)*(t*a))^2) + 1)^(-7/5)))
+    H(x, y; px, py; t) = (pow((((if (((px - a) - 3) < py) { (py + ((((abs(c)^-2)^2) + (py^2))^(1/3))) } else { a })^2) + 2), sin((if ((if ((py/t) < py) { c } else { (py*py) }) < py) || (((px*t)^7) <= (-7/4)) { 3 } else { ((1/10) + py) }))) + (-(b*(if ((a - (b - y)) <= a) || (pi < b) { c } else { (((abs((x*b))^(-4/3)) - ((b + (3/10)) % (-1))) - sign(a)) }))))
 }
 
 hamiltonian! {
     pub struct E61 { a, b, c }
-    H(x, y; px, py; t) = ((((px/x)^-3)*(sqrt(((b^2) + (1/4)))^2))^7)
+    H(x, y; px, py; t) = ((b + (b*a)) - ((x/((((cos(py) - c)*py)^2) + 2))*tan(a)))
 }
 
 hamiltonian! {
     pub struct E62 { a, b, c }
-    H(x, y; px, py; t) = ((asin(cos((1/3)))*(-exp_m1(atan((if !(((((px + py)^2) + 1)^(-7/5)) == ((px + py)^2)) { t } else { x })))))*((t + x) + (y + c)))
+    H(x, y; px, py; t) = (((c + y) - py) + (-abs((((c + y)*pi)*(((981/100)*pi) - ((c + y) - py))))))
 }
 
 hamiltonian! {
     pub struct E63 { a, b, c }
-    H(x, y; px, py; t) = ((py*(cosh(atan(pi)) - ((c + t)*px))) + acosh(((((((asin(((acosh((abs(t) + 1)) + (981/100))/(1 + ((acosh((abs(t) + 1)) + (981/100))^2)))) - (abs(t) + 1)) + (abs(t)^-1))*y)^2) + 1) + 1)))
+    H(x, y; px, py; t) = (exp(sin(((if (((2*2)*py) <= t) { (((min(px, t)^2) + 2)^(3/2)) } else { b }) + py))) + sinh(sin(((x*(y*y)) - (if !(c < x) { t } else { x })))))
 }
 
 hamiltonian! {
     pub struct E64 { a, b, c }
-    H(x, y; px, py; t) = exp(((y - b)*(((py*t) - b) + (5*(-1)))))
+    H(x, y; px, py; t) = (ln(abs(((px^2)^2))) + (((abs(x)^(-4/3))*py) + (pi*((((x^3)^2) + (1/4))^(-4/3)))))
 }
 
 hamiltonian! {
     pub struct E65 { a, b, c }
-    H(x, y; px, py; t) = (pi/cosh(atan((if (a < b) || (t < py) { px } else { (max((if ((y - px) <= px) { y } else { a }), b) + cosh(atan(acosh((abs(x) + 1))))) }))))
+    H(x, y; px, py; t) = (if (ln_1p(exp(t)) < px) { (((((py - ((px + c)/((c^2) + 1)))*px)*((a*(y - exp(t)))*px))^2)*py) } else { ((((((((atan2(b, x)^2) + (t^2))^(13/4)) - exp_m1(sin(((((((py - ((px + c)/((c^2) + 1)))*px)*((a*(y - exp(t)))*px))^2)*py)/hypot(py, x)))))^2) + (1/4))^-1)/(((erfc(((((-asin(((((y^2)*remainder((x + (3/10)), abs(py)))*floor((py + (3/10))))/(1 + ((((y^2)*remainder((x + (3/10)), abs(py)))*floor((py + (3/10))))^2)))))^2) + 1)^(-3/2)))^6)^2) + 1)) })
 }
 
 hamiltonian! {
     pub struct E66 { a, b, c }
-    H(x, y; px, py; t) = ((py*(px/(if ((px*px) < py) || (py < a) { py } else { py }))) + acosh((cosh(tan(atan(hypot((((1/10) - (((if ((b*(1/10)) <= b) { y } else { c })*cosh(sin(1)))^6))^-3), b)))) + 1)))
+    H(x, y; px, py; t) = ((if !(c <= (1/2)) { erfc(erf((round((b + (3/10))) + (if !(((981/100)*(-7/4)) < py) { pi } else { b })))) } else { (c*(b*(b + (3/10)))) }) + ((b + (b + b)) + (if ((((981/100) - y)/(1/10)) == a) { (round((b + (3/10)))/cosh(c)) } else { (981/100) })))
 }
 
 hamiltonian! {
     pub struct E67 { a, b, c }
-    H(x, y; px, py; t) = (((c*(((y*(c + c)) - 1)^6))/px)*(a*(x*x)))
+    H(x, y; px, py; t) = (((5/2) + (y - y)) + atanh(cos(((pi - (2 - 5)) - (px + y)))))
 }
 
 hamiltonian! {
     pub struct E68 { a, b, c }
-    H(x, y; px, py; t) = ln_1p((((y*sqrt(cosh(tanh(py))))^2) + 2))
+    H(x, y; px, py; t) = (if ((-y) < c) && (3 <= px) { (if (a == y) && ((tanh(px)/b) < y) { (y^6) } else { (y^6) }) } else { ((1/3)/acosh((abs((tanh(px)/b)) + 1))) })
 }
 
 hamiltonian! {
     pub struct E69 { a, b, c }
-    H(x, y; px, py; t) = (atan(((py*(if ((((1^2) + (1^2))^(-1/2)) < (1/3)) || (px < b) { py } else { (((1^2) + (1^2))^(-1/2)) })) - (c - exp(tanh((a*py)))))) + (y*(((((x + exp(c))/(sinh(tanh(tan(a))) - tanh(tan(a))))^2) + 1)^(-1/2))))
+    H(x, y; px, py; t) = (asin((sqrt(((sinh(((cosh(cos(((((((if ((b*py) <= b) || ((b/cosh(cos(px))) < b) { a } else { b }) + c) + sqrt(abs(((erf(((((t*(pi^6))^2) + ((-1)^2))^(-3/2)))*ln_1p(abs((if (((py - py)/(-7/4)) <= py) { 1 } else { (981/100) })))) - py))))^2) + 2)^-2)))^(-3/2)) - (((c*b)*c)*(2*(5 + px)))))^2) + (py^2)))/(1 + (sqrt(((sinh(((cosh(cos(((((((if ((b*py) <= b) || ((b/cosh(cos(px))) < b) { a } else { b }) + c) + sqrt(abs(((erf(((((t*(pi^6))^2) + ((-1)^2))^(-3/2)))*ln_1p(abs((if (((py - py)/(-7/4)) <= py) { 1 } else { (981/100) })))) - py))))^2) + 2)^-2)))^(-3/2)) - (((c*b)*c)*(2*(5 + px)))))^2) + (py^2)))^2)))) + erf((x + y)))
 }
 
 hamiltonian! {
     pub struct E70 { a, b, c }
-    H(x, y; px, py; t) = ((((b - py)/((3^2) + (a^2)))*(x*(a^2))) - cosh((-acos(sin((cosh(atan((b/((-c) + b))))^6))))))
+    H(x, y; px, py; t) = (c*(if ((y - px) <= px) { px } else { (exp_m1((1/3))*(abs(tan(atan(b)))^(-1/2))) }))
 }
 
 hamiltonian! {
     pub struct E71 { a, b, c }
-    H(x, y; px, py; t) = (((y*((a*x)^-2))*py)/a)
+    H(x, y; px, py; t) = cbrt(((py*atanh((((x/(if ((x*x) < y) || (y < a) { py } else { py }))^-2)/(1 + (((x/(if ((x*x) < y) || (y < a) { py } else { py }))^-2)^2))))) - py))
 }
 
 hamiltonian! {
     pub struct E72 { a, b, c }
-    H(x, y; px, py; t) = (sin((if ((px*(abs(t)^-3)) <= (1/10)) { py } else { py })) + asinh((hypot(c, pi)*(y^5))))
+    H(x, y; px, py; t) = (((abs(((1/10) - ((px*c)^4)))^(-7/5))/abs(atan2(sin(((px + b)*(-(if !(cos((((1/10) - ((px*c)^4))*px)) <= (981/100)) { ((b + (-1)) + b) } else { 2 })))), (-((b/((1/10) - ((px*c)^4))) + t))))) + (y - (y/abs((if !((c - y) < (-7/4)) { pi } else { (1/3) })))))
 }
 
 hamiltonian! {
     pub struct E73 { a, b, c }
-    H(x, y; px, py; t) = cbrt(min(((((((1/2)/abs((1/2)))^2) + 1)^(-7/5)) + (a*(if !(sign((abs((-1))^(-1/2))) < y) { y } else { y }))), (cbrt(pi) + (abs((exp(ln(abs(max((exp(py)^(-4/3)), ((pi + 3) - ((py + ((x + exp(py)) - c)) - pi))))))^(-1/2)))^(2/3)))))
+    H(x, y; px, py; t) = ln(abs((abs((if (y < c) { x } else { (((asinh((((py^2) + (1/4))^(1/2)))^2) + (1/4))^(2/3)) }))^(1/2))))
 }
 
 hamiltonian! {
     pub struct E74 { a, b, c }
-    H(x, y; px, py; t) = (((tan((hypot(a, x) + x))/((px^2) + (b^2)))^(-4/3))*sinh(hypot((pi + (c*c)), (tan((x*x)) - x))))
+    H(x, y; px, py; t) = (acos(((if (round((t + (3/10))) <= 1) || ((3 - y) <= t) { (if (a <= x) && (erfc(b) <= b) { ((a/abs(b)) - c) } else { (x/exp(py)) }) } else { ln_1p(((pow(exp(cos((abs((py/(abs(remainder((floor((a + (3/10))) + (3/10)), (((py*b)^2) + (b^2))))^(1/2))))^(-4/3)))), ((cos(((py + 2)/abs((px/b))))*((px - py)/(py*py)))^2))^2) + 2)) })/(1 + ((if (round((t + (3/10))) <= 1) || ((3 - y) <= t) { (if (a <= x) && (erfc(b) <= b) { ((a/abs(b)) - c) } else { (x/exp(py)) }) } else { ln_1p(((pow(exp(cos((abs((py/(abs(remainder((floor((a + (3/10))) + (3/10)), (((py*b)^2) + (b^2))))^(1/2))))^(-4/3)))), ((cos(((py + 2)/abs((px/b))))*((px - py)/(py*py)))^2))^2) + 2)) })^2))))*(py - ((px/b) + 5)))
 }
 
 hamiltonian! {
     pub struct E75 { a, b, c }
-    H(x, y; px, py; t) = ((((a*(px/a)) - py)*atan2(((px*c) - py), a)) + ((y + ((t^5) - ((1/10)/abs((x - t)))))^(3/2)))
+    H(x, y; px, py; t) = (acos(tanh((py*((((px/(px + (px + 1)))^(5/2))*(erf((-1))/((abs(py)^2) + (px^2)))) + ((1/2)*((abs(py)^2) + (px^2))))))) + (ln(((((3^7)*5)^2) + 2)) + sin(((1/2)*((if !(abs((abs((-1))^(-1/2))) < y) { y } else { y }) + x)))))
 }
 
 hamiltonian! {
     pub struct E76 { a, b, c }
-    H(x, y; px, py; t) = (t + (min((-px), cbrt(sign(((((y*x)*(1/10))*py) - py))))*((acos(cos(max(atanh((erf((((pi^2) + (a^2))^(5/2)))/(1 + (erf((((pi^2) + (a^2))^(5/2)))^2)))), (tan(sin((abs(y)^(-1/2))))/cosh(tanh(cos((c/px))))))))*a) + (px - y))))
+    H(x, y; px, py; t) = ((t*(cosh(y)^(-7/5)))/px)
 }
 
 hamiltonian! {
     pub struct E77 { a, b, c }
-    H(x, y; px, py; t) = min(((a*a)*y), atan2(y, (abs(((pi - (y*py)) + atanh((b/(1 + (b^2))))))^-2)))
+    H(x, y; px, py; t) = (pow(((t^2) + 2), x)*py)
 }
 
 hamiltonian! {
     pub struct E78 { a, b, c }
-    H(x, y; px, py; t) = (atan2(((c*px)*t), (px*(sqrt(abs((981/100)))*a))) + asinh((if !(atanh((y/(1 + (y^2)))) <= y) { acos(sin((((y/y) + c)*(x*x)))) } else { ((1/y)*x) })))
+    H(x, y; px, py; t) = (min(((px*py) - pi), atan(min(((py^-3)^7), (1/3)))) + (((-7/4) + b)*(cbrt((-7/4)) + (if !((y^7) < b) { a } else { y }))))
 }
 
 hamiltonian! {
     pub struct E79 { a, b, c }
-    H(x, y; px, py; t) = ((-(b*y)) + hypot(px, max(x, (c*(px + (x*acos((atan2(px, 1)/(1 + (atan2(px, 1)^2))))))))))
+    H(x, y; px, py; t) = (round(((py*x) + (3/10)))*(py - (c/b)))
 }
 
 hamiltonian! {
     pub struct E80 { a, b, c }
-    H(x, y; px, py; t) = ((((c*b) + px)*(((((px^2) + (y^2))^(1/3)) - ((x - x) - y))^-2)) + sinh(py))
+    H(x, y; px, py; t) = (-((round(((asin(((if !(((x + (3/10)) % (abs(a)^(5/2))) <= x) { (t^3) } else { t })/(1 + ((if !(((x + (3/10)) % (abs(a)^(5/2))) <= x) { (t^3) } else { t })^2)))) - (-(3/10))) + (3/10)))*px)*(x - 2)))
 }
 
 hamiltonian! {
     pub struct E81 { a, b, c }
-    H(x, y; px, py; t) = (((t/abs(py)) - (c*((if (asinh((t - 1)) == b) || (pow(((c^2) + (b^2)), c) <= (-1)) { py } else { py }) - px))) + ((t*t)*cbrt((y*c))))
+    H(x, y; px, py; t) = ((px*(((b + px)*t) + asinh((981/100)))) + ((((if (tan(y) <= y) { b } else { x })*(-7/4))*(b^2))*(a/((x^2) + 1))))
 }
 
 hamiltonian! {
     pub struct E82 { a, b, c }
-    H(x, y; px, py; t) = (y/(ln(((((y + (a + t))/(max((a*y), y)^5))^2) + (1/4)))*(((1/2) + y) - ((erf(py)/a)*(c + px)))))
+    H(x, y; px, py; t) = (((if ((atan(y)/cosh(2)) < a) { round((min(x, atan(y)) + (3/10))) } else { ((981/100)*(t - (if !(((y*pi)^-1) < y) { x } else { y }))) }) - (tanh((-((-py)*(((x^2) + 2)^-2)))) + atan(c))) + ((c/pi) - (a - c)))
 }
 
 hamiltonian! {
     pub struct E83 { a, b, c }
-    H(x, y; px, py; t) = (if ((hypot(x, t)*pi) <= x) && (px < px) { a } else { (if ((px^3) < y) { tan(sin((px + ((((y*x)^2) + (1^2))^-3)))) } else { (t*(pi*y)) }) })
+    H(x, y; px, py; t) = (erf((abs((if ((px + (y*c)) == px) || (((2 + px)^6) <= 1) { (b*(c*b)) } else { px })) + (x/cosh(cos(b)))))^3)
 }
 
 hamiltonian! {
     pub struct E84 { a, b, c }
-    H(x, y; px, py; t) = ((px + ((sqrt((((a + py)^2) + 1))^2)*py)) + (if (b <= (-1)) { cbrt(hypot(1, min(atan2((1/10), (981/100)), x))) } else { (if (c <= y) { x } else { (1/10) }) }))
+    H(x, y; px, py; t) = (((t/abs(py)) - (c*((if (acos(sin((b - py))) == (-1)) || ((py*py) == (-1)) { pi } else { t }) - px))) + ((t*t)*atan((x*2))))
 }
 
 hamiltonian! {
     pub struct E85 { a, b, c }
-    H(x, y; px, py; t) = abs(cosh(sin(((if ((y*py) < a) && (((1 - a)*px) < a) { exp_m1(sin((asinh(((1/2)^(2/3))) + (a/(if !((py + pi) <= t) { asin((a/(1 + (a^2)))) } else { py }))))) } else { min((b + y), pow((((b*asinh(((1/2)^(2/3))))^2) + 1), cos(b))) }) + tanh(b)))))
+    H(x, y; px, py; t) = (((((py - 3) + y)/(tanh((y + (((y + y)*t)*c))) + px))/(if ((3/a) <= px) || (c <= a) { (a/((c^2) + 2)) } else { px })) + asin(sin(((if ((1/10) <= b) { t } else { (((y^2) + 1)^(3/10)) })*((-y)^(-7/5))))))
 }
 
 hamiltonian! {
     pub struct E86 { a, b, c }
-    H(x, y; px, py; t) = (if (5 <= px) { (hypot(px, (c*b))/abs((if ((3*(pi - c)) <= px) || (pow(((b^2) + (px^2)), c) < px) { erf(a) } else { (abs(((t + 3) + b))^(3/10)) }))) } else { (px + (5 + x)) })
+    H(x, y; px, py; t) = (((-(-7/4))/(((if ((2 + (c*(-(-7/4)))) < 2) || (b < t) { x } else { min(erf(5), t) })^2) + 2)) - (px*(if ((2 + (c*(-(-7/4)))) < 2) || (b < t) { x } else { min(erf(5), t) })))
 }
 
 hamiltonian! {
     pub struct E87 { a, b, c }
-    H(x, y; px, py; t) = (((if ((px + py) == px) { atan2(py, b) } else { px })*sqrt(((((a - (((erf(b)^2) + 1)^-1))*py)^2) + (c^2)))) + (((exp_m1(((((abs((b*(3*x)))^(1/2))^2) + 2)^(1/2)))*(c - c))*((981/100) - x)) + cosh((pi/a))))
+    H(x, y; px, py; t) = ((if ((b - (1/2)) < c) || ((t/t) < b) { (b/(if (sinh(cos(py)) <= py) || (t < pi) { b } else { (1/10) })) } else { (((t*py)*((py*(981/100)) - (py + (px*pi)))) + 5) }) + (if !((b + (if (a <= x) && (hypot(pi, 1) == x) { y } else { t })) <= t) { (cosh(sin((((t + (if ((981/100) < pi) || ((hypot(pi, 1) + ((981/100)*y)) < t) { b } else { pi }))*((x - max((abs((a + y))^7), asinh(a)))*(a + (if (erfc(t) < x) && ((1/2) <= x) { y } else { x })))) - (-exp_m1(cos(min(1, remainder((a + (3/10)), exp(x)))))))))^(3/10)) } else { cbrt(c) }))
 }
 
 hamiltonian! {
     pub struct E88 { a, b, c }
-    H(x, y; px, py; t) = (((3*(if ((a/(c - y)) == px) || (px < a) { c } else { cbrt((a*a)) })) + x) - tanh((px - (-7/4))))
+    H(x, y; px, py; t) = exp(cos(exp(sin((-(cbrt((y + cbrt((asin(((((px + (3/10)) % x) - (px + (3/10)))/(1 + ((((px + (3/10)) % x) - (px + (3/10)))^2))))*c)))) + ln_1p((((if ((if ((py + pi) <= t) || (c < ((px + (3/10)) % x)) { py } else { px }) <= pi) { (y*b) } else { y })^2) + 2))))))))
 }
 
 hamiltonian! {
     pub struct E89 { a, b, c }
-    H(x, y; px, py; t) = ((y*asinh(acos(tanh(t))))*(((1*erfc((t/exp((((px^2) + 2)^-2)))))*1)*b))
+    H(x, y; px, py; t) = acos(tanh((((x*3) + t) + (((x*3)*py) + (1/10)))))
 }
 
 hamiltonian! {
     pub struct E90 { a, b, c }
-    H(x, y; px, py; t) = ((if !(tan(tanh(py)) <= py) { (-py) } else { ((-(((abs(1)^(2/3)) - (-py)) + (cos(a) + (tanh((981/100)) + (cosh(cos(px))^-2))))) + exp((5 + py))) }) + asin(sin((b - (if ((((b^2) + (1/4))^(-1/2)) <= y) { (y*(x + x)) } else { acosh(((((abs(pi)^(3/10))^2) + 2) + 1)) })))))
+    H(x, y; px, py; t) = ((-((-(if ((sign(px) - c) < b) && (px < py) { a } else { c }))*abs(((hypot(c, c) + (min((((a^2) + 2)^(-3/2)), a) + min((1/10), px)))*(if ((atan2(py, b) - c) <= a) || (py <= t) { floor((tan(sin((1/2))) + (3/10))) } else { (a/((erfc((if ((c^3) <= min((((a^2) + 2)^(-3/2)), a)) { b } else { c })) + a) - a)) }))))) + (a + (-((a + (y + t)) - y))))
 }
 
 hamiltonian! {
     pub struct E91 { a, b, c }
-    H(x, y; px, py; t) = ((c - (pow(exp(px), sqrt(abs(min(t, y))))*x)) + (x/c))
+    H(x, y; px, py; t) = ((((t - t)*py)^2) - (-((((-1)^2)/max((b - (if ((((b^2) + (1/4))^(-1/2)) <= y) || (px <= ((b^2) + (1/4))) { b } else { y })), (abs(pi)^(3/10)))) + (abs((((if (abs(pi) < b) { c } else { b }) - ((((px^2) + 1)^(13/4))^-1))^2))^(3/2)))))
 }
 
 hamiltonian! {
     pub struct E92 { a, b, c }
-    H(x, y; px, py; t) = (if (max(py, (-7/4)) < b) || ((a*b) < px) { y } else { sqrt(abs(min(t, t))) })
+    H(x, y; px, py; t) = ((((round(((((if (py <= py) && ((abs((pi - x))^(3/2)) < py) { px } else { pi })/((tan(cos(c))^2) + 2))*round((a + (3/10)))) + (3/10))) + c)^2) + (t^2))^-2)
 }
 
 hamiltonian! {
     pub struct E93 { a, b, c }
-    H(x, y; px, py; t) = (hypot((-hypot((py/((px^2) + (pi^2))), px)), min((if (c < t) { ((c/pi) - a) } else { px }), px)) + (((acosh((abs(sinh((if ((a - 2) < y) { 3 } else { ((sinh(atan((pi*exp(cos(a))))) + 1) + sinh(y)) }))) + 1))*y)^2)*atanh(((-((((((x^2) + (1/4))^(13/4))^4)*exp(cos(a)))*atan2(x, (c/(max(y, (1/2))/abs((1/3)))))))/(1 + ((-((((((x^2) + (1/4))^(13/4))^4)*exp(cos(a)))*atan2(x, (c/(max(y, (1/2))/abs((1/3)))))))^2))))))
+    H(x, y; px, py; t) = (sinh(sin((if (c < t) { ((c/pi) - a) } else { px }))) + (((((cos(tanh((if ((a - 2) < y) { 3 } else { ((acos(sin((pi*asin(cos(a))))) + 1) + tan(y)) })))*b)^2) + 1)^(-3/2))*tanh((-((((((x^2) + (1/4))^(13/4))^4)*asin(cos(a)))*max(x, (c/(remainder((y + (3/10)), (1/2))/(((981/100)^2) + (1/4))))))))))
 }
 
 hamiltonian! {
     pub struct E94 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p(abs(max(x, x)))*(a*py))
+    H(x, y; px, py; t) = (remainder(((if !(c <= x) { min(px, asin((t/(1 + (t^2))))) } else { min(py, abs((((t^2) + 1)^-3))) }) + (3/10)), (((c/py)^2) + 1)) + x)
 }
 
 hamiltonian! {
     pub struct E95 { a, b, c }
-    H(x, y; px, py; t) = (if !(acosh((abs((px/((a^2) + 1))) + 1)) < x) { (2/1) } else { ((-px)^2) })
+    H(x, y; px, py; t) = ((tan(atan(cbrt(((3 + b)*(a/cosh((((px - (a + px)) + c) + c)))))))/((max(x, ((x - (if (tan(cos((px/((a^2) + 1)))) < a) { x } else { t }))*((((1/2)^2) + (x^2))^-2)))^2) + (1/4)))^6)
 }
 
 hamiltonian! {
     pub struct E96 { a, b, c }
-    H(x, y; px, py; t) = (((t - c)/abs(((((if (((py*py) + t) <= (py*py)) { (t - c) } else { c }) + b)*c)*pi))) + ((if ((2 - (((pi^2) + 1)^(3/10))) == y) { (sign(x) + b) } else { (((erfc(b)^-3)*max(y, (if (((if (b <= a) && ((981/100) < x) { t } else { y }) + 1) <= y) { (abs(t)^(3/2)) } else { x }))) + asin(((c/hypot((1/10), c))/(1 + ((c/hypot((1/10), c))^2))))) })/(((-asin(tanh(b)))^2) + 2)))
+    H(x, y; px, py; t) = (((b*py) + (b*py)) + (3*hypot(x, pi)))
 }
 
 hamiltonian! {
     pub struct E97 { a, b, c }
-    H(x, y; px, py; t) = (((x/(((y - ((sin(py) + c)*py))^2) + 1))*(b - (((y - ((sin(py) + c)*py))^2) + 1)))^3)
+    H(x, y; px, py; t) = round(((sin(sqrt(abs((if ((b*px) < x) && ((t*py) < y) { (-1) } else { (a*5) }))))/((pow(abs(b), ((pi/acos(tanh(c)))*a))^2) + (px^2))) + (3/10)))
 }
 
 hamiltonian! {
     pub struct E98 { a, b, c }
-    H(x, y; px, py; t) = min(px, (if !(tan(sin(exp_m1(tanh((1/3))))) < x) { a } else { (c - tanh((1/3))) }))
+    H(x, y; px, py; t) = (if (pi <= px) && (sqrt((((((y^2) + 2)^(-4/3))^2) + (1/4))) == x) { ((-7/4) + t) } else { (y + a) })
 }
 
 hamiltonian! {
     pub struct E99 { a, b, c }
-    H(x, y; px, py; t) = (exp(tanh(((px*cos((((c + py) - tanh(py)) - px)))^5))) + cbrt((((if ((x + (-1)) < x) { ((t*(-1))*x) } else { x })*(a + pi))^3)))
+    H(x, y; px, py; t) = ((cbrt(((ln_1p((((((py*(b + px)) + (3/10)) % py)^2) + (px^2)))^7)/(((((((1/10)^2) + 2)^(-7/5)) - 1)^2) + 1)))^2) + (-round((abs(max(((y*(y^2)) - (b + sinh(x))), (x*c))) + (3/10)))))
 }
 
 hamiltonian! {
     pub struct E100 { a, b, c }
-    H(x, y; px, py; t) = tanh((if (acosh((abs((1*(-1))) + 1)) < c) { (t*y) } else { ((hypot((1/2), 2)*pi) - ((-(1/2)) + (c*(c + py)))) }))
+    H(x, y; px, py; t) = ((-acos(((((y + y) + y) + px)/(1 + ((((y + y) + y) + px)^2))))) - ((-1) + c))
 }
 
 hamiltonian! {
     pub struct E101 { a, b, c }
-    H(x, y; px, py; t) = (((c + b) + hypot(pi, pi)) - asinh((((hypot(pi, pi)*t)*((t/(py + asinh(a))) - ln_1p(exp(tanh((b + (y*hypot(pi, pi)))))))) - atan2((py - x), (a + py)))))
+    H(x, y; px, py; t) = (((round(((abs(x)*(1/3)) + (3/10)))*((((-7/4) + hypot((1/10), px)) - sinh(atan((c + (1/10)))))*5)) - ((y*a) - ln_1p(((pi^2) + 1))))^2)
 }
 
 hamiltonian! {
     pub struct E102 { a, b, c }
-    H(x, y; px, py; t) = ((((((py + py) - (py + px))/((((if (acosh(((((if (px <= px) || (3 < py) { c } else { px })^2) + 2) + 1)) <= t) || ((py - (px*px)) < a) { c } else { c }) - py)^2) + (1/4))) - ((1/2) + c)) - sinh((if (asin(cos(px)) < t) || (erfc((1/10)) <= (-1)) { (if (py <= a) && (erfc(py) < (-1)) { (((1/3)*c) + ((cos(px)*c) + (if (py < px) { (px*sign(px)) } else { (py + t) }))) } else { c }) } else { ((((cos(py) + (py*((px + ((b + 5) - (a*sqrt(((1^2) + (1/4))))))^3)))^2) + 2)^(-4/3)) }))) + min((y - x), ((((-1) + a)*erf(x))*erfc(((if (t <= a) { erfc(((exp(tanh(atan2(y, b)))^(3/10))/((a + (((((-1)^2) + (3^2))^(1/2)) + 1))^2))) } else { ((exp(tanh(atan2(y, b)))^(3/10))*(b - a)) }) - (if (t <= b) { x } else { (-7/4) }))))))
+    H(x, y; px, py; t) = ((((hypot(abs(atan2(px, py)), ((py^-1)*t))*(c^-2)) + (((-(if ((px - py) < c) || (px <= px) { (a^-3) } else { px })) + (px*atan2(c, px)))*py))*px) + (sinh(tanh((exp_m1(tanh(x)) - ((((if (((1/2)*c) <= (1/10)) || ((y*2) <= c) { exp_m1(tanh(x)) } else { b })^2) + 2)^(3/2))))) - ((t - y)/((y^2) + 2))))
 }
 
 hamiltonian! {
     pub struct E103 { a, b, c }
-    H(x, y; px, py; t) = (sign(atanh((hypot((a*py), (y/((min(py, t)^2) + (a^2))))/(1 + (hypot((a*py), (y/((min(py, t)^2) + (a^2))))^2)))))^-2)
+    H(x, y; px, py; t) = ((c/abs(min(ln(abs(t)), (px*(c - y)))))*round(((px/(((-1) + a)*cbrt(x))) + (3/10))))
 }
 
 hamiltonian! {
     pub struct E104 { a, b, c }
-    H(x, y; px, py; t) = ln_1p((((((if ((c/((3^2) + (1/4))) <= py) { (if !(sinh(atan(t)) <= x) { y } else { pi }) } else { py })*(y + (t + y)))*hypot((1/3), (x + (1/3))))^2) + 1))
+    H(x, y; px, py; t) = (if !(t < py) { ln_1p(abs((((pi^2) + atan2(x, (-1))) - b))) } else { (ln_1p(abs((((pi^2) + atan2(x, (-1))) - b)))*y) })
 }
 
 hamiltonian! {
     pub struct E105 { a, b, c }
-    H(x, y; px, py; t) = (((((tanh(c) + ((c*((t - pi) - px)) + (if !(t <= (1/3)) { px } else { c })))^2) + 1)^(2/3)) + ((((((-7/4) - a)^2) + 2)^(2/3))^6))
+    H(x, y; px, py; t) = (atan2((a*((py/b)*py)), atan(a)) + (-((y/c) + (a*y))))
 }
 
 hamiltonian! {
     pub struct E106 { a, b, c }
-    H(x, y; px, py; t) = (if ((atan(y)*y) <= 2) || ((sinh(c)^5) <= x) { (acosh(((((y/t)^2) + (1/4)) + 1))^2) } else { px })
+    H(x, y; px, py; t) = cbrt((x + atan2(c, py)))
 }
 
 hamiltonian! {
     pub struct E107 { a, b, c }
-    H(x, y; px, py; t) = sin((y/(acosh((abs((py + (if (b <= t) { ln(((t^2) + 2)) } else { (-1) }))) + 1))*tanh((-x)))))
+    H(x, y; px, py; t) = ((a - px) + (((if (c <= px) && (((y + (3/10)) % abs(c)) == px) { erf((pi*px)) } else { hypot(x, b) }) + (3/10)) % (-7/4)))
 }
 
 hamiltonian! {
     pub struct E108 { a, b, c }
-    H(x, y; px, py; t) = (((if (1 == py) { ((((c + 1)^2) + (1/4))^(13/4)) } else { b })^7) + (((x*x)*y) - (if !(tan(cos((((t^2) + 1)^-2))) <= y) { a } else { hypot(pi, t) })))
+    H(x, y; px, py; t) = ((-(b + ((((if !(c <= c) { px } else { py })^4) - (erf(py)*erfc((atanh(cos(((if !(c <= c) { px } else { py })/(abs(((1/2)/(1/2)))^(-1/2)))))^2))))^(1/2)))) + (if (x < x) { (((if ((-(x + y)) <= 2) { b } else { (y - (1/10)) })/(((sign(y)^2) + 1)^(3/2)))^-1) } else { (x + (((sign(y)^2) + 1)^(3/2))) }))
 }
 
 hamiltonian! {
     pub struct E109 { a, b, c }
-    H(x, y; px, py; t) = ((((if !((a*((1/2)*py)) < a) { erfc((if ((pow(abs(px), sin(px))*py) <= a) || (x <= b) { (if (y < (1/2)) || (c <= (981/100)) { t } else { (981/100) }) } else { t })) } else { (-(tan(b)^6)) })^2) + 2)^(5/2))
+    H(x, y; px, py; t) = (atan((py + (if (b <= t) { acos((t/(1 + (t^2)))) } else { (1/2) })))*tan(cos((1/x))))
 }
 
 hamiltonian! {
     pub struct E110 { a, b, c }
-    H(x, y; px, py; t) = (if (ln(abs((c/c))) < (-1)) || (pow(abs(x), acosh((abs((-1)) + 1))) <= py) { ((t*py)/((((((y^2) + (1/4))^(-7/5)) - ((if ((((c^2) + (c^2))^(-7/5)) <= y) { (t + (981/100)) } else { px })*py))^2) + (b^2))) } else { (b*max((((c^2) + (c^2))^(-7/5)), pow(abs(1), sin(c)))) })
+    H(x, y; px, py; t) = (if (1 == py) || (cos(py) <= t) { (abs((c + (pi*px)))^(3/2)) } else { (x + px) })
 }
 
 hamiltonian! {
     pub struct E111 { a, b, c }
-    H(x, y; px, py; t) = (((if (t <= px) { sqrt((((if !(py <= px) { 3 } else { py })^2) + (1/4))) } else { (pi*min((px - a), t)) }) + ((1 + (-1))*px)) + ((abs(((((((1/10)^2) + 1)^(-7/5)) - c)*(if (y < b) { (c + (1/3)) } else { (b^(-7/5)) })))^(1/2)) - ((1/3)/(3*y))))
+    H(x, y; px, py; t) = (atan((if (t < py) && ((b + py) <= c) { (exp_m1(t)*t) } else { (if (py < py) && ((py*b) == px) { ((((pi - (if ((py + 2) <= 2) { (py + 2) } else { px })) + (pi - (if ((py + 2) <= 2) { (py + 2) } else { px }))) + (3/10)) % (cosh(atan(sign((if (a <= b) || ((c/cosh(tanh((px/((py^2) + 1))))) < cosh(tanh((px/((py^2) + 1))))) { (exp_m1(cos((px + b))) + (py*cosh(cos(px)))) } else { (abs((py + py))^(3/10)) }))))^(1/3))) } else { (((981/100) + b) + py) }) })) + sin(((if ((max(x, x)*b) <= y) { (y^2) } else { x })/(-t))))
 }
 
 hamiltonian! {
     pub struct E112 { a, b, c }
-    H(x, y; px, py; t) = ((((pi^3) + a)/px)*(abs((a + (((c*(((pi^3) + a)/px)) + py) - (y - px))))^(3/10)))
+    H(x, y; px, py; t) = atanh(cos(((if ((px + b) < px) { acosh((exp(pi) + 1)) } else { a })*((c + y)*(-1)))))
 }
 
 hamiltonian! {
     pub struct E113 { a, b, c }
-    H(x, y; px, py; t) = min((-atan2(py, py)), ((((-y)^(3/10)) + 2) + (pow(((((-y)^(3/10))^2) + (1/4)), atan((x^7)))*atan2(py, py))))
+    H(x, y; px, py; t) = (a + (x/cosh(atan((((py + (3/10)) % c) - t)))))
 }
 
 hamiltonian! {
     pub struct E114 { a, b, c }
-    H(x, y; px, py; t) = ((abs(((px + (py - b))/((((ln(((((1/10)/(c + (5 - (1/2))))^2) + 1))^2) + 2)^(3/10))^4)))^(-3/2)) + (a + atan2(t, ((981/100)/cosh(atan(t))))))
+    H(x, y; px, py; t) = (((py + pi)/pi) + (floor(((1/3) + (3/10)))*2))
 }
 
 hamiltonian! {
     pub struct E115 { a, b, c }
-    H(x, y; px, py; t) = hypot((if (y < t) || (((1/3) + t) == (x + a)) { ((-5) - 2) } else { ((5 - px) - tan(cos((asinh(py)/cosh(cos((x + a))))))) }), py)
+    H(x, y; px, py; t) = (x*asinh((exp(cos(px))*(((a/px)*2)*y))))
 }
 
 hamiltonian! {
     pub struct E116 { a, b, c }
-    H(x, y; px, py; t) = ((x*x)*(pi*py))
+    H(x, y; px, py; t) = (((((y + ((a + (3/10)) % (py + py)))*py)^2) + 1)^(13/4))
 }
 
 hamiltonian! {
     pub struct E117 { a, b, c }
-    H(x, y; px, py; t) = ((if ((py/((px^2) + 2)) < b) || (px < a) { (((1/10) - (b*c))^2) } else { (((a*b) + py) - c) }) + (((y*a)/pow(((x^2) + 1), x))*t))
+    H(x, y; px, py; t) = ((px + (t + pi)) + (b/(((-b)^2) + 1)))
 }
 
 hamiltonian! {
     pub struct E118 { a, b, c }
-    H(x, y; px, py; t) = (exp(((1^3) + px))*(py + ln_1p(abs((5*x)))))
+    H(x, y; px, py; t) = ((py + (1/3))*min((((-1) + py) + y), (x - (1/3))))
 }
 
 hamiltonian! {
     pub struct E119 { a, b, c }
-    H(x, y; px, py; t) = erfc(exp_m1(sin((if (max(py, px) < y) && ((-(c - cosh(sin(((b - t)*a))))) <= t) { a } else { cos(cosh(sin(((b - t)*a)))) }))))
+    H(x, y; px, py; t) = ((((t*(t*y)) + (3/10)) % abs((hypot(y, px)/((y^2) + 2))))*(((y^2)/5)/(abs((if ((y/((x^2) + 2)) < b) { c } else { px }))^(3/2))))
 }
 
 hamiltonian! {
     pub struct E120 { a, b, c }
-    H(x, y; px, py; t) = ((-(((atan(py)^2) + (1/4))^(2/3))) + (tanh(atan2(atan2((erf((((((y^2) + 2)^(5/2))/((a^2) + 1)) + (-7/4)))/((x^2) + 2)), ((a^2) + 1)), acosh((((tanh((c*x))^2) + 2) + 1))))*(if !((b + (x*x)) < y) { b } else { c })))
+    H(x, y; px, py; t) = ((asinh(py) + c) + (((t/((y^2) + (t^2)))^2)*(1/10)))
 }
 
 hamiltonian! {
     pub struct E121 { a, b, c }
-    H(x, y; px, py; t) = hypot(pow(((px^2) + (t^2)), px), (((b + y) - (-px)) + ((pi + px) - (acos((((1/10)*((1/2) + px))*c))/(-1)))))
+    H(x, y; px, py; t) = (abs(((if ((b - x) == 5) && (b < c) { max((((1 + 1) + y)^2), (pi - (y + x))) } else { py }) + x))^(1/3))
 }
 
 hamiltonian! {
     pub struct E122 { a, b, c }
-    H(x, y; px, py; t) = ((if (5 <= y) { (((px*tan((a - 2))) + b) + c) } else { y }) + (x - (c*c)))
+    H(x, y; px, py; t) = (((acos(((x*a)/(1 + ((x*a)^2))))*tan(atan((5 - px)))) + (y + a))^-2)
 }
 
 hamiltonian! {
     pub struct E123 { a, b, c }
-    H(x, y; px, py; t) = ((cos((-7/4)) - min(c, (((tanh(b)^2) + (px^2))^(-7/5)))) + acosh((((cbrt((tanh(((if (sign((981/100)) < y) && (asinh(b) <= c) { y } else { (y + b) }) + c)) - exp(atan(sin(c)))))^2) + 1) + 1)))
+    H(x, y; px, py; t) = ((asin(cos(px))*b) + ((-(x + tanh(a))) + ln_1p(x)))
 }
 
 hamiltonian! {
     pub struct E124 { a, b, c }
-    H(x, y; px, py; t) = (((asin(y) + (py^3)) + ((if (b < t) && (((-1) - py) <= (981/100)) { y } else { pi }) + ((((if (erfc(y) <= py) { x } else { b })^2) + 1)^-3)))^5)
+    H(x, y; px, py; t) = ((((erfc((y*y))^2) + 2)^(1/2))/(((if ((if (((t^4)*(1/10)) <= px) { 5 } else { b }) == x) || ((2*(1/10)) == 3) { px } else { py }) + (x - ((y*t) + y)))^3))
 }
 
 hamiltonian! {
     pub struct E125 { a, b, c }
-    H(x, y; px, py; t) = ln_1p((((((atan2(exp_m1(exp_m1((a*((((((y^2) + 1)^(-7/5))^2) + 1)^(-7/5))))), erfc(cosh(tanh(px))))^2) + (a^2))^-3)^2) + 2))
+    H(x, y; px, py; t) = sinh(atan(((((((((ln_1p(((((-7/4) + (a^3))^2) + (1/4))) + c)^(3/10))^2)*(b - y)) - (c + py))^2) + (1/4))^-2)))
 }
 
 hamiltonian! {
     pub struct E126 { a, b, c }
-    H(x, y; px, py; t) = ((py*(a*a)) + ((((y + (c*t))/((t^2) + 2))*(-7/4)) + (5 + y)))
+    H(x, y; px, py; t) = ((atanh(sin(cosh(tanh((abs((py + b))*exp(tanh(a)))))))*((if ((exp(atan(py))^-1) <= (-1)) { py } else { a }) + (-7/4))) + sin((x - ((x - 3)/(-7/4)))))
 }
 
 hamiltonian! {
     pub struct E127 { a, b, c }
-    H(x, y; px, py; t) = hypot((if ((x*a) < px) { (((c*y) + asin(((-(c - b))/(1 + ((-(c - b))^2))))) + (1/2)) } else { (-((py - 2) + sinh((a/abs(2))))) }), (c + tanh(min((atan(py)/((((x - c) - atan2(b, x))^2) + ((1/2)^2))), (c - b)))))
+    H(x, y; px, py; t) = sin(erfc((((if ((x*(c/((y^2) + (a^2)))) < x) { a } else { x }) + (y*((981/100)/px)))*(exp_m1(sin(exp_m1(cos((((-7/4)*acos((py/(1 + (py^2)))))*(a + (981/100))))))) - (ln(((pi^2) + 2)) + (py + b))))))
 }
 
 hamiltonian! {
     pub struct E128 { a, b, c }
-    H(x, y; px, py; t) = ((if !(((((pi - t)^2) + 2)^(-7/5)) < pi) { (if (sqrt((((x - pi)^2) + (x^2))) < y) { hypot(b, b) } else { ((b - (1/10)) - (erf(px)*erfc(b))) }) } else { x })^2)
+    H(x, y; px, py; t) = (erf((3*x))/abs(sinh(atan(atan((if (round((round(((1/10) + (3/10))) + (3/10))) <= (981/100)) && (remainder((((3/10) - c) + (3/10)), pi) <= y) { py } else { (x + (erf((3*x)) - b)) }))))))
 }
 
 hamiltonian! {
     pub struct E129 { a, b, c }
-    H(x, y; px, py; t) = ((((abs(((if ((py*(b + px)) <= (1/2)) { px } else { py }) + b))^(3/2)) + t) + (-abs((py + pi)))) + ln((((((-(acosh((((c^2) + (b^2)) + 1))*b)) + sign((if (((b^2)*y) < a) || ((if !(((c^2) + (b^2)) < 5) { (1/10) } else { pi }) < (-1)) { y } else { b })))*((sign(b)^(-4/3))/hypot(a, (y - (y^-3)))))^2) + ((1/2)^2))))
+    H(x, y; px, py; t) = ((-(py + ((((px + pi) + py)*(if !((py - 5) < py) { py } else { (py + atanh((px/(1 + (px^2))))) }))^7))) + min(y, (((abs(t)^-1)*y) + ((abs(t)^-1)*y))))
 }
 
 hamiltonian! {
     pub struct E130 { a, b, c }
-    H(x, y; px, py; t) = (if !((-(x + px)) <= t) { (((c*3) - erfc(((x + b)^7))) - ((1/2)/cosh(ln_1p((((py + y)^2) + 2))))) } else { y })
+    H(x, y; px, py; t) = (((round((((((if (sin((1/2)) <= 3) || ((if ((2 - b) <= py) || ((pi + (c - 3)) < b) { y } else { py }) < y) { a } else { a })^2) + 1)^(-4/3)) + (3/10)))/((x^2) + (1/4)))*px)*(if ((b*cos(b)) <= (3/10)) || (((1/2) - b) <= x) { (px - t) } else { 1 }))
 }
 
 hamiltonian! {
     pub struct E131 { a, b, c }
-    H(x, y; px, py; t) = atan((((((y*(((t^2) + 1)^-3))^2) + (py^2))^(3/10))/cosh((pi*((1/10)^3)))))
+    H(x, y; px, py; t) = (-atan2((pi + remainder((x + (3/10)), abs(py))), (((a^2) + (px - y)) - (if (y <= py) && (((b^2) - b) <= py) { (b - (-7/4)) } else { b }))))
 }
 
 hamiltonian! {
     pub struct E132 { a, b, c }
-    H(x, y; px, py; t) = (tan(sin((a + (a + (b - min(5, pow(py, cos(a)))))))) + (-((((if ((x/((y^2) + 1)) < c) || ((-1) < x) { (981/100) } else { ((981/100)*b) })^2) + 1)^(-3/2))))
+    H(x, y; px, py; t) = (atan2((((px^2) + 1)^-3), (ln(abs(px)) + erf(px))) + (t*exp(t)))
 }
 
 hamiltonian! {
     pub struct E133 { a, b, c }
-    H(x, y; px, py; t) = (abs((((if (pi < px) || ((-(1^5)) < pi) { c } else { (((x^2) + 2)^(1/3)) }) + 1)*((px/cosh(sin((c^4))))*a)))^(1/2))
+    H(x, y; px, py; t) = ((a - t)*sinh(((if !(sign(b) <= py) { 2 } else { erfc(((c*px) - ((px^2)/abs(sign(b))))) }) + y)))
 }
 
 hamiltonian! {
     pub struct E134 { a, b, c }
-    H(x, y; px, py; t) = (hypot(y, (py - c))*py)
+    H(x, y; px, py; t) = (((((if !(y <= c) { ((atan2((t/1), (1/2)) + (a - x))*(1/3)) } else { a })*(ln(((py^2) + (1/4))) - acosh((exp(cos(max((((y^2) + (x^2))^(-1/2)), (y*b)))) + 1))))^2) + (1/4))^(1/2))
 }
 
 hamiltonian! {
     pub struct E135 { a, b, c }
-    H(x, y; px, py; t) = (((b*(if (((c*py) + b) <= (c*py)) { sign(pi) } else { py }))/abs(b)) + (ln_1p(((pow(abs(a), sin((-7/4)))^2) + 1)) + y))
+    H(x, y; px, py; t) = ((sqrt((((-((if (py <= b) || (((b + py) - py) <= c) { b } else { b }) - py))^2) + ((-7/4)^2)))*(pi + (981/100))) + (x*cbrt((sign(((((-atan((y + pi)))^2) + 2)^(-4/3))) + (c + t)))))
 }
 
 hamiltonian! {
     pub struct E136 { a, b, c }
-    H(x, y; px, py; t) = (((-y)*(x*py)) - (x^(3/10)))
+    H(x, y; px, py; t) = ((((if ((y^-3) <= b) || ((c^2) < 5) { (1/2) } else { cbrt((px*c)) }) + (3/10)) % (((exp(tanh(((b - a) - c)))^(3/10))^2) + 2))*(c^2))
 }
 
 hamiltonian! {
     pub struct E137 { a, b, c }
-    H(x, y; px, py; t) = (exp_m1(cos(((((-1)*(-1))/px)*ln(((c*t) - a)))))*y)
+    H(x, y; px, py; t) = (((((abs(((y*(-1))^-1))^(-3/2)) + (erfc(py)*abs(((((py^2) + (px^2))^-3)/px))))^2) + (py^2))^(-1/2))
 }
 
 hamiltonian! {
     pub struct E138 { a, b, c }
-    H(x, y; px, py; t) = ((((pow(abs(py), c)^4)*((tanh(sin(((py + t)^3))) + tanh(atan2((px*b), sqrt((((px*py)^2) + 1))))) - (c + b)))^-3) + tanh((((x*2)/exp(tanh((cbrt((c - b))/erfc((2/(((x + t)^2) + (1/4)))))))) - x)))
+    H(x, y; px, py; t) = ((if ((-(px + px)) <= t) { ((t - (3*tan(b))) - (b - py)) } else { 3 }) + ((((if ((((y^2) + 2)^(-3/2)) < b) && (ln_1p(cosh((b + pow(abs((pi + ((c - x)^-1))), sin(1))))) < (1/2)) { (x - (a - a)) } else { pow(abs((pi + ((c - x)^-1))), sin(1)) })^2) + (a^2))^(-1/2)))
 }
 
 hamiltonian! {
     pub struct E139 { a, b, c }
-    H(x, y; px, py; t) = ln(((atanh((((((x^2) + (1/4))^(-1/2))*(((cos((if (y < t) && (abs(px) < y) { 2 } else { b })) - (b^-1)) - py)*c))/(1 + (((((x^2) + (1/4))^(-1/2))*(((cos((if (y < t) && (abs(px) < y) { 2 } else { b })) - (b^-1)) - py)*c))^2))))^2) + (a^2)))
+    H(x, y; px, py; t) = (max(acosh((abs((py - (b*(b + t)))) + 1)), b)/y)
 }
 
 hamiltonian! {
     pub struct E140 { a, b, c }
-    H(x, y; px, py; t) = (atan(((exp(((((a*(t - (y - c)))^2) + 1)^(-1/2)))*pow(((b^2) + 1), py))*((tanh(exp(tanh(py)))/exp(cos(px)))*(if !(((1/10)*(1/10)) < py) { x } else { px }))))^2)
+    H(x, y; px, py; t) = (py + (y*(((1/10) + (py/(a - x)))/(((a/x)^2) + 1))))
 }
 
 hamiltonian! {
     pub struct E141 { a, b, c }
-    H(x, y; px, py; t) = ((-(((t*(a - py)) + a)/((b^2) + 2))) + ((erf(x) + b)*((c*y) + ((c + ln_1p(((((sinh(b)^4) + a)^2) + 1)))*x))))
+    H(x, y; px, py; t) = (acos(sin(((round((a + (3/10))) - exp_m1(a))/abs(tan(sin((a + (exp_m1(a) + (b - py))))))))) + (y + (-(y + (1/10)))))
 }
 
 hamiltonian! {
     pub struct E142 { a, b, c }
-    H(x, y; px, py; t) = (atanh(tanh((c*(cosh(((-(if (acosh(((((c/(((1/10)^2) + 1))^2) + (1/4)) + 1)) < b) { 1 } else { (5 + (if (cosh(atan((b*py))) < b) || ((c - y) < px) { py } else { ln(((cosh(exp(tanh((-7/4))))^2) + (px^2))) })) })) + cbrt((-(if (pi < t) { a } else { (py/((c^2) + (1/4))) })))))^(-4/3)))))*(((-(if (pi < t) { a } else { (py/((c^2) + (1/4))) })) + y) + px))
+    H(x, y; px, py; t) = sin(((px - ((((x^2) + 2)^(1/3)) - ((x^2) + 2))) - ((-(1^5))^-3)))
 }
 
 hamiltonian! {
     pub struct E143 { a, b, c }
-    H(x, y; px, py; t) = (((a*px) - y)*(py + ((py*(px + 1)) + (-(c^3)))))
+    H(x, y; px, py; t) = (abs((px/((((sin(((t*px) + floor((max(y, px) + (3/10)))))/abs(py)) - (t - y))^2) + (a^2))))^(-7/5))
 }
 
 hamiltonian! {
     pub struct E144 { a, b, c }
-    H(x, y; px, py; t) = (((if !((-7/4) <= c) { exp_m1(atan(tanh((if (((if (b < px) { (981/100) } else { b })*c) <= px) || (t < py) { px } else { b })))) } else { (1/10) }) + (sqrt(((t^2) + 2)) + px)) + (cos(sin((x + (t + (sqrt(((a^2) + 1)) - ((((1/3)^2) + 2)^(3/10)))))))/(c - pi)))
+    H(x, y; px, py; t) = (exp(tanh((asinh((b/(((py^5) + (3/10)) % hypot(a, (px + (981/100))))))*asinh((b/(((py^5) + (3/10)) % hypot(a, (px + (981/100))))))))) + ((1/3) - ((1/3) - (x - (1/3)))))
 }
 
 hamiltonian! {
     pub struct E145 { a, b, c }
-    H(x, y; px, py; t) = (a - ((if ((y + c) <= py) || ((((y + c) + py) + px) < px) { x } else { py })^2))
+    H(x, y; px, py; t) = ((py + ((((py - (x + (b*(x^4))))^2) + 1)^-3))*((pi*y)*b))
 }
 
 hamiltonian! {
     pub struct E146 { a, b, c }
-    H(x, y; px, py; t) = (-((if !((b*(if (2 <= y) { 3 } else { px })) <= y) { a } else { x }) - (ln(exp(pi)) - (-(exp_m1(py) + c)))))
+    H(x, y; px, py; t) = floor(((((min(py, (if ((if (cosh(sin(sqrt(((x^2) + (1/4))))) <= x) { (y + c) } else { t }) == x) || ((((1/10)*(-7/4)) + t) <= (1/10)) { b } else { ((x*py)*(1/4)) }))^2) + (1/4))^(-1/2)) + (3/10)))
 }
 
 hamiltonian! {
     pub struct E147 { a, b, c }
-    H(x, y; px, py; t) = (erf((-((c*((atanh(((c^-3)/(1 + ((c^-3)^2))))*py)*((c*py)^2))) + (exp(atan((min(b, a) + c)))*exp(tanh((((abs((b/exp(tanh((a/px)))))^(-1/2))*b) + atan(((a*atan2(c, a))^2))))))))) + (if ((x*(x + y)) < 5) { exp_m1(sin(pow(((b^2) + (1/4)), cos(((x*t)/(abs(ln_1p(((x^2) + 2)))^(2/3))))))) } else { (((if ((x + (1/3)) <= t) || (min(t, (if !((b - y) <= a) { t } else { y })) <= 1) { (981/100) } else { atanh(cos(c)) }) + (-y)) + (y + (y/((x^2) + 2)))) }))
+    H(x, y; px, py; t) = (min(floor(((((exp((px*px)) + (3/10)) % px)*(py*5)) + (3/10))), b) + tanh(((x/((((x*(y - (((x^2) + 1)^(-4/3))))*(1/2))^2) + (y^2))) + (y + (1/2)))))
 }
 
 hamiltonian! {
     pub struct E148 { a, b, c }
-    H(x, y; px, py; t) = acosh(((((abs((if !(y <= (981/100)) { acos(sin(c)) } else { c })) + (ln(((if ((x^-2) < 5) { (a*(if !(c < a) { (1/2) } else { x })) } else { b })*((y/((a^2) + 1)) + (c/exp(1)))))*(((py*py)*atan2(2, (x - y))) + (if !((3^5) <= t) { (t + b) } else { py }))))^2) + 2) + 1))
+    H(x, y; px, py; t) = sqrt(exp((erfc(((if (atan(pi) < y) { x } else { (cos(px) + (-1)) })^7))*(-((((px^7)^2) + 1)^(1/2))))))
 }
 
 hamiltonian! {
     pub struct E149 { a, b, c }
-    H(x, y; px, py; t) = atan(ln_1p(((sign(atanh(sin(hypot(hypot(a, acos(tanh(((((a^2) + 1)^(3/2)) - c)))), min(acos((tanh((pi^7))/(1 + (tanh((pi^7))^2)))), ((x*(a - c)) - (px/y)))))))^2) + 2)))
+    H(x, y; px, py; t) = max((if (x < x) { floor(((((pi - b) - t) + (b*(2 + py))) + (3/10))) } else { (981/100) }), b)
 }
 
 hamiltonian! {
     pub struct E150 { a, b, c }
-    H(x, y; px, py; t) = (((-(if ((if !(acosh((abs(a) + 1)) <= py) { b } else { (b - (1/3)) }) < py) { atanh(cos((min(t, 3)^-2))) } else { (((((-py)/px)/((py*asin((atanh(cos((min(t, 3)^-2)))/(1 + (atanh(cos((min(t, 3)^-2)))^2)))))*pi))/(981/100))^7) })) + (erf(pi)^-2)) + (((x*(c/(-1))) + b)^6))
+    H(x, y; px, py; t) = (((py + py)*(py + b)) + (pi*(((pi*(x/x)) + atan2(erf((a*c)), (((-1) + b)^3)))^6)))
 }
 
 hamiltonian! {
     pub struct E151 { a, b, c }
-    H(x, y; px, py; t) = (((x + b) + (abs(((1/3)*b))^-1))*((asinh(px)*px)*abs(py)))
+    H(x, y; px, py; t) = (acos((((-py)*(b^2))/(1 + (((-py)*(b^2))^2))))*acos((cos(exp_m1(y))/(1 + (cos(exp_m1(y))^2)))))
 }
 
 hamiltonian! {
     pub struct E152 { a, b, c }
-    H(x, y; px, py; t) = (((((px^2) + (a^2))^(5/2)) + (exp_m1(sin((y - (cosh(x)*py)))) - a))/abs(cos((a^2))))
+    H(x, y; px, py; t) = ((a + (((sinh(((pi*a) + sign(py))) + (((x - (981/100))*(px - py))^-1))*(((pi*a)*py) - b))/px))^2)
 }
 
 hamiltonian! {
     pub struct E153 { a, b, c }
-    H(x, y; px, py; t) = (cosh(sin(((((px/c) - abs((-7/4))) + asin((py/(1 + (py^2))))) - px))) + exp_m1(sin(cbrt(cos((pi + ((hypot(a, x) + (1/2))*(a - (y + b)))))))))
+    H(x, y; px, py; t) = (((((if ((-7/4) < py) && (px < py) { py } else { t })^2) + 2)^(1/3)) + round((((-((if (atan2((abs(b)^(1/3)), abs(b)) == a) || (atanh(cos((3 - x))) < y) { t } else { ((-1)*t) })/(a*x))) - (((x - (x + c)) + (3/10)) % exp(t))) + (3/10))))
 }
 
 hamiltonian! {
     pub struct E154 { a, b, c }
-    H(x, y; px, py; t) = (x*(if (cbrt((((5^2) + (1/4))^(-4/3))) <= x) && (((1 + c) + t) < px) { py } else { (pi*pi) }))
+    H(x, y; px, py; t) = (if !(atanh(tanh(px)) < 1) { tanh(px) } else { max((if (((3 + c) - py) < py) { (b - (if (c < y) || ((px - x) < x) { 1 } else { tanh(px) })) } else { b }), (ln_1p((a - (if (px <= c) && (a < px) { x } else { a })))^2)) })
 }
 
 hamiltonian! {
     pub struct E155 { a, b, c }
-    H(x, y; px, py; t) = ln((((y/(a - erfc(((((((a/x)*(py*a)) + erfc(t))^2) + 1)^(2/3)))))^2) + 2))
+    H(x, y; px, py; t) = (exp(((py/a)*x)) + ((((b*(if (floor(((b*py) + (3/10))) <= 2) { c } else { (981/100) }))^2) + 1)^(1/3)))
 }
 
 hamiltonian! {
     pub struct E156 { a, b, c }
-    H(x, y; px, py; t) = (sqrt(((((-(px/((t^2) + (1/4))))^2)^2) + 1)) + (3*acos(((asin((if (x < x) || (sign(((-7/4) + b)) <= t) { ((b*x)/(x - pi)) } else { (if (t <= y) && ((y*t) <= y) { x } else { acosh((cosh(tanh(ln(((y^2) + 2)))) + 1)) }) })) + pi)/(1 + ((asin((if (x < x) || (sign(((-7/4) + b)) <= t) { ((b*x)/(x - pi)) } else { (if (t <= y) && ((y*t) <= y) { x } else { acosh((cosh(tanh(ln(((y^2) + 2)))) + 1)) }) })) + pi)^2))))))
+    H(x, y; px, py; t) = ((remainder((((5*pi)*t) + (3/10)), cosh(atan2(pi, py)))*py) + ln((((((if ((1/3) < x) && (((c^-3)*b) < 3) { (-x) } else { pi }) + y) + round((((if ((1/3) < x) && (((c^-3)*b) < 3) { (-x) } else { pi })*(-x)) + (3/10))))^2) + (1/4))))
 }
 
 hamiltonian! {
     pub struct E157 { a, b, c }
-    H(x, y; px, py; t) = sinh((if !(((a + (-1))/py) <= (981/100)) { x } else { (min(((if ((px*(-1)) < x) || (py <= t) { a } else { px })*py), ((px*(-1)) + y)) + (a*((abs(c)^-2)*py))) }))
+    H(x, y; px, py; t) = ((((acos(((((-1) + b) + (abs(asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2)))))^(-1/2)))/(1 + ((((-1) + b) + (abs(asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2)))))^(-1/2)))^2))))^2) + 1)^(-1/2))/((acos((((acos((asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2))))/(1 + (asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2))))^2))))*((((((if ((((acos(((((-1) + b) + (abs(asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2)))))^(-1/2)))/(1 + ((((-1) + b) + (abs(asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2)))))^(-1/2)))^2))))^2) + 1)*(px + y)) < 5) { c } else { a })^2) + (1/4))^(1/2))/((pi^2) + 1)) + t))^6)/(1 + (((acos((asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2))))/(1 + (asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2))))^2))))*((((((if ((((acos(((((-1) + b) + (abs(asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2)))))^(-1/2)))/(1 + ((((-1) + b) + (abs(asin((((a*max(c, a))^2)/(1 + (((a*max(c, a))^2)^2)))))^(-1/2)))^2))))^2) + 1)*(px + y)) < 5) { c } else { a })^2) + (1/4))^(1/2))/((pi^2) + 1)) + t))^6)^2))))^2) + (x^2)))
 }
 
 hamiltonian! {
     pub struct E158 { a, b, c }
-    H(x, y; px, py; t) = (min((981/100), c) - (if ((b + y) <= c) || (y <= py) { c } else { sign(t) }))
+    H(x, y; px, py; t) = erfc(acosh(((((cosh(cos((((((erf(b) - (ln(((b^2) + (c^2)))*y))^4) + (3/10)) % ((pi^2) + 1))/exp(tanh(px)))))^-1)^2) + 1) + 1)))
 }
 
 hamiltonian! {
     pub struct E159 { a, b, c }
-    H(x, y; px, py; t) = (tanh((exp_m1(atan(exp((px + (b + py))))) + px)) + cos(ln(((tan(tanh((x + pi)))^2) + (1/4)))))
+    H(x, y; px, py; t) = ((t + (((cos(((acos((remainder((pi + (3/10)), abs(py))/(1 + (remainder((pi + (3/10)), abs(py))^2)))) + px) + b))^2) + 2)^-3)) + (a*(if !(c < a) { (1/2) } else { (1/2) })))
 }
 
 hamiltonian! {
     pub struct E160 { a, b, c }
-    H(x, y; px, py; t) = ((((if (a == py) { a } else { y })/(((((t + (1/2))^5) + y)^2) + 1)) + (b*y)) + (py + c))
+    H(x, y; px, py; t) = acosh((abs((((981/100)*atan(a))/exp((-(min(y, a) - py))))) + 1))
 }
 
 hamiltonian! {
     pub struct E161 { a, b, c }
-    H(x, y; px, py; t) = (if !((((y^2) + (1/4))^-2) <= 3) { (y*(((y - a) + b) - b)) } else { (c + (sin((py*t))*b)) })
+    H(x, y; px, py; t) = cos((min(((if (y <= x) || (y <= c) { y } else { py })*((2*b)^2)), (px/c))/ln_1p((((((px + py) + x)^2)^2) + (1/4)))))
 }
 
 hamiltonian! {
     pub struct E162 { a, b, c }
-    H(x, y; px, py; t) = (((-((px - b)*a)) - ((py - tan((c - 2))) + (if ((px + py) <= px) && (a < t) { (px - b) } else { c }))) + pow(abs(cos(b)), cos(min(exp_m1(atan((-cos(b)))), ((max(acos((t/(1 + (t^2)))), (c + y))^2) - ((b/exp((((max(acos((t/(1 + (t^2)))), (c + y))^2) + c) - (-1)))) - y))))))
+    H(x, y; px, py; t) = ((-(asin((max(py, pi)/(1 + (max(py, pi)^2))))/cosh(py))) + (cbrt(((((3 + exp(((1/10)^2))) + (3/10)) % y)^6))^2))
 }
 
 hamiltonian! {
     pub struct E163 { a, b, c }
-    H(x, y; px, py; t) = exp_m1(sin(((c - (cbrt((x/((py^2) + 2))) + b))^-1)))
+    H(x, y; px, py; t) = (((((-pow((((((b/t) + b) + erfc(((981/100)*((b/t) + b))))^2) + (b^2)), (tan(tanh(abs(((1/10) - py))))*cbrt((((c + c) + (3/10)) % (py - x))))))^2) + (px^2))^(-1/2))^5)
 }
 
 hamiltonian! {
     pub struct E164 { a, b, c }
-    H(x, y; px, py; t) = hypot((asinh(x)/exp(atan(c))), px)
+    H(x, y; px, py; t) = ((((py - px) + px)^6) - max((px + (y*(px - round((1 + (3/10)))))), 5))
 }
 
 hamiltonian! {
     pub struct E165 { a, b, c }
-    H(x, y; px, py; t) = ((cosh(py)*(abs(cos(((t*px)*(abs(((t*t)*(981/100)))^(1/2)))))^(-1/2))) + ((x - y) + (-7/4)))
+    H(x, y; px, py; t) = (((5^4) + (py + (py^(-4/3)))) + hypot((y + y), ((((t*t) + y) - (cosh(t)*((1/2) - 1)))*(c^4))))
 }
 
 hamiltonian! {
     pub struct E166 { a, b, c }
-    H(x, y; px, py; t) = ((py - y)*((((-7/4)*(abs(((((acos((x/(1 + (x^2)))) - (y + 2))^2) + (1/4))^-1))^(1/2)))*x)/py))
+    H(x, y; px, py; t) = (cbrt(c)*((c + (((if (min((y + b), a) < 5) { t } else { (1/3) })*exp(cos((px*py)))) - pi))*(y - b)))
 }
 
 hamiltonian! {
     pub struct E167 { a, b, c }
-    H(x, y; px, py; t) = ((if ((sin(px)*a) < x) { a } else { (c*3) })*y)
+    H(x, y; px, py; t) = max(((((1/3)^(3/2))/exp(((1/3)^(3/2)))) + y), ((abs(py)^(3/2))/atanh(tanh(((b^2) + a)))))
 }
 
 hamiltonian! {
     pub struct E168 { a, b, c }
-    H(x, y; px, py; t) = (((py + sinh(px))/exp(tanh(c))) + (((t*y)/((t*(1/10))/(((c + acos(sin(x)))^2) + (t^2))))*((y/a) + (t - t))))
+    H(x, y; px, py; t) = (((if (asin((py/(1 + (py^2)))) <= (1 + (py^2))) || (py <= px) { (py - sqrt(((b^2) + 2))) } else { (erfc((c - sinh(cos((981/100)))))*(1/2)) })/(((sinh(cos((981/100))) + exp_m1((-7/4)))^2) + 2)) + asinh(hypot(asin(cos(exp_m1(atan((pow((((abs(x)^(3/10))^2) + 1), atan(1)) + pi))))), ((((sqrt(((a^2) + 1))*x) + ((x + 1)^3)) + ln_1p((((floor(((cosh((if (((-y)*y) == a) && (acosh(((((c^4)^2) + 2) + 1)) < x) { sign((a/abs(y))) } else { x }))^(13/4)) + (3/10)))^2) + (b^2))^(-7/5)))) + (asin((x/(1 + (x^2))))*((atan((pow((((abs(x)^(3/10))^2) + 1), atan(1)) + pi)) - t) + x))))))
 }
 
 hamiltonian! {
     pub struct E169 { a, b, c }
-    H(x, y; px, py; t) = (cosh(tanh((((erf((-erfc(min((ln(((acos(c)^2) + (c^2)))/(((if (cbrt((if (((((-1)^2) + (c^2))^-1) <= py) && (x <= (1/3)) { px } else { 5 })) < py) && ((((-7/4)*y) + a) == y) { ((1/10) + (sin((pi + c)) + y)) } else { t })^2) + 1)), (pi^2)))))^2) + 2)^(-7/5))))/cosh((((c^2) - y) - y)))
+    H(x, y; px, py; t) = (abs((((px^2) + (x^2))^(-1/2)))^(3/2))
 }
 
 hamiltonian! {
     pub struct E170 { a, b, c }
-    H(x, y; px, py; t) = ((c*pow(((py^2) + ((981/100)^2)), b)) + ((-(-((y*(c*pow(((py^2) + ((981/100)^2)), b)))/cosh(y)))) + exp_m1(cos((((c^2) + (x^2))^(-1/2))))))
+    H(x, y; px, py; t) = cosh(sin((asin((((a/x)*px)/(1 + (((a/x)*px)^2)))) + cos(atan(((((a*((981/100)^2))^7) - t) + ((erf(py)^5)*sqrt(((t^2) + (t^2))))))))))
 }
 
 hamiltonian! {
     pub struct E171 { a, b, c }
-    H(x, y; px, py; t) = (((abs(asin((pow(((exp(atan(asinh(((1/3)*px))))^2) + (1/4)), (((((py*((py + ((((5^2) + ((1/10)^2))^(-3/2))*b)) - px))^2) + 1)^(-4/3)) + (b - (b*b))))/(1 + (pow(((exp(atan(asinh(((1/3)*px))))^2) + (1/4)), (((((py*((py + ((((5^2) + ((1/10)^2))^(-3/2))*b)) - px))^2) + 1)^(-4/3)) + (b - (b*b))))^2)))))^(2/3))^2) + ((t*x) - 2))
+    H(x, y; px, py; t) = (exp_m1(tanh(((abs((py*(3*px)))^-2) - (if (cbrt(t) <= c) || (b <= t) { tanh((px/(((1/10)^2) + 1))) } else { ((1/3) - pi) })))) + ((y*x)*(if !(t < a) { (((asin(tanh(((-(1/2)) + (1/2))))^2) + 2)^-2) } else { x })))
 }
 
 hamiltonian! {
     pub struct E172 { a, b, c }
-    H(x, y; px, py; t) = ((py - (y + b))*(if !(a < c) { (if (c <= t) || ((t - (t/((y^2) + (py^2)))) == px) { py } else { 1 }) } else { 1 }))
+    H(x, y; px, py; t) = cos(erf(max(px, y)))
 }
 
 hamiltonian! {
     pub struct E173 { a, b, c }
-    H(x, y; px, py; t) = ((y - tan(c))*(min(py, x) - (y*erfc(sign((a + hypot(t, t)))))))
+    H(x, y; px, py; t) = (((if (px == (981/100)) || (abs((b + c)) == px) { c } else { b })/x)*c)
 }
 
 hamiltonian! {
     pub struct E174 { a, b, c }
-    H(x, y; px, py; t) = (abs(((atanh(((-px)/(1 + ((-px)^2))))*py)*(px + py))) + sin((((acosh((abs(((((x*((b/((c^2) + (c^2)))/((t^2) + ((1/10)^2))))^2) + 1)^(-3/2))) + 1))^2) + (a^2))^(3/2))))
+    H(x, y; px, py; t) = ((round((((a*a)/abs((sinh(sin(b)) - a))) + (3/10)))/(((((a*a)/abs((sinh(sin(b)) - a))) + py)^2) + 2)) + (-((y + y)^4)))
 }
 
 hamiltonian! {
     pub struct E175 { a, b, c }
-    H(x, y; px, py; t) = ((if (x < b) && (x < (1/3)) { c } else { x }) - (if !(((pi + 1) + py) <= c) { acos((((if !(erfc(c) == b) { erfc((tanh(pow((((-(cosh((py*(1/10)))^2))^2) + 1), tanh(pi))) + px)) } else { t })/(((c + ((1/2) + 1)) + c) - ((c + (py + (-sign(a)))) + (y*x))))/(1 + (((if !(erfc(c) == b) { erfc((tanh(pow((((-(cosh((py*(1/10)))^2))^2) + 1), tanh(pi))) + px)) } else { t })/(((c + ((1/2) + 1)) + c) - ((c + (py + (-sign(a)))) + (y*x))))^2)))) } else { ((x + x)/abs(((1/10) + b))) }))
+    H(x, y; px, py; t) = ((min(x, ((((5^2) + (px^2))^-3) + (-a))) + (3/10)) % (((t*a)^2) + 2))
 }
 
 hamiltonian! {
     pub struct E176 { a, b, c }
-    H(x, y; px, py; t) = (((((abs(py)^(3/10))*x)^2) + (c^2))^(-4/3))
+    H(x, y; px, py; t) = (cosh((x + 1)) + (py*(((x^2) + 2)^-3)))
 }
 
 hamiltonian! {
     pub struct E177 { a, b, c }
-    H(x, y; px, py; t) = ((((t - (py*py)) + py) + cos((sqrt(abs(c))/abs(((1/2) - px))))) + ((-7/4) + erfc(((-x) + acos((cosh(sin((x*((((((-7/4) - (-7/4)) + (-7/4)) - b) + x) - (1/10)))))^(1/3)))))))
+    H(x, y; px, py; t) = (atanh(((px + ln_1p((((((if ((c*(1/2)) < 5) || (((c - 5)^4) <= b) { sign((b/pi)) } else { (t*px) }) + px) - ((py/pi)/px))^2) + (py^2))))/(1 + ((px + ln_1p((((((if ((c*(1/2)) < 5) || (((c - 5)^4) <= b) { sign((b/pi)) } else { (t*px) }) + px) - ((py/pi)/px))^2) + (py^2))))^2)))) + ln_1p(cosh((if !(cbrt(a) < t) { (a - b) } else { (if ((abs((x*a))^(-4/3)) <= x) || ((y - x) <= x) { a } else { (if ((a*1) < x) || ((abs((c*(-7/4)))^-2) <= t) { a } else { y }) }) }))))
 }
 
 hamiltonian! {
     pub struct E178 { a, b, c }
-    H(x, y; px, py; t) = (((c^4)*c) - ((-pow(abs(y), atan(c)))/cosh(sin(((py^6)*(pi/(((1/10)^2) + 1)))))))
+    H(x, y; px, py; t) = ((((pi*(py + (b/abs(x))))^2) + 1)^(13/4))
 }
 
 hamiltonian! {
     pub struct E179 { a, b, c }
-    H(x, y; px, py; t) = min((if (y <= py) && (((if !((2 + pi) <= b) { b } else { a }) + 2) < t) { atan2((3*2), y) } else { (ln(abs(b))/b) }), (t + b))
+    H(x, y; px, py; t) = atanh(sin(erfc((exp(tanh((ln(cosh((if ((5 + 5) < x) { px } else { c }))) + b)))^(-7/5)))))
 }
 
 hamiltonian! {
     pub struct E180 { a, b, c }
-    H(x, y; px, py; t) = (asinh(((atan2(a, cosh((px - a))) + (((py + py)*b)*ln((((if (py < px) { (1/10) } else { (1/10) })^2) + 1)))) + min((a - acos((((1/2) - px)/(1 + (((1/2) - px)^2))))), (py*c)))) + (cosh(((1/3) + x)) - ((y*(x + ((((981/100)*(-1)) + a)/((y^2) + 1))))^-1)))
+    H(x, y; px, py; t) = ((py - (if (px < py) || (((5*c) - c) < b) { (t/(pi/((((c*a)^3)^2) + 2))) } else { py })) + (((-(((2 - c)/(((if ((y*pi) == (1/10)) && ((if (acosh((cosh(sin(a)) + 1)) < c) && (((b + pi) - y) < x) { (x + (1/3)) } else { pi }) < x) { pi } else { atanh(sin(((y*(1/10)) + (-pi)))) })^2) + (x^2))) - (sign(((pi + pi) + (b^4))) + a)))^5) + (cos(y) + b)))
 }
 
 hamiltonian! {
     pub struct E181 { a, b, c }
-    H(x, y; px, py; t) = (((c*((a - py) + x))*exp(pi))*pow(exp(cos((y*py))), sin((c + py))))
+    H(x, y; px, py; t) = ((floor((sin(((b*exp_m1(atan(px)))*((-px) + y))) + (3/10))) + sinh(sin(((round(((y*c) + (3/10))) + (3/10)) % (((b + ((-px) + y))^2) + (1/4)))))) - (if (1 < y) { 2 } else { ((((((((c - ((exp(atan(px))^(13/4)) - exp(atan(px))))^5)^2) + (sinh(sin(((round(((y*c) + (3/10))) + (3/10)) % (((b + ((-px) + y))^2) + (1/4)))))^2))^(-4/3))^2) + 1)^(-4/3)) }))
 }
 
 hamiltonian! {
     pub struct E182 { a, b, c }
-    H(x, y; px, py; t) = min((if (((1/2)/(1/2)) < b) && (px <= px) { py } else { 2 }), sign((if ((c + b) < x) || (((2/(((1/10)^2) + 2))*py) <= (-7/4)) { tan(tanh((if ((y + (px + a)) <= x) { a } else { y }))) } else { cosh(sin((py - t))) })))
+    H(x, y; px, py; t) = (t + (b*sinh(atan(tanh(((if ((x + (a + a)) <= t) && (ln(((((1/2)/b)^2) + 1)) <= a) { atan2(y, t) } else { px })/py))))))
 }
 
 hamiltonian! {
     pub struct E183 { a, b, c }
-    H(x, y; px, py; t) = ((erf(sin((cos(b) - exp(((c/(py^-1))*px)))))*(cosh(((((a - c)^2) + (1/4))^(1/2)))^-2)) + (-((y*(acosh((abs(y) + 1)) + (y/y))) + (-7/4))))
+    H(x, y; px, py; t) = (atan2(erf((if (((((-1)^2) + ((-1)^2))^-1) <= py) || ((px - t) <= px) { ((py*t) + erf(t)) } else { ((3*t)*a) })), ((acos((erf((if (max(pi, px) == py) || ((((atanh((a/(1 + (a^2))))^2) + (b^2))^-3) <= t) { px } else { py }))/(1 + (erf((if (max(pi, px) == py) || ((((atanh((a/(1 + (a^2))))^2) + (b^2))^-3) <= t) { px } else { py }))^2))))*atanh((c/(1 + (c^2))))) + (((py/px)*((remainder((py + (3/10)), b) - (981/100))*(sin(2)*px))) + (-1)))) + (ln(abs(((atan2((a*((y + c) - b)), (a - 2)) + ln_1p(abs(((5*acos(sin(((y*y) - c))))*(t + pi)))))*(((1/10) + b)/abs(sqrt((((((abs((x - atan2((a*((y + c) - b)), (a - 2))))^2) + (1/4))^(-3/2))^2) + (b^2))))))))*(((1/10)*(a + c))*x)))
 }
 
 hamiltonian! {
     pub struct E184 { a, b, c }
-    H(x, y; px, py; t) = min((a - (pi*(2*((c*x) + py)))), exp_m1(tanh((1/10))))
+    H(x, y; px, py; t) = atan2((x - ((min(c, (t - (t/((y^2) + (py^2)))))^2) + x)), (tan(atan((((((t - max(t, (a/cosh(cos(c))))) - a)^2) + (1/4))^(1/3))))/exp(cos(floor(((t - (t/((y^2) + (py^2)))) + (3/10)))))))
 }
 
 hamiltonian! {
     pub struct E185 { a, b, c }
-    H(x, y; px, py; t) = ((((c + (((((c*((1/3) + x)) - a)/((asinh(((-(1/2)) + b))^2) + 1))*py)*atan2((py - (1/3)), px)))^2) + (1/4))^(-7/5))
+    H(x, y; px, py; t) = (if (b <= pi) { c } else { (abs((y*erf(((y - ln_1p(((c^2) + (1/4))))*((py/cosh(tanh(x))) + y)))))^-2) })
 }
 
 hamiltonian! {
     pub struct E186 { a, b, c }
-    H(x, y; px, py; t) = (tan(tanh((exp(tanh(tan(px)))*((if !((-(px + c)) < c) { (b + t) } else { (b + t) }) - py)))) + ((c - c) - sin((x*y))))
+    H(x, y; px, py; t) = ((((a*erf((px*tan(2))))*(sqrt((((exp(atan((erf((px*tan(2))) - sinh(atan(cos(tanh(px)))))))^(1/2))^2) + 2))*t))/(-1)) + atanh(((sqrt((((if (a <= y) { t } else { (if (b < t) { a } else { b }) })^2) + (1^2))) - ((((b*y) + c)^5) + pow(abs(t), cos((b*y)))))/(1 + ((sqrt((((if (a <= y) { t } else { (if (b < t) { a } else { b }) })^2) + (1^2))) - ((((b*y) + c)^5) + pow(abs(t), cos((b*y)))))^2)))))
 }
 
 hamiltonian! {
     pub struct E187 { a, b, c }
-    H(x, y; px, py; t) = ((((pi - t) + a) - (if (((py*b)^3) <= b) { tan(c) } else { (if (((abs((1/2))^(-7/5)) + a) < x) && (((abs((1/2))^(-7/5)) + a) <= b) { c } else { px }) })) - a)
+    H(x, y; px, py; t) = ((((erf((if (x < b) && (((if ((t*t) <= px) && (sinh(tanh(py)) == ((py/((x^2) + (1/4))) + c)) { 5 } else { c })/((px^2) + 2)) == x) { (((py/((x^2) + (1/4))) + c)^6) } else { (1/3) }))^2) + 1)^-1) - (abs(min(t, (t*((c + ((1/2) + 1)) + c)))) - (-1)))
 }
 
 hamiltonian! {
     pub struct E188 { a, b, c }
-    H(x, y; px, py; t) = (cbrt(cbrt(atanh((b/(1 + (b^2))))))*pow(cosh(atan((py + x))), (-((px/py)^2))))
+    H(x, y; px, py; t) = ((tanh(px) + remainder(((1/3) + (3/10)), asinh(1)))*(y/(if !(sign((x - b)) < x) { a } else { pi })))
 }
 
 hamiltonian! {
     pub struct E189 { a, b, c }
-    H(x, y; px, py; t) = (sign((-((((-((((py*px) - (c/cosh(atan(pi)))) - cosh(b))*b))^2) + 1)^(2/3)))) + max(cosh(cos(ln_1p(((y^2) + 2)))), (x + b)))
+    H(x, y; px, py; t) = ((((1/2) + a) - round(((py + ((py^4)*px)) + (3/10)))) + erf(exp_m1(atan(((b*b)*hypot((a - a), x))))))
 }
 
 hamiltonian! {
     pub struct E190 { a, b, c }
-    H(x, y; px, py; t) = ((y*1)*sin(((c*b) + py)))
+    H(x, y; px, py; t) = ln_1p(cosh((erf((b^3)) - (((y + py)/(1/3)) - ((abs(b)*pi) - a)))))
 }
 
 hamiltonian! {
     pub struct E191 { a, b, c }
-    H(x, y; px, py; t) = (abs(((((atanh(((py*b)/(1 + ((py*b)^2)))) + ((x*atan2((px*a), py))^2))^2) + (x^2))^(-7/5)))^(13/4))
+    H(x, y; px, py; t) = cosh(sqrt(((abs((abs((sign((min((1 - (py^3)), pi) + (py*1))) + sinh(sin(((min((1 - (py^3)), pi) - (c*a)) + (x*((((-x)^2) + 2)^-1)))))))^(3/10)))^2) + (c^2))))
 }
 
 hamiltonian! {
     pub struct E192 { a, b, c }
-    H(x, y; px, py; t) = ((cos(pow(((3^2) + 2), b)) - (((a/(-7/4))/((((b - a)*py)^2) + (1/4)))^5)) + ((abs(((x*((t + t) - (2^5)))^2))^(-1/2)) - x))
+    H(x, y; px, py; t) = (((py + py)*a) + ((if ((y + pi) <= b) || ((x*(b^7)) < a) { (atan2(y, x)/exp(x)) } else { b }) + (atanh(cos((exp(cos(t)) + c))) + ((-7/4)*(abs(a)^(3/2))))))
 }
 
 hamiltonian! {
     pub struct E193 { a, b, c }
-    H(x, y; px, py; t) = (((b/cosh(tanh(a))) + atan2((sin((px/((atan2(b, px)^2) + 2)))^7), (c*hypot(py, y)))) + (t*3))
+    H(x, y; px, py; t) = ((if (b < x) { max((abs(x)^(3/10)), py) } else { py })^2)
 }
 
 hamiltonian! {
     pub struct E194 { a, b, c }
-    H(x, y; px, py; t) = atan2((b - py), x)
+    H(x, y; px, py; t) = ((y*(x*pi)) - (cos(px)*x))
 }
 
 hamiltonian! {
     pub struct E195 { a, b, c }
-    H(x, y; px, py; t) = ((-(if (((((1*py)^2) + ((1*py)^2))^(-3/2)) < a) && (atan(t) <= px) { (px - (((if ((if (asin(b) < px) { py } else { c }) < a) && (ln_1p(abs((1/10))) <= pi) { px } else { ((if (sign(cbrt(py)) <= px) { py } else { px })/px) }) + a) - 5)) } else { px })) + ((1*y)*((2 + (abs((a + x))^(3/2)))*(x + (pi + y)))))
+    H(x, y; px, py; t) = ((t*((t*px) - (cos((c*px))/((py^2) + (px^2))))) + erfc(((a^7)*min(c, x))))
 }
 
 hamiltonian! {
     pub struct E196 { a, b, c }
-    H(x, y; px, py; t) = (-(max((min((t + y), 5) + min((t + y), 5)), (x + (t^6)))*(px*b)))
+    H(x, y; px, py; t) = (abs((if (round(((pi - px) + (3/10))) < t) { sin(x) } else { b })) - ((((erfc(px)*exp_m1(sin(((x/((3^2) + (t^2)))^2))))^2) + (a^2))^-1))
 }
 
 hamiltonian! {
     pub struct E197 { a, b, c }
-    H(x, y; px, py; t) = cos((if (px < x) { atan2(px, px) } else { (a^-3) }))
+    H(x, y; px, py; t) = (((if ((if ((y/(x*x)) < a) && ((((1/10)/abs(px))*t) <= 5) { x } else { (y/(x*x)) }) < c) { c } else { y }) + (3/10)) % (abs(sin(px))^-3))
 }
 
 hamiltonian! {
     pub struct E198 { a, b, c }
-    H(x, y; px, py; t) = (((py/((5^2) + 2)) + ((((pi*t)/c)*px)*(if ((if ((py + cos(b)) < py) && ((atan(a) + a) < t) { px } else { (if !(((if ((px^2) <= py) || ((px - t) <= pi) { px } else { py })^6) <= py) { a } else { py }) }) < px) && ((-c) <= t) { tanh((px - (1/2))) } else { b }))) + tanh((y - ((((y + asin((b*x))) + x)^5)*y))))
+    H(x, y; px, py; t) = ((if ((py^2) <= t) && ((3*((1/2)/abs(c))) <= py) { ((b - 3) - a) } else { (py + c) }) + (if !(((c^5)*b) < a) { (1/2) } else { ((pi*(2*x)) + ((x - y)*sinh(tanh((1/10))))) }))
 }
 
 hamiltonian! {
     pub struct E199 { a, b, c }
-    H(x, y; px, py; t) = (((ln_1p(cosh(tanh(a))) - t) - (((((if (y == x) { max(((x/c) - y), px) } else { (if (tanh(a) <= a) && ((((atan(x)^2) + (1/4))^(13/4)) < a) { b } else { (981/100) }) })^2) + (1/4))^(2/3))*(((x*py)*(px*(y + px)))^3)))^6)
+    H(x, y; px, py; t) = (cosh(((((((y - (3*(1/3)))/x)*py)*(((-(b^-3)) + py)^-1))^2) + py))^(13/4))
 }
 
 hamiltonian! {
     pub struct E200 { a, b, c }
-    H(x, y; px, py; t) = sinh(tanh((if ((pi/((t^2) + (1/4))) < px) { (b + ((t/((b^2) + 1)) + x)) } else { (t/tanh(px)) })))
+    H(x, y; px, py; t) = ((pi + (((if !((if (remainder((b + (3/10)), t) <= 1) { (-c) } else { py }) < py) { b } else { (3/10) })/((x^2) + (1/4)))^-1)) + (sinh(sin((if (((a + t)*a) < y) { (c - px) } else { (-1) })))*max(pi, (1/10))))
 }
 
 hamiltonian! {
     pub struct E201 { a, b, c }
-    H(x, y; px, py; t) = ((((sin((px + (py^7))) + c) + (if (py <= 5) { (atanh(sin(5)) - (-1)) } else { tan(px) })) + c) + (asinh((ln_1p(abs(abs((cbrt(tanh((y/((y + (1/3)) + atanh(min(y, y))))))^6))))^2))*(ln(((x^2) + 1))/((((acos(hypot(y, t))*(sign((cbrt((y/(((-(hypot(y, t)*min((a + pi), (pi - 3))))^2) + (x^2))))*y))/(((y + b)^2) + (((x^2) + 1)^2))))^-3)^2) + 2))))
+    H(x, y; px, py; t) = ((-pow(exp(tanh(asin(((min(1, t)*a)/(1 + ((min(1, t)*a)^2)))))), px)) + (if (exp_m1(tanh(x)) < b) || ((t*pow(2, cos(x))) < (-1)) { (((t*a) + x) + (-((y*a) + (if (cbrt(c) <= b) { y } else { (cosh(cos(x))^(5/2)) })))) } else { (cosh(atan(((y/((x^2) + 1)) + min(3, (if (sin(c) < a) && (erf(x) < (cosh(cos(x))^(5/2))) { atan2(a, a) } else { x })))))^(5/2)) }))
 }
 
 hamiltonian! {
     pub struct E202 { a, b, c }
-    H(x, y; px, py; t) = ((((1/2) + (b - b)) + px)/(((if ((if (b < pi) && (((-1)*min((1/10), c)) <= px) { c } else { y }) <= px) && ((((if (b < pi) && (((-1)*min((1/10), c)) <= px) { c } else { y }) - py)^6) < py) { min((tan(hypot((if (c < t) || (c < b) { px } else { (-1) }), b)) - (5*((1 + x)^-2))), b) } else { py })^2) + (a^2)))
+    H(x, y; px, py; t) = sqrt(((cos(((y/cosh(cos((py + x)))) + py))^2) + 2))
 }
 
 hamiltonian! {
     pub struct E203 { a, b, c }
-    H(x, y; px, py; t) = ((((if (cos(atan(pi)) < x) { ((((a/(((pi + c)^2) + 1))^2) + (px^2))^(-3/2)) } else { (-(x*c)) })^5)^6)^5)
+    H(x, y; px, py; t) = (((px*a)*x)*py)
 }
 
 hamiltonian! {
     pub struct E204 { a, b, c }
-    H(x, y; px, py; t) = (min(b, (exp(atan(cbrt((px + c))))^(3/10))) + (-((sinh(sin(3)) - (if (a <= t) && ((t*x) <= (1/10)) { (b - x) } else { (atan(b) - sign(x)) }))^(2/3))))
+    H(x, y; px, py; t) = (pow((((((1*(1/3))^3)/(((-(py*(((1/3)*(((pi/px)/abs(((1*(1/3))^3)))/1)) - ((pi/px)^6))))^2) + 1))^2) + 1), b) + (((x + (3/10)) % abs((if !(b <= x) { (-1) } else { x }))) - (if !((x*(b*t)) <= b) { y } else { x })))
 }
 
 hamiltonian! {
     pub struct E205 { a, b, c }
-    H(x, y; px, py; t) = ((abs((py + atanh(cos(c))))^(-3/2))*y)
+    H(x, y; px, py; t) = ((a + ((erfc((pi/py)) + remainder((3 + (3/10)), b)) - pi))/(((a/(((a*((2 - b) + y))^2) + 1))/(a - (y + c)))^5))
 }
 
 hamiltonian! {
     pub struct E206 { a, b, c }
-    H(x, y; px, py; t) = (-tanh(((((exp_m1(tanh(((atan((1 + py))*(-a))^2))) + y)^2) + 1)^(13/4))))
+    H(x, y; px, py; t) = (x/(((atan((if !(((py/y)^4) < px) { (1/2) } else { ((((py/y)^4)/((x^2) + (px^2)))*(abs((-1))^(5/2))) }))*min(py, (x + t)))^2) + (1/4)))
 }
 
 hamiltonian! {
     pub struct E207 { a, b, c }
-    H(x, y; px, py; t) = (sqrt(abs((-((((1/10)^2) + (1/py))*sqrt(((atan2((-1), max(c, (981/100)))^2) + (1/4))))))) + ((((ln((((exp(sin((1/3)))/abs(b))^2) + (1/4)))*(c + (((hypot(y, y)^2) + 2)^(13/4))))^2) + 1)^(3/2)))
+    H(x, y; px, py; t) = (((b - (c*atan(b))) + (acosh((abs(px) + 1))/(((a^2) + 2)^(-3/2)))) + (((b*(1/2))*c)/((exp(((5 + t)*(1/3)))^(-3/2))^2)))
 }
 
 hamiltonian! {
     pub struct E208 { a, b, c }
-    H(x, y; px, py; t) = (atan2((t - (if !((x*b) < 1) { b } else { (x*b) })), (-((1/2)*py)))*(b/cosh((if ((t - (if (b <= b) { x } else { b })) < b) { (1/2) } else { ((pi*t) + b) }))))
+    H(x, y; px, py; t) = (sinh(((exp(sin((x*(if (((y^5) + y) < pi) { c } else { b }))))^(-4/3))*(px + atan((b*(pi + (t^7)))))))^2)
 }
 
 hamiltonian! {
     pub struct E209 { a, b, c }
-    H(x, y; px, py; t) = (((if ((a - pi) == y) { (-erfc((c - (y*y)))) } else { (-b) })*((py/atan(y)) - (y - b)))^2)
+    H(x, y; px, py; t) = (if (((if ((c^2) <= a) { (c^2) } else { (-7/4) }) + (if ((c^2) <= a) { (c^2) } else { (-7/4) })) < ((if ((c^2) <= a) { (c^2) } else { (-7/4) }) + (if ((c^2) <= a) { (c^2) } else { (-7/4) }))) { ((y*(if ((c^2) <= a) { (c^2) } else { (-7/4) }))*(px*(px/x))) } else { hypot(((((y*(if ((c^2) <= a) { (c^2) } else { (-7/4) }))*(px*(px/x)))^2)*cosh(((x + px) - t))), px) })
 }
 
 hamiltonian! {
     pub struct E210 { a, b, c }
-    H(x, y; px, py; t) = (sqrt(abs((if (a <= px) && ((py + px) <= py) { tan(tanh((py*py))) } else { sign((3*(((a - px) + (1*(py^-3)))*a))) }))) + (sin(max((t + x), (abs(abs((abs(sin((t/y)))^(3/10))))^(2/3))))^2))
+    H(x, y; px, py; t) = ((((if (((b^7) - 1) < py) { (c*c) } else { (c + max(b, (if !((if (acosh((((pi^2) + (5^2)) + 1)) < px) { py } else { c }) < py) { px } else { pi }))) })/exp(atan((px + (((c^2) + 1)^-1)))))/abs(py)) + max(y, ((acosh(((((y - (-1))^2) + 1) + 1)) + t) + ((abs((((y^2) + (1/4))^(5/2)))^(-3/2)) + (y - (-1))))))
 }
 
 hamiltonian! {
     pub struct E211 { a, b, c }
-    H(x, y; px, py; t) = (abs(((px^5) + atanh((((px*b) + ((2 + (b + y)) - c))/(1 + (((px*b) + ((2 + (b + y)) - c))^2))))))^(2/3))
+    H(x, y; px, py; t) = ((t^-2)*((x*((1*px)^(-1/2))) + py))
 }
 
 hamiltonian! {
     pub struct E212 { a, b, c }
-    H(x, y; px, py; t) = atanh(((((981/100)^2) - abs((1/2)))*((tanh((((((1/3)*x)^2) + 1)^(2/3))) + px)/((y^2) + 2))))
+    H(x, y; px, py; t) = (((abs(((t + c) - ((1/10)*px)))^(13/4))^-2)*((px - py) - pow((((-(((-1) + ln_1p(((exp(cos(t))^2) + 2)))*erfc(px)))^2) + 1), sin(((((exp(sin(floor((((1/10)*hypot(px, ((x - (px - py)) - c))) + (3/10)))))^(-1/2))^2) + 1)^(-4/3))))))
 }
 
 hamiltonian! {
     pub struct E213 { a, b, c }
-    H(x, y; px, py; t) = (((c + (t*px)) + pow((((py + (b/px))^2) + (b^2)), cos(erf((px + px))))) + (if !(ln_1p((c^3)) <= (1/2)) { tan(cos((if (y < b) { (5 + (((1/10)/((b^2) + 2)) + c)) } else { (if (c <= 5) { (((a^2) + (pi^2))^(13/4)) } else { x }) }))) } else { atan2(((b^2) - x), a) }))
+    H(x, y; px, py; t) = ((((pi*t)/((-(exp(px)*pow(((py^2) + 1), sin(py))))/(((1 + sin(py))^2) + 2)))*((if ((px^2) <= py) { px } else { (max(px, ((py*cos((((1 + sin(py))^2) + 2))) - ((abs(((a + px)^-1))^(-4/3))/b)))*ln(abs(py))) })^2)) + ((if (y < y) && (exp(atan((1/2))) < y) { (pi + (abs(sin(((if !((t + hypot(c, t)) <= c) { b } else { x }) - (x - x))))^(-3/2))) } else { (t/5) }) - (1/10)))
 }
 
 hamiltonian! {
     pub struct E214 { a, b, c }
-    H(x, y; px, py; t) = (if ((a/((x^2) + 2)) < py) { asin(cos((1/2))) } else { py })
+    H(x, y; px, py; t) = ((y - y) + ((((if !((py*(if ((py - t) <= b) { pi } else { pi })) <= pi) { (((sqrt(exp(x))^2) + (t^2))^(1/3)) } else { ((t*y)/(max(py, (py*(if ((py - t) <= b) { pi } else { pi })))*px)) })^2) + 1)^(3/2)))
 }
 
 hamiltonian! {
     pub struct E215 { a, b, c }
-    H(x, y; px, py; t) = ((((max(atan2((t/c), t), (1/2))^2) + 2)^(2/3))/((((if (b <= y) || ((t^6) < px) { a } else { t }) - pi)^2) + (1/4)))
+    H(x, y; px, py; t) = (remainder((t + (3/10)), px)*erf((min((py*(y - px)), (a/y)) - ((3/10) + x))))
 }
 
 hamiltonian! {
     pub struct E216 { a, b, c }
-    H(x, y; px, py; t) = ((ln_1p((erfc(acos(cos(((px + px) - (if (exp((px + px)) < py) && (atanh(tanh((-(-1)))) < px) { ((b/pi)^6) } else { acosh((cosh(cos((t/(((px - py)^2) + 2)))) + 1)) })))))*t))^5) + (c/exp(atan((-min((exp_m1(b)/(((b*x)^2) + (1/4))), cosh(sin(x))))))))
+    H(x, y; px, py; t) = (floor(((exp(((((-((py + t) + (abs((-1))^(13/4))))^2) + 1)^-3)) + ((b + t)*((1/2)/c))) + (3/10))) + (((y + (1/3)) + a)/x))
 }
 
 hamiltonian! {
     pub struct E217 { a, b, c }
-    H(x, y; px, py; t) = ((-((x + y) + t))/abs(atan2(c, atanh(tanh(((abs(((((((abs(((((x - (if (y <= t) { c } else { b })) + (px - x))*(((ln((((if (py <= 1) { x } else { x })^2) + 1))^2) + (x^2))^(13/4)))*2))^(3/2))^2) + (b^2))^(3/10))^5)*c))*5) + a))))))
+    H(x, y; px, py; t) = (acosh((((max(py, t)^2) + (1/4)) + 1))*((exp(cos((sqrt(exp(y))*x)))^(3/10))/cosh(atan(((((((abs(3)^-3)^2) + 2)^(3/2)) + (3/10)) % ((py^2) + (pi^2)))))))
 }
 
 hamiltonian! {
     pub struct E218 { a, b, c }
-    H(x, y; px, py; t) = cbrt((((y - t) - px)*erfc(((5 + pi) - px))))
+    H(x, y; px, py; t) = (((x + (if ((1 + x) <= px) || (b <= (1/10)) { c } else { px }))/b) + (2/py))
 }
 
 hamiltonian! {
     pub struct E219 { a, b, c }
-    H(x, y; px, py; t) = ((tan(sin(py))^2) + sign((y + y)))
+    H(x, y; px, py; t) = ((((-1) + (pi^-1)) + cosh(atan(py))) + (-((c*a)*(sin(t)^6))))
 }
 
 hamiltonian! {
     pub struct E220 { a, b, c }
-    H(x, y; px, py; t) = (erfc(cosh(tanh((cosh(px)^(1/2)))))*(exp(atan(erf(x)))^(5/2)))
+    H(x, y; px, py; t) = ((((ln_1p(abs(((if (t <= px) { x } else { px }) + b)))^2) + 1)^(-1/2)) - py)
 }
 
 hamiltonian! {
     pub struct E221 { a, b, c }
-    H(x, y; px, py; t) = ((if (((t^6) + (t^6)) < y) || ((b - x) < px) { abs(x) } else { ((((a^2) + (x^2))^(1/3))*(((c^2) + 1)^-1)) })*((((c^2) + 2)^(3/2)) - t))
+    H(x, y; px, py; t) = (if ((y*c) < (1/3)) && (b <= pi) { (cbrt((if (2 < py) && ((px - c) < 3) { 5 } else { py })) - (a*(((((1/10)*remainder(((c + t) + (3/10)), atan2(px, 1)))*((t - a) - x)) - py) + (((-cos((a^4)))^-3)*t)))) } else { atan((py + (1/3))) })
 }
 
 hamiltonian! {
     pub struct E222 { a, b, c }
-    H(x, y; px, py; t) = (((-(-(px + (1/10)))) + (((((px*(1/10))/((exp_m1((((((-(px + (1/10)))*(1/2))^2) + (a^2))^(2/3)))^2) + 1))^2) + (pi^2))^(5/2))) + ((if (cbrt(x) <= cbrt(x)) || ((c/(t/2)) <= a) { (if !(max(x, (c*y)) == b) { t } else { y }) } else { y }) - (a*c)))
+    H(x, y; px, py; t) = ((cos(py) - ((1/3) + (px*atan((py*1))))) + (atan2(tan((c/x)), ((((x*(c/x))^2) + (1/4))^(1/3)))/((abs((c*atan2((t + (5*y)), atan(x))))^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E223 { a, b, c }
-    H(x, y; px, py; t) = (((t - y) + ((py*5)/cosh(atan(asin((b/(1 + (b^2))))))))^4)
+    H(x, y; px, py; t) = ((abs(asinh((((px*(y + y))/(cbrt((b*(1/2))) + (y + c)))/(((py/(t*y)) - t) - px))))^(-3/2)) + (floor((ln(abs(2)) + (3/10))) - remainder((y + (3/10)), cosh(atan(c)))))
 }
 
 hamiltonian! {
     pub struct E224 { a, b, c }
-    H(x, y; px, py; t) = ((x*b) + (if ((if (((-pi)/b) <= px) { (x*b) } else { (y*px) }) <= t) && ((b - pi) < c) { 5 } else { c }))
+    H(x, y; px, py; t) = ((acos(cos(((t - t)*(1/10))))/cos((pi + 5))) + (if ((1*((1/2) - py)) <= c) { ((cos(t) - x)/py) } else { b }))
 }
 
 hamiltonian! {
     pub struct E225 { a, b, c }
-    H(x, y; px, py; t) = (((ln_1p((((exp_m1(atan((t*cosh(sin((px*pi)))))) - sin((exp_m1((py + (t - a)))^5)))^2) + (1/4)))*px)*(asin((px/(1 + (px^2))))*b)) + ((a*((-1) + b))/((max(y, tan(tanh(a)))^2) + 1)))
+    H(x, y; px, py; t) = ((acosh((abs(((((px + (3/10)) % px)*remainder((px + (3/10)), (px + py)))*(px + (3/10)))) + 1)) - hypot(b, px)) + atan((x*sqrt(exp(sin(((atanh(tanh(t))*((1/(1/10)) - c))^-1)))))))
 }
 
 hamiltonian! {
     pub struct E226 { a, b, c }
-    H(x, y; px, py; t) = ((a/(((a - erf(((((((a^2) + 2)^(5/2))*(3 + px))/x)*hypot((a^6), (a^2)))))^2) + (1/4)))^2)
+    H(x, y; px, py; t) = (exp(sin(abs((round((round(((981/100) + (3/10))) + (3/10)))/((((if (b <= y) || ((t^6) < px) { a } else { ((981/100) + (3/10)) }) - pi)^2) + (1/4))))))^(1/3))
 }
 
 hamiltonian! {
     pub struct E227 { a, b, c }
-    H(x, y; px, py; t) = (((pi + t)/abs((py*exp(atan(y)))))*atan2(((x + sin((c + exp(atan(y))))) + px), (if (((2*py) - pi) <= 2) && (x < c) { (t/abs((-7/4))) } else { tanh((ln(((px^2) + (y^2))) + sin((c + exp(atan(y)))))) })))
+    H(x, y; px, py; t) = ((t*t) - (hypot(2, x) - sqrt((((if (erf((-(-1))) < py) || ((((-1) - y)/5) < a) { (t*c) } else { ((-1)*(-7/4)) })^2) + (a^2)))))
 }
 
 hamiltonian! {
     pub struct E228 { a, b, c }
-    H(x, y; px, py; t) = ((((py*px)*sin(sinh(tanh(px)))) + sqrt((((atan2(px, (t^4))*b)^2) + (1/4)))) + (erfc((t*ln(((atanh(sin((3*1)))^2) + 1))))/pi))
+    H(x, y; px, py; t) = ((-(t*(py + 2))) + (if (min(a, (t + t)) <= 1) { asinh(a) } else { ((if (((-7/4)/erfc(c)) < t) { (1/3) } else { c })/(1/3)) }))
 }
 
 hamiltonian! {
     pub struct E229 { a, b, c }
-    H(x, y; px, py; t) = max((c - c), ((y*(1/10))*(c*pow((((b + a)^2) + 1), px))))
+    H(x, y; px, py; t) = (atanh(sin((if ((c*(x + x)) < (x + x)) && ((x - (if (x <= t) { c } else { b })) < x) { y } else { (((px^2) + 1)^(5/2)) }))) + (t*(((if (x <= t) { c } else { b }) + (3/10)) % ((t^2) + (1/4)))))
 }
 
 hamiltonian! {
     pub struct E230 { a, b, c }
-    H(x, y; px, py; t) = (if (((a - 3)^3) < px) { (if !((((-1)*y)^7) < (a - 3)) { (((t^2) + (1/4))^(3/10)) } else { y }) } else { (((c*(erf(py) - a))^6)*t) })
+    H(x, y; px, py; t) = ((((x + x) - t)*b)*remainder((py + (3/10)), (c/y)))
 }
 
 hamiltonian! {
     pub struct E231 { a, b, c }
-    H(x, y; px, py; t) = (((((min((px/a), (min((t*(abs(t)^(-7/5))), a)*(-1))) - asinh((sqrt(((sqrt(erfc(exp(sin(((((py*sqrt(exp(tanh(px))))^2) + (1/4))^(13/4))))))^2) + (py^2))) + px)))^2) + 2)^(1/3)) + ((((c + ((pi - (1/3)) + (-1)))^3)*b) - (sin(y)*(if ((y - x) <= y) || (b <= x) { (b^-3) } else { ln_1p(abs((abs(tan(tanh((max(asinh(a), (max(((c + ((pi - (1/3)) + (-1)))^3), ((x + x) - (-t))) - b))^6))))^-2))) }))))
+    H(x, y; px, py; t) = ((((if !((py*(((py^2) + 2)^(-7/5))) < px) { c } else { c }) - t)*min(((if (((px + px)^2) <= py) { py } else { ((px + px)^2) }) + px), (((((c^2) + 2)^-3)*px)/((py^2) + 1)))) + (t + erfc((min(x, (981/100)) + min((981/100), ((981/100) - y))))))
 }
 
 hamiltonian! {
     pub struct E232 { a, b, c }
-    H(x, y; px, py; t) = tanh((atan(atanh(tanh(((t*a)*y))))/((((a^2) + 1)^(-3/2)) + ln_1p(abs(py)))))
+    H(x, y; px, py; t) = (if (a < py) && (asin(sin(t)) < a) { ((t + b)*((pi*1)*py)) } else { ((remainder((px + (3/10)), (x - (if ((b + cbrt(py)) < a) || (asin(((py^5)/(1 + ((py^5)^2)))) <= pi) { px } else { x })))*c) + ((t + b)*((pi*1)*py))) })
 }
 
 hamiltonian! {
     pub struct E233 { a, b, c }
-    H(x, y; px, py; t) = (tan(y) + ((((sqrt(cosh((ln(cosh(tanh((y + c))))*b))) - py)^2) + 2)^(-3/2)))
+    H(x, y; px, py; t) = ((x*b) + (if ((if (((-pi)/b) <= px) { (x*b) } else { (y*px) }) <= t) && ((b - pi) < c) { 5 } else { c }))
 }
 
 hamiltonian! {
     pub struct E234 { a, b, c }
-    H(x, y; px, py; t) = (acos(sin(atan((abs((c - (px - (-1))))^(3/10))))) + (erfc((b - t))*sqrt((((y + 3)^2) + 2))))
+    H(x, y; px, py; t) = (round((((1 - (((1/10)/(((1/10)^2) + 2))*((1/2)^5))) + (-atan2((1/2), ((((abs((if ((5/((pi^2) + 2)) < px) || (ln_1p(((((1/3) + py)^2) + (px^2))) <= pi) { ((c*(-1))^6) } else { (abs((-((((((-1)^2) + 1)^(1/2))*b) + t)))^(-1/2)) }))^(-7/5))^2) + (1/4))^(-1/2))))) + (3/10))) + tanh(atanh(cos((cbrt(ln_1p(cosh((x*(x*x)))))^5)))))
 }
 
 hamiltonian! {
     pub struct E235 { a, b, c }
-    H(x, y; px, py; t) = sin(pow((((-(((pi/exp(x))*max(hypot(pow(((acos(sin((if !(min(t, a) <= a) { pi } else { y })))^2) + (pi^2)), cos((exp_m1(cos((py - t)))*(-cos(py))))), tanh(((-1) - (-1)))), 2))^(5/2)))^2) + (1/4)), sin((y/px))))
+    H(x, y; px, py; t) = (-max(ln_1p(abs(cbrt((min(((atan((((((y + y) + (3/10)) % y) + remainder((pi + (3/10)), ((a^2) + (1/4)))) + round(((atanh(cos(1)) + x) + (3/10))))) - pi) + (if (px < pi) { (((px*(a^2))*tan((atan(5)/((2^2) + 2)))) - 1) } else { (3 + px) })), ((b - (abs(c)^(-3/2))) + ((cbrt(px)*pi) - b)))^-3)))), (if ((1 + (c - py)) == (981/100)) && (tanh((px^2)) < 5) { py } else { (pi + t) })))
 }
 
 hamiltonian! {
     pub struct E236 { a, b, c }
-    H(x, y; px, py; t) = tanh(((py/abs((if (b < py) && ((x + (t + pi)) < c) { (t - py) } else { y }))) + ((a + px)/(((px - sign(pi))^2) + 1))))
+    H(x, y; px, py; t) = ((y*((y*y) + px))^6)
 }
 
 hamiltonian! {
     pub struct E237 { a, b, c }
-    H(x, y; px, py; t) = ((((asin((((px*asinh(asin((px/(1 + (px^2))))))*(a/px))/(1 + (((px*asinh(asin((px/(1 + (px^2))))))*(a/px))^2))))*a)*((((pi - py)*py)*((py + px) + py))/cosh((ln((((py + py)^2) + 1))/(if (py <= pi) && ((b^2) == b) { (sign((1/2))*px) } else { a })))))^4) + (if ((y*y) < pi) || ((1/3) < t) { ((pi - (if (((((c*pi)^2) + (1/4))^(2/3)) <= b) && (((t - (1/4))/x) == y) { y } else { x }))/(acos((x/(1 + (x^2))))*1)) } else { b }))
+    H(x, y; px, py; t) = (remainder(((py*(-(a - (-7/4)))) + (3/10)), exp(sin((cos((py + px))*(if (2 < b) { (a/py) } else { px }))))) + (x*((a + x) + (-(x*acosh((((((5 - a)*(981/100))^2) + 1) + 1)))))))
 }
 
 hamiltonian! {
     pub struct E238 { a, b, c }
-    H(x, y; px, py; t) = (abs((ln_1p(cosh(atan((-(y + atan(((if (((((1^2) + (px^2))^(-4/3))^7) < ((1^2) + (px^2))) { min((1/3), (1/2)) } else { (y*(px^2)) }) - (-tanh((py - 3))))))))))/((((((x*c)^2) + ((px^2)^2))^(-3/2))^2) + 1)))^(3/2))
+    H(x, y; px, py; t) = (acosh(((((pi + (if (a <= t) && ((((y^2) + (1/4))^(3/10)) <= t) { t } else { px }))*c) + (((-1) - a) - c)) + 1))/((y^2) + 1))
 }
 
 hamiltonian! {
     pub struct E239 { a, b, c }
-    H(x, y; px, py; t) = tanh((((((acosh(((((y^-3)^2) + (px^2)) + 1)) - (t + t))^2) + (1/4))^(1/3)) - (px*sqrt(cosh(sin(y))))))
+    H(x, y; px, py; t) = (sign((abs((((abs(pi)^-1)/abs((abs(pi) - py)))*(y*1)))^(13/4))) - exp_m1((((px + px)*py)*(((abs(pi)^-1)/abs((abs(pi) - py)))*(y*1)))))
 }
 
 hamiltonian! {
     pub struct E240 { a, b, c }
-    H(x, y; px, py; t) = (sign(((((((t + t) - ((px/atan((b - a)))*px))*pow(abs(((t + a)^4)), tanh((b/a))))^2) + 2)^(-3/2))) + (if ((cosh(sin(y))^(-7/5)) <= pi) && ((abs(x)^(-3/2)) <= t) { (b + t) } else { (-1) }))
+    H(x, y; px, py; t) = ((py*((py/a)/exp(px))) + ((-((a + (-1))/(((((c + x)^2) + (1/4))^(3/10))*(y + y)))) - (y/(1/2))))
 }
 
 hamiltonian! {
     pub struct E241 { a, b, c }
-    H(x, y; px, py; t) = ((-(px*(1/10))) + ((((((-7/4) + t)^4) - px) - (t/x))*y))
+    H(x, y; px, py; t) = pow(abs(cbrt(round(((pi - (c + (px*b))) + (3/10))))), tanh(((-1)*(x*b))))
 }
 
 hamiltonian! {
     pub struct E242 { a, b, c }
-    H(x, y; px, py; t) = (((max(erfc(((-(py*cos(b))) + y)), (pow(cosh(sin(px)), x)^-1))^2) + 1)^(1/2))
+    H(x, y; px, py; t) = (sin(c)*(-(exp_m1(sin(atanh((max(sin(c), c)/(1 + (max(sin(c), c)^2)))))) + (py + (if (((c*x)*py) < px) && (atanh(tanh((c^6))) < b) { x } else { (-1) })))))
 }
 
 hamiltonian! {
     pub struct E243 { a, b, c }
-    H(x, y; px, py; t) = ((if ((if (t <= pi) { t } else { (px + px) }) <= c) { ((b - b) + (5^-2)) } else { (exp_m1(sin(py)) - py) }) + (if (a < y) || ((t/((abs((-1))^2) + (y^2))) == y) { asin(tanh((sqrt(((y^2) + 1))/cosh(atan(a))))) } else { asin(cos(pow(abs(b), tanh(max(x, b))))) }))
+    H(x, y; px, py; t) = (sqrt(cosh(cos((if ((abs(px)^(-1/2)) <= py) { (ln_1p((((py - acos(((-7/4)/(1 + ((-7/4)^2)))))^2) + (1/4)))*((cosh((-((-7/4)/(1 + ((-7/4)^2))))) - (py/exp(atan(tanh((((py - acos(((-7/4)/(1 + ((-7/4)^2)))))^2)*a))))))^2)) } else { (if (cbrt(((-1) - a)) == (-1)) { ((1/3) + px) } else { ((((py/pi)^2) + (1/4))^(13/4)) }) })))) + acos(((exp(tanh(y)) + (x/((((1*exp(tanh(y))) + (t*y))^2) + 2)))/(1 + ((exp(tanh(y)) + (x/((((1*exp(tanh(y))) + (t*y))^2) + 2)))^2)))))
 }
 
 hamiltonian! {
     pub struct E244 { a, b, c }
-    H(x, y; px, py; t) = pow(((asinh(cos(t))^2) + (1/4)), cos((asinh(cos(t))/((px^3)/y))))
+    H(x, y; px, py; t) = remainder((((cosh(atan(py))^(3/10)) - ((-(t*x))^2)) + (3/10)), cosh(sin(floor(((((px/cosh(atan(t))) - (-(t*x))) - py) + (3/10))))))
 }
 
 hamiltonian! {
     pub struct E245 { a, b, c }
-    H(x, y; px, py; t) = ((5/pi) + ((t*(tan(cos((y*t))) - ((b*3) + (x/t))))*(pi*px)))
+    H(x, y; px, py; t) = (((py/x) + (if ((cosh(tanh(x))^(1/3)) < y) && ((tanh(x) - (if ((c*(1/10)) < t) { x } else { a })) < y) { t } else { ((x/abs(erfc(b)))*((-7/4)/a)) }))^2)
 }
 
 hamiltonian! {
     pub struct E246 { a, b, c }
-    H(x, y; px, py; t) = (((1/2) - cbrt(((a*3) - (((px*(a*3)) + px)*(atanh((abs(py)^(-3/2))) + a))))) + (abs(((((b*b)*(exp(((((x - y)^2) + 2)^(1/3)))^-1))^2) + (((((a*pi)*y) + y) - asinh((-1))) - min(exp(sin((1/10))), ((b*b)*(-7/4))))))^(-1/2)))
+    H(x, y; px, py; t) = (pow((((px^2)^2) + 2), (-(t/((1^2) + (px^2))))) + (abs(abs(y))^(-7/5)))
 }
 
 hamiltonian! {
     pub struct E247 { a, b, c }
-    H(x, y; px, py; t) = cos((abs((-((-(-cos((abs(y)^(3/10)))))/(((sinh(cos(px))*a)^2) + 2))))^(-3/2)))
+    H(x, y; px, py; t) = (((acos(cosh((a + (((b*(1/3))^2)*y))))/min((1/2), (-1)))^3) + (abs((if ((981/100) <= a) || ((b/cosh(sin(y))) <= pi) { (px + x) } else { py }))^(13/4)))
 }
 
 hamiltonian! {
     pub struct E248 { a, b, c }
-    H(x, y; px, py; t) = ((y - (px*3))*((3 - (1/10)) + pow(((px^2) + 2), sin(c))))
+    H(x, y; px, py; t) = (x*((t - py)*remainder((t + (3/10)), c)))
 }
 
 hamiltonian! {
     pub struct E249 { a, b, c }
-    H(x, y; px, py; t) = (tanh(((cos(px) + (cosh((px*c))*t))/(((ln_1p(((b^2) + 1))^2) + 2)^(1/2)))) + (((acosh((abs(((if ((-x) < (981/100)) || (acosh((abs((if ((pi + exp(sin((981/100)))) < pi) { x } else { (-7/4) })) + 1)) <= x) { (a - c) } else { atan2(x, ((-7/4)*t)) })/(exp(sin((981/100))) - 1))) + 1))^2) + 2)^(5/2)))
+    H(x, y; px, py; t) = (((cosh((c^2))^(13/4)) + ((sign(hypot((a - (b*px)), ((-(px*acosh((abs(a) + 1)))) + py)))*(px - py))*cosh(cos(((t/px) + ln(((px^2) + 2))))))) + ((-t) + y))
 }
 
 hamiltonian! {
     pub struct E250 { a, b, c }
-    H(x, y; px, py; t) = ((asinh((y^3)) - (3*((py/b)*py)))/((((x*((a*sinh(b))/2))*((cosh((abs(sin(hypot(t, py)))^(3/10)))/(((((((b*(-(px + (((((t - c)^2) + 1)^-3)*cosh(pow((981/100), py))))))/cosh(c))^2) + (c^2))^(3/2))^2) + 2)) + (-1)))^2) + (1/4)))
+    H(x, y; px, py; t) = (((atan(b) - ((min((if !((t - py) <= pi) { t } else { y }), ((1/3) + py))*a) + tan((t^6)))) + py)^-1)
 }
 
 hamiltonian! {
     pub struct E251 { a, b, c }
-    H(x, y; px, py; t) = ((asin((max(x, px)/(1 + (max(x, px)^2)))) + (((px*(1 + (max(x, px)^2))) + min((1/10), (1/10)))*t))/(t + (max(x, px)^2)))
+    H(x, y; px, py; t) = (-((((((if ((abs(a)^(1/2)) == a) { t } else { py }) + (x^2))*pow(abs(x), sin((exp_m1(3) - py))))^2) + 1)^(3/2)))
 }
 
 hamiltonian! {
     pub struct E252 { a, b, c }
-    H(x, y; px, py; t) = (((981/100) - (((((py*(981/100)) + b)*c) + (((px - 2) + (min(c, a) - (abs(ln(abs((-5))))^(13/4))))^5)) + min((px - (a^7)), 3))) + ((asin(sin(((1/3)/a)))^4) - (x - (asin(sin(((1/3)/a)))^4))))
+    H(x, y; px, py; t) = ((if (t <= px) && (a == pi) { (((2 + t) + 1)^2) } else { (((2 + t) + 1) - t) }) + (((a + a)/(cosh((-(-(t*y))))^(2/3))) + ((((cosh((-(-(t*y))))/y)^2) + (1/4))^(-1/2))))
 }
 
 hamiltonian! {
     pub struct E253 { a, b, c }
-    H(x, y; px, py; t) = (-((if !(((b*px)^5) <= py) { c } else { ((px - (abs((x*(981/100)))^(1/3)))*y) })^7))
+    H(x, y; px, py; t) = ((if (b == 2) { (2 - t) } else { cbrt((-y)) })/exp(sin((if (min(b, px) < (981/100)) && (sin((-px)) <= c) { (px/cosh(cos((1/2)))) } else { (c/exp(tanh(t))) }))))
 }
 
 hamiltonian! {
     pub struct E254 { a, b, c }
-    H(x, y; px, py; t) = ((atanh((acosh((abs(max(((py - x)/exp_m1(atan((c - px)))), ((c - px) - b))) + 1))/(1 + (acosh((abs(max(((py - x)/exp_m1(atan((c - px)))), ((c - px) - b))) + 1))^2))))/(exp_m1(atan((c - px)))*cbrt(atanh((hypot(b, px)/(1 + (hypot(b, px)^2)))))))*(1/2))
+    H(x, y; px, py; t) = (((if (t <= py) && (5 <= 5) { (if ((1^-3) == y) && ((((1/10)*c) - t) < 5) { 1 } else { px }) } else { (acos(cos((px + (if ((1^-3) == y) && ((((1/10)*c) - t) < 5) { 1 } else { px })))) + ((-7/4)^-1)) }) + (((px + px)/exp(((b*1)/pi))) + c))*(b - x))
 }
 
 hamiltonian! {
     pub struct E255 { a, b, c }
-    H(x, y; px, py; t) = ((if (((((a*a)^2) + (1/4))^(3/10)) < b) && (asinh(py) < px) { ((c + c)*(py + (c + c))) } else { max((981/100), py) }) + pow(abs((((t/y) - c)/exp(tanh((1/2))))), (sqrt(cosh((cos(tanh((t - (981/100)))) - x))) + (a/b))))
+    H(x, y; px, py; t) = ((atanh(((sin(((asinh((py/px))^-1) + (b*ln_1p(((c^2) + (c^2))))))/px)/(1 + ((sin(((asinh((py/px))^-1) + (b*ln_1p(((c^2) + (c^2))))))/px)^2)))) - (-7/4)) + (if (atan2(b, b) < x) { y } else { (x*y) }))
 }
 
 super::list! {

@@ -3,6 +3,7 @@
 use super::interpret::Interpreted;
 use crate::tree::{PAIRS, Part, Random, TIME, Test, Tree, grow};
 use hamiltonian_symbolic::dag::{Kind, Node, Stage};
+use hamiltonian_symbolic::op::Op;
 use std::fmt::Write;
 
 /// The number of expressions.
@@ -42,14 +43,13 @@ fn has_bad_number(tree: &Tree) -> bool {
     let is_number = |node: Node| {
         model.dag.stage(node) == Stage::Constant && model.dag.variables(node).is_empty()
     };
+    let is_zero = |node: Node| {
+        let number = model.dag.number(node);
+        number.is_some_and(|number| number.value == 0.0)
+    };
     let is_bad = |node: Node| match model.dag.kind(node) {
-        Kind::Product(_, factors) => (factors.iter()).any(|(factor, n)| {
-            *n < 0
-                && model
-                    .dag
-                    .number(*factor)
-                    .is_some_and(|number| number.value == 0.0)
-        }),
+        Kind::Product(_, factors) => (factors.iter()).any(|(factor, n)| *n < 0 && is_zero(*factor)),
+        Kind::Call(Op::Modulo | Op::Remainder, x) if is_zero(x[1]) => true,
         _ => {
             is_number(node)
                 && model

@@ -178,6 +178,6 @@ impl<const COUNTS: bool> Real for Called<COUNTS> {
     functions!(roots: sqrt);
     functions!(exponentials: exp);
     functions!(functions: cbrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp_m1
-        ln ln_1p erf erfc);
-    functions_of_two!(atan2 hypot pow);
+        ln ln_1p erf erfc floor round);
+    functions_of_two!(atan2 hypot pow modulo remainder);
 }

@@ -153,7 +153,7 @@ impl Real for Four {
     }
     functions! {
         sqrt cbrt abs sign sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp erf erfc exp_m1
-        ln ln_1p;
-        atan2 hypot pow
+        ln ln_1p floor round;
+        atan2 hypot pow modulo remainder
     }
 }

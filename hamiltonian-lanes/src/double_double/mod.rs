@@ -11,6 +11,7 @@ mod roots;
 mod error;
 mod exponential;
 mod trigonometric;
+mod whole;
 
 mod lift;
 mod scalar;

@@ -87,6 +87,22 @@ impl Real for DoubleDouble {
         Self::from(self.hi.sign())
     }
     #[inline(always)]
+    fn floor(self) -> Self {
+        self.whole_below()
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        self.nearest_whole()
+    }
+    #[inline(always)]
+    fn modulo(self, other: Self) -> Self {
+        self.modulo_of(other)
+    }
+    #[inline(always)]
+    fn remainder(self, other: Self) -> Self {
+        self.nearest_remainder(other)
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         self.square_root()
     }

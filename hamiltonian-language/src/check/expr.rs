@@ -9,9 +9,11 @@
 use super::Checker;
 use crate::ast::{BinaryOp, ExprId, ExprKind, Expression, LoopVariableId, Symbol, UnaryOp};
 use crate::checked::{Extent, Node, NodeId, NodeKind, Type, Variable};
+use crate::names::Builtin;
 use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::op::Op;
 
 /// The largest number of nodes that calls of `let` functions make in all.
 const MAX_INSTANTIATED: usize = 1 << 19;
@@ -283,14 +285,18 @@ impl Checker<'_> {
             {
                 Some(Type::Vector(rows))
             }
-            (BinaryOp::Pow, Type::Scalar, Type::Scalar) => Some(Type::Scalar),
+            (BinaryOp::Pow | BinaryOp::Rem, Type::Scalar, Type::Scalar) => Some(Type::Scalar),
             (BinaryOp::Compare(_), Type::Scalar, Type::Scalar) => Some(Type::Bool),
             _ => None,
         };
         let Some(ty) = ty else {
             return self.shapes_differ(raw, op, (left, left_type), (right, right_type));
         };
-        self.push_affine(raw, NodeKind::Binary(op, a, b), ty, affine)
+        let kind = match op {
+            BinaryOp::Rem => NodeKind::Call(Builtin::Elementary(Op::Modulo), vec![a, b]),
+            _ => NodeKind::Binary(op, a, b),
+        };
+        self.push_affine(raw, kind, ty, affine)
     }
 
     /// Refuses two operands whose shapes the operator cannot combine.
@@ -339,6 +345,10 @@ impl Checker<'_> {
                     "divide by a component, or by the length of a vector, `norm({})`",
                     name(raw_right, "a")
                 ),
+            ),
+            BinaryOp::Rem => (
+                format!("{a} modulo {b} has no meaning"),
+                "write the remainder of each component, such as `a[i] % b`".to_owned(),
             ),
             BinaryOp::Pow if right == Type::Scalar => (
                 format!("{a} has no powers"),

@@ -146,7 +146,8 @@ impl Checker<'_> {
             let help = "write it in the declared coordinates and momenta";
             return self.refuse(raw, message, help);
         }
-        if let Some(function) = names::function(name) {
+        let is_captured = ast.item.is_none() && names::is_hidden(name);
+        if let Some(function) = names::function(name).filter(|_| !is_captured) {
             let message = format!("`{name}` is a function, not a value");
             return self.refuse(raw, message, format!("write `{}`", function.signature()));
         }

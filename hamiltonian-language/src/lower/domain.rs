@@ -42,6 +42,11 @@ pub fn outside(dag: &Dag, function: Op, arguments: &[Node]) -> Option<&'static s
             below(-1) || at(-1) || at(1) || above(1),
             "the argument of `atanh` must be in (-1, 1)",
         ),
+        Op::Modulo | Op::Remainder => (
+            rest.iter()
+                .all(|y| compared(dag, *y, 0) == Some(Ordering::Equal)),
+            "the divisor of a remainder must not be 0",
+        ),
         Op::Pow => {
             let exponent = rest.first().and_then(|y| rational(dag, *y))?;
             let is_whole = exponent.to_small().is_none_or(|(_, d)| d == 1);

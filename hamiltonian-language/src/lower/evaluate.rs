@@ -312,7 +312,11 @@ impl<'a> Evaluator<'a> {
             }
             (NodeKind::Index { .. } | NodeKind::Vector(_), [value, ..]) => *value,
             (NodeKind::Call(Builtin::Elementary(op), items), values) => {
-                self.refuse_outside(model, *op, items[0], demand, values);
+                let argument = match op {
+                    Op::Modulo | Op::Remainder => items[1],
+                    _ => items[0],
+                };
+                self.refuse_outside(model, *op, argument, demand, values);
                 model.dag.call(*op, values)
             }
             (NodeKind::Call(function, items), values) => {
@@ -352,6 +356,7 @@ impl<'a> Evaluator<'a> {
         let message = match (function, numbers.as_slice()) {
             (Op::Sqrt, [x]) => format!("the square root of {x} is not a real number"),
             (Op::Pow, [x, y]) => format!("{x} to the power of {y} is not a real number"),
+            (Op::Modulo, [x, y]) => format!("{x} % {y} is not a real number"),
             (_, [x, ..]) => format!("`{}` of {x} is not a real number", function.row().name),
             _ => return,
         };

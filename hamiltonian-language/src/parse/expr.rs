@@ -252,7 +252,7 @@ impl Parser<'_> {
             }
             return Ok(self.push(ExprKind::Error, Spans::from(span), span));
         }
-        if self.at_punct('^') && names::function(name).is_some() {
+        if self.at_punct('^') && names::function(name).is_some() && !names::is_hidden(name) {
             return Ok(self.powered_function(token));
         }
         let symbol = self.ast.symbols.intern(name);

@@ -28,6 +28,13 @@ const DEFINITIONS: &[&str] = &[
     // Empty ranges, and some that are so for some sizes only.
     "struct A<const N: usize> {} H(q[N]; p[N]) = norm_squared(p) + sum(i in 0..0) { q[i] }
          + sum(i in 3..N) { q[i] } + sum(i in 0..3, j in i + 1..3) { i*j*q[0] }",
+    // Functions of their own names, and the functions of the language.
+    "pub struct Rounds { floor = 1.0, remainder = 2.0 }
+     let round(x) = x + floor;
+     H = p^2 + round(q)*floor + remainder",
+    "H = p^2/2 + q*floor^2 + remainder*round - floor(q)",
+    "H = p^2/2 + floor(q)*round(q/2) + remainder(q, 2)^2 + (q % 1)*(-q % (2*l))",
+    "H(q[4]; p[4]) = norm_squared(p) + sum(i in 0..4) { (i % 2)*q[(i + 1) % 4] }",
     // Named like a momentum, but with one of its own.
     "H(q, p; p_q, p_p) = p_q^2 + p_p^2 + q*p",
     "/// A planar pendulum.

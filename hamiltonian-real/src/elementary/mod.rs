@@ -12,6 +12,7 @@ pub mod error;
 pub mod exponential;
 pub mod logarithm;
 pub mod power;
+pub mod whole;
 
 pub mod exact;
 pub mod reduction;
@@ -27,10 +28,11 @@ mod pairs;
 macro_rules! elementary {
     (#[$long:meta]) => {
         $crate::elementary! { @one inline(always):
-            angle { sin cos } exponential { exp exp_m1 } logarithm { ln ln_1p } }
+            angle { sin cos } exponential { exp exp_m1 } logarithm { ln ln_1p } whole { floor round } }
         $crate::elementary! { @one $long:
             angle { tan } exponential { sinh cosh tanh } logarithm { asinh acosh atanh }
             power { cbrt } arc { asin acos atan } error { erf erfc } }
+        $crate::elementary! { @two inline(always): whole { modulo remainder } }
         $crate::elementary! { @two $long: power { pow hypot } arc { atan2 } }
         #[inline(always)]
         fn sin_cos(self) -> (Self, Self) {

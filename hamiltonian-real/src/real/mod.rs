@@ -355,6 +355,43 @@ pub trait Real:
     fn abs(self) -> Self;
     /// −1, 0 or 1; `sign(0) = 0`; its derivative is 0.
     fn sign(self) -> Self;
+    /// The largest whole number ≤ self, ⌊self⌋; its derivative is 0.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    /// assert_eq!(Real::floor(-0.5), -1.0);
+    /// assert_eq!(Dual::variable(2.5).floor().eps, 0.0);
+    /// ```
+    fn floor(self) -> Self;
+    /// The nearest whole number, ties to even; its derivative is 0. The method `round` of `f64` in the standard
+    /// library rounds ties away from 0 and comes first in method calls: write `Real::round(x)` for an `f64`.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    /// assert_eq!([0.5, 1.5, 2.5].map(Real::round), [0.0, 2.0, 2.0]);
+    /// assert_eq!([0.5, 1.5, 2.5].map(f64::round), [1.0, 2.0, 3.0]);
+    /// ```
+    fn round(self) -> Self;
+    /// `self` modulo `other`: `self − |other|·⌊self/|other|⌋`, in [0, |other|), exact but for one rounding. A
+    /// remainder that rounds to |other| is 0. NaN where `other` is 0 or `self` is infinite. The derivatives are 1
+    /// and minus the multiple.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    /// assert_eq!((7.5.modulo(2.0), (-0.5).modulo(2.0)), (1.5, 1.5));
+    /// assert_eq!((-1e-20).modulo(1.0), 0.0);
+    /// assert_eq!(Dual::fixed(7.5).modulo(Dual::variable(2.0)).eps, -3.0);
+    /// ```
+    fn modulo(self, other: Self) -> Self;
+    /// The remainder of IEEE 754: `self − n·other` with n the whole number nearest to `self/other`, ties to even,
+    /// exact, in [−|other|/2, |other|/2]: the minimum image of `self` in a cell of length `other`. NaN where
+    /// `other` is 0 or `self` is infinite. The derivatives are 1 and −n.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    /// assert_eq!((5.5.remainder(2.0), (-5.5).remainder(2.0), 3.0.remainder(2.0)), (-0.5, 0.5, -1.0));
+    /// ```
+    fn remainder(self, other: Self) -> Self;
     /// Sine.
     fn sin(self) -> Self;
     /// Cosine.

@@ -184,6 +184,13 @@ impl Ball {
                 false => Ball::unknown(value),
             };
         }
+        if matches!(op, Op::Floor | Op::Round) {
+            let ends = [x - e, x + e].map(|end| op.eval(&[end]));
+            return match ends == [value; 2] {
+                true => Ball::exact(value),
+                false => Ball::unknown(value),
+            };
+        }
         if self.is_zero() && op.row().at_zero.is_some() {
             return Ball::exact(value);
         }
@@ -259,6 +266,19 @@ impl Ball {
                 return if first { x } else { y };
             }
             Op::Hypot => both,
+            // Errors of the divisor count as often as it is taken away.
+            Op::Modulo | Op::Remainder => {
+                let n = ((x.value - value) / y.value).abs() + 1.0;
+                let moved = outward(x.error + n * y.error);
+                let edge = match op {
+                    Op::Modulo => largest(-value, value - y.value.abs()),
+                    _ => value.abs() - 0.5 * y.value.abs(),
+                };
+                match moved < -edge || x.is_zero() && y.is_nonzero() {
+                    true => moved,
+                    false => f64::INFINITY,
+                }
+            }
             // The gradient is 1/r, and the jump is where x ≤ 0 = y.
             Op::Atan2 if both > 0.0 => {
                 let r = Op::Hypot.eval(&[x.value, y.value]) * (1.0 - 4.0 * f64::EPSILON) - both;

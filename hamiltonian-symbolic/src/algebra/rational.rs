@@ -282,6 +282,25 @@ impl Rational {
             _ => Rational::ONE,
         }
     }
+    /// The largest integer that is not larger.
+    #[must_use]
+    pub fn floor(&self) -> Rational {
+        match &self.0 {
+            Repr::Small(n, d) => Rational::integer(n.div_euclid(*d)),
+            Repr::Big(value) => Rational::from_big(value.floor()),
+        }
+    }
+    /// The nearest integer, ties to even.
+    #[must_use]
+    pub fn round(&self) -> Rational {
+        let below = self.floor();
+        let twice = Rational::integer(2).mul(&self.sub(&below));
+        let rest = twice.sub(&Rational::ONE);
+        match rest.is_negative() || rest.is_zero() && !below.is_odd() {
+            true => below,
+            false => below.add(&Rational::ONE),
+        }
+    }
     /// Returns true if the value is an integer.
     #[must_use]
     pub fn is_integer(&self) -> bool {

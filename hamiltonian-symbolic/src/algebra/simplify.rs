@@ -445,14 +445,30 @@ impl Dag {
                     value
                 };
             }
-            if let (Op::Abs | Op::Sign, Some(value)) = (op, self.as_constant(x)) {
-                let value = if op == Op::Abs {
-                    value.abs()
-                } else {
-                    Rational::ONE
+            if let Some(value) = self.as_constant(x) {
+                let value = match op {
+                    Op::Abs => Some(value.abs()),
+                    // Negative numbers are above.
+                    Op::Sign => Some(Rational::ONE),
+                    Op::Floor => Some(value.floor()),
+                    Op::Round => Some(value.round()),
+                    _ => None,
                 };
-                return self.constant(value);
+                if let Some(value) = value {
+                    return self.constant(value);
+                }
             }
+        }
+        if let (Op::Modulo | Op::Remainder, &[x, y]) = (op, arguments)
+            && let (Some(x), Some(y)) = (self.as_constant(x), self.as_constant(y))
+            && let Some(turns) = y.abs().recip().map(|per| x.mul(&per))
+        {
+            let multiple = match op {
+                Op::Modulo => turns.floor(),
+                _ => turns.round(),
+            };
+            let value = x.sub(&multiple.mul(&y.abs()));
+            return self.constant(value);
         }
         self.intern(Kind::Call(op, arguments.to_vec()))
     }

@@ -47,7 +47,10 @@ impl Operations {
             }
             Instruction::Div(..) | Instruction::Recip(..) => self.divisions += 1,
             Instruction::Call(Op::Sqrt, _) => self.roots += 1,
-            Instruction::Call(Op::Abs | Op::Sign | Op::Min | Op::Max, _) => {}
+            Instruction::Call(
+                Op::Abs | Op::Sign | Op::Min | Op::Max | Op::Floor | Op::Round,
+                _,
+            ) => {}
             Instruction::Call(..) | Instruction::PairedSin(_) | Instruction::External(..) => {
                 self.functions += 1
             }

@@ -409,7 +409,11 @@ impl Facts {
             SingularSet::Equal
             | SingularSet::One
             | SingularSet::PlusMinusOne
-            | SingularSet::Cosine => false,
+            | SingularSet::Cosine
+            | SingularSet::Whole
+            | SingularSet::HalfWhole
+            | SingularSet::Multiple
+            | SingularSet::HalfMultiple => false,
         };
         let jump = match regularity.breaks {
             Break::Jump(at) if !misses(at) => Some(at),

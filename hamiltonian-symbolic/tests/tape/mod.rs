@@ -233,7 +233,7 @@ impl Real for Traced {
     }
     functions! {
         sqrt cbrt abs sign sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp exp_m1
-        ln ln_1p erf erfc;
-        atan2 hypot pow
+        ln ln_1p erf erfc floor round;
+        atan2 hypot pow modulo remainder
     }
 }

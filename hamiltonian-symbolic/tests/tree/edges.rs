@@ -85,10 +85,21 @@ fn distances(part: Part, v: &[f64], e: &[f64]) -> Vec<(f64, f64)> {
             Op::Asin | Op::Acos | Op::Atanh => vec![from(a, 1.0), from(a, -1.0)],
             Op::Acosh => vec![from(a, 1.0)],
             Op::Ln1p => vec![from(a, -1.0)],
+            Op::Floor => vec![from(a, v[a].round())],
+            Op::Round => vec![from(a, v[a].floor() + 0.5)],
             Op::Tan => vec![(v[a].cos().abs(), e[a])],
             _ => vec![],
         },
         Part::Call2(Op::Min | Op::Max, a, b) => vec![tie(a, b)],
+        Part::Call2(op @ (Op::Modulo | Op::Remainder), a, b) => {
+            let turns = v[a] / v[b];
+            let jump = match op {
+                Op::Modulo => turns.round(),
+                _ => turns.floor() + 0.5,
+            };
+            let apart = (v[a] - jump * v[b]).abs();
+            vec![from(b, 0.0), (apart, e[a] + jump.abs() * e[b])]
+        }
         // Of a difference that is 0 the sign is rounding's: x − x is 0, and (x − x)·y may be −0.
         Part::Call2(Op::Atan2, a, b) if v[a] == 0.0 && v[a].is_sign_negative() && v[b] < 0.0 => {
             vec![(0.0, f64::MIN_POSITIVE)]

@@ -84,13 +84,26 @@ fn expression(tree: &mut Tree, random: &mut Random, budget: usize) -> usize {
         56..=67 => power(tree, random, rest),
         68..=87 => function(tree, random, rest),
         88..=93 => {
-            let op = random.one_of(&[Op::Atan2, Op::Hypot, Op::Min, Op::Max, Op::Pow]);
+            let op = random.one_of(&[
+                Op::Atan2,
+                Op::Hypot,
+                Op::Min,
+                Op::Max,
+                Op::Pow,
+                Op::Modulo,
+                Op::Remainder,
+            ]);
             let a = expression(tree, random, left);
             let b = expression(tree, random, right);
             match op {
                 Op::Pow => {
                     let a = positive(tree, random, a);
                     let b = bounded(tree, random, b);
+                    push(tree, Part::Call2(op, a, b))
+                }
+                Op::Modulo | Op::Remainder => {
+                    let a = off_multiples(tree, a);
+                    let b = away_from_zero(tree, random, b);
                     push(tree, Part::Call2(op, a, b))
                 }
                 _ => push(tree, Part::Call2(op, a, b)),
@@ -177,10 +190,17 @@ fn function(tree: &mut Tree, random: &mut Random, rest: usize) -> usize {
             let one = push(tree, Part::Number(1, 1));
             push(tree, Part::Add(a, one))
         }
+        Op::Floor | Op::Round => off_multiples(tree, a),
         Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh | Op::Tan => bounded(tree, random, a),
         _ => a,
     };
     push(tree, Part::Call(op, a))
+}
+
+/// Moves simple numbers off the places where whole numbers jump.
+fn off_multiples(tree: &mut Tree, a: usize) -> usize {
+    let c = push(tree, Part::Number(3, 10));
+    push(tree, Part::Add(a, c))
 }
 
 /// Mostly makes a positive number of `a`.

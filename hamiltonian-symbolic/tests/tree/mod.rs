@@ -237,7 +237,8 @@ impl Tree {
                 let chain = m.ilog2() as usize + m.count_ones() as usize - 1;
                 chain + usize::from(n < 0) + usize::from(d == 2 || d == 3)
             }
-            Part::Call(Op::Abs | Op::Sign, _) | Part::Call2(Op::Min | Op::Max, ..) => 0,
+            Part::Call(Op::Abs | Op::Sign | Op::Floor | Op::Round, _)
+            | Part::Call2(Op::Min | Op::Max, ..) => 0,
             Part::Call(..) | Part::Call2(..) => 1,
             Part::If(..) | Part::IfBoth(..) => 0,
         };
@@ -275,6 +276,7 @@ impl Tree {
             Part::Power(a, n, 1) => format!("({}^{n})", t(a)),
             Part::Power(a, n, d) => format!("({}^({n}/{d}))", t(a)),
             Part::Call(op, a) => format!("{}({})", op.row().name, t(a)),
+            Part::Call2(Op::Modulo, a, b) => format!("({} % {})", t(a), t(b)),
             Part::Call2(op, a, b) => format!("{}({}, {})", op.row().name, t(a), t(b)),
             Part::If(c, negated, a, b) => {
                 let not = if negated { "!" } else { "" };

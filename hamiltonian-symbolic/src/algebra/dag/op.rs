@@ -53,6 +53,14 @@ pub enum SingularSet {
     Origin,
     /// The negative half of an axis: y = 0, x ≤ 0.
     Cut,
+    /// x is whole.
+    Whole,
+    /// x − ½ is whole.
+    HalfWhole,
+    /// x is a multiple of y, or y = 0.
+    Multiple,
+    /// x − y/2 is a multiple of y, or y = 0.
+    HalfMultiple,
 }
 
 /// The set at which a function is not analytic though it has a value there.
@@ -294,6 +302,21 @@ operations! {
         let (vanished, slope) = (d.equal(f, zero), d.mul(&[f, log]));
         vec![d.mul(&[x[1], lower]), d.select(vanished, zero, slope)]
     };
+    // The numbers of the functions above decide the starts of the orbits by which pieces are chosen (`space/labels`):
+    // a new function stands at the end of this part.
+    Floor floor(x) None Some(0), "\\operatorname{floor}",
+        [All, Any, Jump(Whole), None, Infinite, Branched],
+        |d, x, f| vec![d.integer(0)];
+    Round round(x) Odd Some(0), "\\operatorname{round}",
+        [All, Any, Jump(HalfWhole), None, Infinite, Branched],
+        |d, x, f| vec![d.integer(0)];
+    // `x % y`
+    Modulo modulo(x, y) None None, "\\bmod",
+        [All, NonNegative, Jump(Multiple), None, Nothing, Branched],
+        |d, x, f| vec![d.integer(1), multiples(d, x, f)];
+    Remainder remainder(x, y) None None, "\\operatorname{rem}",
+        [All, Any, Jump(HalfMultiple), None, Nothing, Branched],
+        |d, x, f| vec![d.integer(1), multiples(d, x, f)];
     // Functions from here on occur in exact flows alone. A function of the language goes above this line.
     Anomaly universal_anomaly(a, b, c) None None, "\\operatorname{y}",
         [All, Positive, Nowhere, None, Nothing, Branched],
@@ -320,6 +343,13 @@ const LANGUAGE: usize = Op::Anomaly as usize;
 /// over dual numbers and never differentiated as expressions.
 fn underivable() -> Vec<Node> {
     unreachable!("an exact flow is differentiated")
+}
+
+/// −n, where f = x − n·y with a whole number n. Rounding leaves the quotient near n.
+fn multiples(dag: &mut Dag, x: &[Node], f: Node) -> Node {
+    let part = dag.sub(f, x[0]);
+    let quotient = dag.div(part, x[1]);
+    dag.call(Op::Round, &[quotient])
 }
 
 /// k·exp(−x²)/√π

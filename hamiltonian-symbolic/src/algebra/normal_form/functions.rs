@@ -92,6 +92,27 @@ impl Algebra {
                 let y = self.argument(&x[1])?;
                 self.power(&first, &y)?
             }
+            Op::Floor => self.floor(&first)?,
+            Op::Round => {
+                let (sign, first) = self.oriented(first)?;
+                if first.is_zero() {
+                    return Ok(first);
+                }
+                let atom = self.function(Key::Function(op, vec![first]), None);
+                Poly::term(sign, Monomial::atom(atom, 1))
+            }
+            // x − |y|·⌊x/|y|⌋ and x − y·round(x/y)
+            Op::Modulo | Op::Remainder => {
+                let y = self.argument(&x[1])?;
+                let (whole, size) = match op {
+                    Op::Modulo => (Op::Floor, self.size(&y)?),
+                    _ => (Op::Round, y),
+                };
+                let per = self.invert(&size)?;
+                let turns = self.mul(&first, &per)?;
+                let turns = self.call(whole, &[turns])?;
+                first.sub(&self.mul(&size, &turns)?)
+            }
             Op::Erfc => {
                 let erf = self.call(Op::Erf, x)?;
                 one.sub(&erf)
@@ -122,6 +143,20 @@ impl Algebra {
                 Poly::term(sign, Monomial::atom(atom, 1))
             }
         })
+    }
+
+    /// ⌊n + x⌋ = n + ⌊x⌋ for whole n.
+    fn floor(&mut self, x: &Poly) -> Result<Poly, Undecided> {
+        let mut terms = x.terms().iter();
+        let number = terms.find(|(monomial, _)| monomial.is_one());
+        let number = number.map_or(Rational::ZERO, |(_, k)| k.floor());
+        let number = Poly::constant(number);
+        let rest = self.argument(&x.sub(&number))?;
+        if rest.is_zero() {
+            return Ok(number);
+        }
+        let atom = self.function(Key::Function(Op::Floor, vec![rest]), None);
+        Ok(number.add(&Poly::term(Rational::ONE, Monomial::atom(atom, 1))))
     }
 
     /// The argument of a function in the form it was first met in: with divisors, equal

@@ -128,10 +128,10 @@ fn parts(value: &Rational) -> (String, String) {
 }
 
 fn call_level(op: Op) -> Level {
-    if matches!(op, Op::Pow | Op::Exp) {
-        Level::Power
-    } else {
-        Level::Atom
+    match op {
+        Op::Pow | Op::Exp => Level::Power,
+        Op::Modulo => Level::Sum,
+        _ => Level::Atom,
     }
 }
 
@@ -177,6 +177,12 @@ fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Frag
         Op::Sqrt => within("\\sqrt{", "}"),
         Op::Cbrt => within("\\sqrt[3]{", "}"),
         Op::Abs => within("\\left|", "\\right|"),
+        Op::Floor => within("\\lfloor ", " \\rfloor"),
+        Op::Modulo => vec![
+            Fragment::Node(x[0], Level::Unary),
+            Fragment::Static(" \\bmod "),
+            Fragment::Node(x[1], Level::Unary),
+        ],
         _ => {
             let name = op.row().latex;
             let name = power.map_or_else(|| name.to_owned(), |n| format!("{name}^{{{n}}}"));

@@ -335,6 +335,8 @@ const SIGNS: &[(&str, &str)] = &[
     ("lor", "∨"),
     ("dots", "…"),
     ("bmod", "mod"),
+    ("lfloor", "⌊"),
+    ("rfloor", "⌋"),
     ("partial", "∂"),
 ];
 

@@ -47,10 +47,11 @@ fn indexed(name: &str, indices: &[String]) -> String {
 }
 
 fn call_level(op: Op) -> Level {
-    if op == Op::Pow {
-        Level::Power
-    } else {
-        Level::Atom
+    match op {
+        Op::Pow => Level::Power,
+        // It binds like a product; parentheses set it apart from signs and factors.
+        Op::Modulo => Level::Sum,
+        _ => Level::Atom,
     }
 }
 
@@ -79,6 +80,11 @@ fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Fragment> {
             Fragment::Node(x[0], Level::Atom),
             Fragment::Static("^"),
             exponent(writer.dag(), x[1]),
+        ],
+        Op::Modulo => vec![
+            Fragment::Node(x[0], Level::Unary),
+            Fragment::Static(" % "),
+            Fragment::Node(x[1], Level::Unary),
         ],
         _ => writer.listed(op.row().name.to_owned(), x),
     }

@@ -85,7 +85,20 @@ fn place(dag: &mut Dag, at: SingularSet, x: &[Node]) -> Option<Node> {
         SingularSet::Cosine => dag.call(Op::Cos, &[first]),
         SingularSet::Equal => dag.sub(first, second),
         SingularSet::Origin => dag.sum_of_squares(&[first, second]),
+        // sin πx and cos πx, sin πx/y and cos πx/y
+        SingularSet::Whole => in_turns(dag, Op::Sin, first, one),
+        SingularSet::HalfWhole => in_turns(dag, Op::Cos, first, one),
+        SingularSet::Multiple => in_turns(dag, Op::Sin, first, second),
+        SingularSet::HalfMultiple => in_turns(dag, Op::Cos, first, second),
     })
+}
+
+/// A function of π·x/y.
+fn in_turns(dag: &mut Dag, op: Op, x: Node, y: Node) -> Node {
+    let pi = dag.pi();
+    let turns = dag.div(x, y);
+    let angle = dag.mul(&[pi, turns]);
+    dag.call(op, &[angle])
 }
 
 /// Returns true if the zeros of an expression are none, or a set of codimension 2: those of a sum of terms

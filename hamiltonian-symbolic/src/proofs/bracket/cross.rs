@@ -369,6 +369,19 @@ fn place(model: &mut Model, locus: Locus, part: Node) -> Option<String> {
             dag.sub(square, one)
         }
         SingularSet::Origin => return None,
+        SingularSet::Whole
+        | SingularSet::HalfWhole
+        | SingularSet::Multiple
+        | SingularSet::HalfMultiple => {
+            let (x, y) = (print::text(model, locus.x), print::text(model, locus.y));
+            let at = match locus.at {
+                SingularSet::Whole => format!("`{x}` is whole"),
+                SingularSet::HalfWhole => format!("`{x} - 1/2` is whole"),
+                SingularSet::Multiple => format!("`{x}` is a multiple of `{y}`"),
+                _ => format!("`{x}` is an odd multiple of half of `{y}`"),
+            };
+            return Some(format!("{BOTH_SIDES} where {at}"));
+        }
     };
     let zero = print::text(model, zero);
     Some(format!("{BOTH_SIDES} where `{zero}` is 0"))

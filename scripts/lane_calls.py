@@ -68,6 +68,7 @@ def readable(text):
 def path_of(name):
     """The path of a demangled item, without hashes and the arguments of functions, which v0 alone has."""
     name = re.sub(r"\.llvm\.\d+|::h[0-9a-f]{16}\b|(?<=\w)\[[0-9a-f]{8,}\]", "", name).replace("->", "→")
+    name = re.sub(r"(?<=\w): (?:[iu](?:\d+|size)|bool|char)\b", "", name)
     name = re.sub(r"\{+closure(?:#\d+)?\}+", "{closure}", name)
     while (start := name.find("::<")) >= 0:
         depth, end = 1, start + 3
@@ -239,7 +240,7 @@ V0 = [
     "3TwoEKj4_ECse0GPiH9SR4V_9functions",
     "_RNvNtNtNtCsgEmfK2I1SDS_4core9core_arch3x863avx13__mm256_mul_pd",
     "_RNCNvMCszHkGgZg4J3_16hamiltonian_coreINtB4_10CollocateddE4body0B4_",
-    "_RNvMCszHkGgZg4J3_16hamiltonian_coreINtB2_7OutcomedE5cause",
+    "_RNvMCszHkGgZg4J3_16hamiltonian_coreINtB2_7OutcomedKj6_E5cause",
 ]
 
 

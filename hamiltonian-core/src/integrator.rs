@@ -316,8 +316,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// If the operating system cannot start threads, the run has one. A saved run is resumed on
-    /// one.
+    /// Called in a rayon pool, it starts no threads: the run has those of the pool, at most so many. If the operating
+    /// system cannot start threads, the run has one. A saved run is resumed on one.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self

@@ -266,7 +266,8 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
 }
 
 impl<S: System<f64>, O> Ensemble<S, O> {
-    /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once.
+    /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
+    /// in a rayon pool gets those of the pool, and no others.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);

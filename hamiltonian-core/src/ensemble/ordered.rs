@@ -4,6 +4,7 @@
 //! many jobs as threads are begun and not yet taken, so that memory is bounded.
 
 use super::threads;
+use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
 /// Does `count` jobs on a number of threads and passes their results to `take` in order, until `take` breaks.
@@ -13,21 +14,35 @@ pub(crate) fn in_order<B: Send>(
     work: impl Fn(usize) -> B + Sync,
     mut take: impl FnMut(usize, B) -> ControlFlow<()>,
 ) {
-    let each = |job| {
-        let mut result = None;
-        threads::for_each(core::slice::from_mut(&mut result), 1, |result| {
-            *result = Some(work(job));
-        });
-        result.map_or(ControlFlow::Break(()), |result| take(job, result))
-    };
-    if number.min(count) <= 1 {
-        let _ = (0..count).try_for_each(each);
-        return;
-    }
+    let number = number.min(count);
     #[cfg(feature = "std")]
-    parallel::in_order(count, number.min(count), work, take);
-    #[cfg(not(feature = "std"))]
-    let _ = (0..count).try_for_each(each);
+    if number > 1 && threads::of_pool().is_none() {
+        return parallel::in_order(count, number, work, take);
+    }
+    in_rounds(count, number, work, &mut take);
+}
+
+/// The jobs in rounds, between which results are taken. A thread of a pool must not wait for results of other threads
+/// of the pool, since these may wait as well.
+fn in_rounds<B: Send>(
+    count: usize,
+    number: usize,
+    work: impl Fn(usize) -> B + Sync,
+    take: &mut dyn FnMut(usize, B) -> ControlFlow<()>,
+) {
+    let size = if number > 1 { 2 * number } else { 1 };
+    for first in (0..count).step_by(size) {
+        let jobs = first..count.min(first + size);
+        let mut round: Vec<(usize, Option<B>)> = jobs.map(|job| (job, None)).collect();
+        threads::for_each(&mut round, number, |(job, result)| {
+            *result = Some(work(*job))
+        });
+        for (job, result) in round {
+            if result.is_none_or(|result| take(job, result).is_break()) {
+                return;
+            }
+        }
+    }
 }
 
 #[cfg(feature = "std")]
@@ -109,8 +124,7 @@ mod parallel {
         };
         beside(threads, worker, |started| {
             if started == 0 {
-                let _ = (0..count).try_for_each(|job| take(job, work(job)));
-                return;
+                return super::in_rounds(count, 1, &work, &mut take);
             }
             let _stop = Stop(&shared);
             for job in 0..count {

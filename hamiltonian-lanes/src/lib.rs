@@ -51,6 +51,8 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 #![deny(unsafe_code)]
+// A public signature must not give away a level that not every CPU has.
+#![deny(private_bounds, private_interfaces)]
 
 mod double_double;
 

@@ -380,17 +380,17 @@ pub fn dispatch_at_most<K: Kernel>(limit: Cpu, kernel: K) -> K::Output {
     }
 }
 
-/// One level: its type, the module of its entries, its registers, how many of them are wide, are several, and hold
+/// One level: its visibility, its type, the module of its entries, its registers, how many of them are wide, are several, and hold
 /// eight numbers, its features.
 macro_rules! level {
     (
-        $(#[$where:meta])* $level:ident in $module:ident, $scalar:ty, $register:ty,
+        $(#[$where:meta])* $visible:vis $level:ident in $module:ident, $scalar:ty, $register:ty,
         $wide:literal, $several:literal, $eight:literal, $four:ty
         $(, $features:literal)?
     ) => {
         $(#[$where])*
         #[derive(Clone, Copy, Debug, Default)]
-        pub struct $level;
+        $visible struct $level;
 
         $(#[$where])*
         impl sealed::Sealed for $level {}
@@ -456,7 +456,7 @@ macro_rules! level {
 }
 
 level!(
-    Portable in portable,
+    pub Portable in portable,
     f64,
     super::portable::Two,
     4,
@@ -466,7 +466,7 @@ level!(
 );
 level!(
     #[cfg(target_arch = "x86_64")]
-    Sse2 in sse2,
+    pub Sse2 in sse2,
     f64,
     core::arch::x86_64::__m128d,
     4,
@@ -476,7 +476,7 @@ level!(
 );
 level!(
     #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-    Neon in neon,
+    pub Neon in neon,
     V<super::neon::One>,
     core::arch::aarch64::float64x2_t,
     8,
@@ -486,7 +486,7 @@ level!(
 );
 level!(
     #[cfg(target_arch = "x86_64")]
-    Avx2 in avx2,
+    pub(crate) Avx2 in avx2,
     V<super::avx2::One>,
     core::arch::x86_64::__m256d,
     6,
@@ -497,7 +497,7 @@ level!(
 );
 level!(
     #[cfg(target_arch = "x86_64")]
-    Avx512 in avx512,
+    pub(crate) Avx512 in avx512,
     V<super::avx2::One>,
     core::arch::x86_64::__m512d,
     8,

@@ -12,7 +12,8 @@
 //!
 //! - [`Register`], the register types behind packs, and the types that implement [`Level`] are in
 //!   private modules and no signature of this crate gives one of them away: outside, a pack is
-//!   always `L::Pack`, `L::Wide` or `L::Scalar` of some `L: Level`, and [`Level`] is sealed.
+//!   always `L::Pack`, `L::Wide` or `L::Scalar` of some `L: Level`, and [`Level`] is sealed. Levels that not every CPU has
+//!   are visible in this crate only, so that rustc rejects a public signature with one of them.
 //! - [`AtHand`] is the level that each CPU of the architecture has.
 //! - Any other `L` is chosen in one place, [`dispatch_at_most`], from the capabilities found in the CPU.
 //!   rustc compiles generic code over a level for every level, and only the chosen one runs.

@@ -137,8 +137,11 @@ fn driven(model: &mut Model, gradient: &[VectorEntry]) -> Vec<Store> {
 fn flow(model: &mut Model, piece: &Piece) -> Vec<Store> {
     match &piece.flow {
         ExactFlow::Linear | ExactFlow::Exponential => rates(model, piece.h),
-        ExactFlow::Closed(motion, _) | ExactFlow::Loop { motion, .. } => {
-            updates(&mut model.dag, motion)
+        ExactFlow::Closed(motion, _) => updates(&mut model.dag, motion),
+        ExactFlow::Loop { motions, .. } => {
+            let each = motions.iter();
+            each.flat_map(|motion| updates(&mut model.dag, motion))
+                .collect()
         }
     }
 }

@@ -171,6 +171,63 @@ fn body_axes_pass_the_pole() {
     }
 }
 
+/// Sums of sums, whose loops have no element in common; the second ones have a flow for sizes that are known.
+const APART: &[(&str, &str, &str)] = &[
+    (
+        "q[n][2], w[3][2]; p[n][2], u[3][2]",
+        "k",
+        "sum(i in 0..n) { (p[i][0]^2 + p[i][1]^2)/2 - k/sqrt(q[i][0]^2 + q[i][1]^2) }
+         + sum(j in 0..3) { (u[j][0]^2 + u[j][1]^2)/2 - k/sqrt(w[j][0]^2 + w[j][1]^2) }",
+    ),
+    (
+        "q[n]; p[n]",
+        "a m[n]",
+        "sum(i in 0..2) { p[i]^2*q[i]^2*m[i] } + sum(i in 2..n) { a*p[i]^2/2 + q[i]^2/2 + q[i] } + a",
+    ),
+    (
+        "q[n], x, y, w[3]; p[n], u, v, z[3]",
+        "a",
+        "sum(i in 0..n) { q[i]^2*p[i] } + x*v*a - y*u*a + sum(j in 0..3) { cos(w[j])*z[j] } + 2",
+    ),
+    (
+        "q[n], w[2]; p[n], u[2]",
+        "k m[n]",
+        "k*(sum(i in 0..n) { m[i]*q[i]*p[i] } + 2*sum(j in 0..2) { w[j]^2 + u[j]^2 })",
+    ),
+];
+
+#[test]
+fn sums_of_sums_end_where_orbits_do() {
+    let mut definitions = Vec::new();
+    for (signature, parameters, h) in APART {
+        let least = if h.contains("2..n") { 2 } else { 1 };
+        definitions.extend((least..=4).map(|n| Definition::of(signature, parameters, h, n)));
+    }
+    for definition in &definitions {
+        assert!(Subject::whole(definition).is_some(), "{}", definition.h);
+    }
+    let points = common::cases(8, 80);
+    let (wrong, right, missing) = wrong(&definitions, Subject::whole, points, 0.0);
+    println!("{right} right; missing: {missing:#?}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(right > 2 * definitions.len());
+}
+
+/// Loops that may have an element in common are not one flow.
+#[test]
+fn sums_with_common_elements_are_no_flow() {
+    for h in [
+        "sum(i in 0..2) { q[i]^2*p[i] } + sum(i in 1..n) { q[i]*p[i]^2 }",
+        "sum(i in 0..n) { q[i]^2*p[i] } + sum(i in 0..3) { w[i]^2*z[i]*q[i] }",
+        "sum(i in 0..n) { q[i]^2*p[i] } + sum(i in 0..3) { w[i]*z[i]*q[0] }",
+        "sum(i in 0..n) { q[i]^2*p[i] } + sum(i in 0..3) { w[0]^2*z[i] + w[i]*z[0] }",
+        "sum(i in 0..n) { q[i]^2*p[i] } + w[0]*z[0]*p[1]",
+    ] {
+        let definition = Definition::of("q[n], w[3]; p[n], z[3]", "", h, 4);
+        assert!(Subject::whole(&definition).is_none(), "{h}");
+    }
+}
+
 /// H with fixed points at which a formula might divide by 0.
 const RESTING: &[(&str, &str, &str)] = &[
     ("q; p", "a b c", "(a*q^2 + b*q^3 + c*q^4)*p^2"),

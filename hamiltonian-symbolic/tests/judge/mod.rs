@@ -171,7 +171,7 @@ impl Subject {
     fn fields(&self, at: usize, world: &World) -> Vec<Field> {
         let piece = &self.model.pieces[at];
         let ExactFlow::Loop {
-            innermost,
+            innermost: Some(innermost),
             merges: false,
             ..
         } = &piece.flow

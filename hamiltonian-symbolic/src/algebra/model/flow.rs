@@ -27,14 +27,15 @@ pub enum ExactFlow {
     Exponential,
     /// The motion in the time of the step coefficient, and the names of the rows it is made of.
     Closed(Motion, Vec<&'static str>),
-    /// A flow in every iteration of a loop, one after the other.
+    /// A flow in every iteration of a loop, one after the other; or several such loops, which have no element in
+    /// common.
     Loop {
-        /// The motion of one iteration.
-        motion: Motion,
+        /// The motion of one iteration of each loop.
+        motions: Vec<Motion>,
         /// The names of the rows.
         rows: Vec<&'static str>,
-        /// The innermost loop.
-        innermost: Domain,
+        /// The innermost loop; none for several loops, each with its own index in all its elements.
+        innermost: Option<Domain>,
         /// True if iterations commute, so that their order does not matter.
         merges: bool,
     },
@@ -62,7 +63,7 @@ impl ExactFlow {
     pub(crate) fn innermost(&self) -> Option<Domain> {
         match self {
             ExactFlow::Linear | ExactFlow::Exponential | ExactFlow::Closed(..) => None,
-            ExactFlow::Loop { innermost, .. } => Some(*innermost),
+            ExactFlow::Loop { innermost, .. } => *innermost,
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Input: H with loops. Output: its pieces, or the term without a flow. Invariant: a loop's body is
 //! solved once, as a system of the few elements it names, which are proven to be different ones;
 //! iterations that are proven to commute are exact in any order, others are swept one way down and the
-//! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
+//! other way up. Several loops are one flow only if they are proven to have no element in common. Terms in which no column meets its conjugate move everything at a constant rate.
 
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
@@ -115,36 +115,108 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Opti
     Ok(pieces)
 }
 
-/// The flow of one expression with loops, as one loop of flows.
+/// The flow of one expression with loops: one loop of flows, or several without common elements.
 pub(super) fn one(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
-    let terms = terms(&mut model.dag, h);
-    let first = terms.first().ok_or(None)?.clone();
-    let rows = rows(&model.dag, first.body);
-    let mut bodies = Vec::new();
-    let mut all = rows;
-    for term in &terms {
-        if term.chain != first.chain {
-            return Err(None);
-        }
-        bodies.push(term.body);
-        for row in self::rows(&model.dag, term.body) {
-            if !all.contains(&row) {
-                all.push(row);
+    let mut sites: Vec<Site> = Vec::new();
+    for term in terms(&mut model.dag, h) {
+        let rows = rows(&model.dag, term.body);
+        match sites.iter_mut().find(|site| site.chain == term.chain) {
+            Some(site) => {
+                for row in rows {
+                    if !site.rows.contains(&row) {
+                        site.rows.push(row);
+                    }
+                }
+                site.terms.push(term);
             }
+            // A term of parameters alone moves nothing.
+            None if rows.is_empty() => {}
+            None => sites.push(Site {
+                chain: term.chain.clone(),
+                rows,
+                terms: vec![term],
+            }),
         }
     }
-    let site = Site {
-        chain: first.chain,
-        rows: all,
-        terms: Vec::new(),
+    let is_alone = sites.len() < 2;
+    let are_apart = |(at, site): (usize, &Site)| {
+        has_own_index(site)
+            && sites[..at]
+                .iter()
+                .all(|other| are_apart(&model.dag, site, other))
     };
-    let body = model.dag.add(&bodies);
-    let pieces = solved(model, &site, body, false)?;
-    pieces
-        .into_iter()
-        .next()
-        .map(|piece| piece.flow)
-        .ok_or(None)
+    if !is_alone && !sites.iter().enumerate().all(are_apart) {
+        return Err(None);
+    }
+    let mut flow: Option<ExactFlow> = None;
+    for site in &sites {
+        let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).collect();
+        let body = model.dag.add(&bodies);
+        let parts = moved(model, site, body, false)?;
+        let part = parts.into_iter().next().ok_or(None)?;
+        let next = looped(&model.dag, site, part, is_alone);
+        flow = Some(match flow {
+            None => next,
+            Some(flow) => beside(flow, next).ok_or(None)?,
+        });
+    }
+    flow.ok_or(None)
+}
+
+/// Returns true if every element that a site names has the index of its innermost loop. Outside of loops there is
+/// nothing to have.
+fn has_own_index(site: &Site) -> bool {
+    let is_own = |row: &Index| match site.chain.last() {
+        Some(innermost) => row.affine.factor(*innermost) != 0,
+        None => true,
+    };
+    site.rows.iter().all(is_own)
+}
+
+/// Returns true if two sites are proven to have no element of phase space in common.
+fn are_apart(dag: &Dag, a: &Site, b: &Site) -> bool {
+    let places = |site: &Site| -> Vec<(Column, Index)> {
+        let bodies = site.terms.iter().map(|term| term.body);
+        let all = bodies.flat_map(|body| elements(dag, body));
+        all.map(|(_, column, row)| (column.on(Side::Q), row))
+            .collect()
+    };
+    let (own, others) = (places(a), places(b));
+    own.iter().all(|(column, row)| {
+        others.iter().all(|(other, there)| {
+            column != other
+                || dag
+                    .differ(row, there)
+                    .is_some_and(|unless| unless.is_empty())
+        })
+    })
+}
+
+/// Two flows of sites without common elements, as one.
+fn beside(a: ExactFlow, b: ExactFlow) -> Option<ExactFlow> {
+    let parts = |flow: ExactFlow| match flow {
+        ExactFlow::Loop {
+            motions,
+            rows,
+            merges,
+            ..
+        } => Some((motions, rows, merges)),
+        ExactFlow::Closed(motion, rows) => Some((vec![motion], rows, true)),
+        ExactFlow::Linear | ExactFlow::Exponential => None,
+    };
+    let ((mut motions, mut rows, merges), (more, names, others)) = (parts(a)?, parts(b)?);
+    motions.extend(more);
+    for name in names {
+        if !rows.contains(&name) {
+            rows.push(name);
+        }
+    }
+    Some(ExactFlow::Loop {
+        motions,
+        rows,
+        innermost: None,
+        merges: merges && others,
+    })
 }
 
 /// The elements of phase space that an expression names.
@@ -249,6 +321,44 @@ fn solved(
     body: Node,
     may_part: bool,
 ) -> Result<Vec<Piece>, Option<Limit>> {
+    let parts = moved(model, site, body, may_part)?;
+    let mut pieces = Vec::with_capacity(parts.len());
+    for part in parts {
+        let h = around(&mut model.dag, &site.chain, part.0);
+        pieces.push(Piece {
+            h,
+            name: print::text(model, h),
+            flow: looped(&model.dag, site, part, true),
+        });
+    }
+    Ok(pieces)
+}
+
+/// The flow of a part of a site; one that moves all at constant rates needs no loop if it `is_alone`.
+fn looped(dag: &Dag, site: &Site, (part, flow): (Node, Flow), is_alone: bool) -> ExactFlow {
+    let Flow { motion, rows } = flow;
+    match site.chain.last() {
+        _ if is_alone && is_linear(&columns(dag, part)) => ExactFlow::Linear,
+        Some(innermost) => ExactFlow::Loop {
+            motions: vec![motion],
+            rows,
+            innermost: Some(*innermost),
+            merges: commute(dag, &site.chain, &site.rows, part),
+        },
+        None => ExactFlow::Closed(motion, rows),
+    }
+}
+
+/// The parts of a body of a site with their motions in one iteration; one part, unless it `may_part`.
+///
+/// # Errors
+/// The limit at which the search for flows ended.
+fn moved(
+    model: &mut Model,
+    site: &Site,
+    body: Node,
+    may_part: bool,
+) -> Result<Vec<(Node, Flow)>, Option<Limit>> {
     if is_large(&model.dag, body) {
         return Err(Some(Limit::Subexpressions));
     }
@@ -273,29 +383,14 @@ fn solved(
     };
     model.dag = space.model.dag;
     let back: Map<Node, Node> = images.iter().map(|(leaf, image)| (*image, *leaf)).collect();
-    let mut pieces = Vec::with_capacity(parts.len());
+    let mut found = Vec::with_capacity(parts.len());
     for (part, Flow { motion, rows }) in parts {
         let part = over(&mut model.dag, part, &back);
-        let h = around(&mut model.dag, &site.chain, part);
         let mut motion = motion.map(|node| over(&mut model.dag, node, &back));
         motion.domain.splice(0..0, conditions.iter().copied());
-        let flow = match site.chain.last() {
-            _ if is_linear(&columns(&model.dag, part)) => ExactFlow::Linear,
-            Some(innermost) => ExactFlow::Loop {
-                motion,
-                rows,
-                innermost: *innermost,
-                merges: commute(&model.dag, &site.chain, &site.rows, part),
-            },
-            None => ExactFlow::Closed(motion, rows),
-        };
-        pieces.push(Piece {
-            h,
-            name: print::text(model, h),
-            flow,
-        });
+        found.push((part, Flow { motion, rows }));
     }
-    Ok(pieces)
+    Ok(found)
 }
 
 /// Returns true if the flows of any two iterations are proven to commute, whatever the sizes: each iteration has

@@ -101,7 +101,7 @@ fn a_driven_orbit_is_found() -> Result<(), Error> {
 }
 
 #[test]
-fn an_unknown_section_is_an_error_and_rest_is_an_orbit() {
+fn an_unknown_section_and_rest_are_errors() {
     let system = HenonHeiles {};
     let find = |section, near| {
         let closing = Closing::OfEnergy { near, section };
@@ -124,13 +124,40 @@ fn an_unknown_section_is_an_error_and_rest_is_an_orbit() {
     };
     assert!(gap > 1e-3 && period >= 0.5, "{gap}, {period}");
     let closing = Closing::Driven { period: 1.0 };
-    let orbit = PeriodicOrbit::find(
+    // After a time shorter than all periods only rest is back.
+    let error = PeriodicOrbit::find(
         &system,
         BlanesMoan4,
         State::new([0.1, 0.0], [0.0, 0.3]),
         closing,
         20,
     );
-    // After a time shorter than all periods only rest is back.
-    assert!(orbit.unwrap().start.p.iter().all(|p| p.abs() < 1e-12));
+    let error = error.unwrap_err();
+    assert!(matches!(error, Error::PointOrbit { .. }), "{error}");
+}
+
+hamiltonian! {
+    /// An oscillator whose strength changes: the point of rest has multipliers (Mathieu's equation).
+    pub struct Swung { a = 0.3 }
+    H(q; p; t) = p^2/2 + (1 + a*cos(t))*q^2/2
+}
+
+#[test]
+fn a_point_of_a_driven_system_is_an_orbit() -> Result<(), Error> {
+    let closing = Closing::Driven {
+        period: std::f64::consts::TAU,
+    };
+    for q in [0.1, 0.0] {
+        let guess = State::new([q], [0.0]);
+        let search = OrbitSearch::new(closing, 200).with_reach(2.0);
+        let orbit = search.find(&Swung::default(), BlanesMoan4, guess)?;
+        assert!(orbit.start.q[0].abs() < 1e-12);
+        let product = orbit
+            .multipliers()
+            .iter()
+            .map(|mu| mu.re.hypot(mu.im))
+            .product::<f64>();
+        assert!((product - 1.0).abs() < 1e-9);
+    }
+    Ok(())
 }

@@ -338,6 +338,25 @@ pub enum Error {
         /// The period of the best start.
         period: f64,
     },
+    /// The search for a periodic orbit ended at a point, an equilibrium, or at an orbit much narrower than the guess.
+    PointOrbit {
+        /// The largest difference of a component between it and the guess.
+        distance: f64,
+    },
+    /// The periodic orbit that was found is far from the guess.
+    FarOrbit {
+        /// The largest difference of a component between its start and the guess.
+        distance: f64,
+        /// The distance in units of the width of the guessed orbit.
+        widths: f64,
+        /// Its period.
+        period: f64,
+    },
+    /// Signs of coordinates and momenta that are no symmetry which turns time round.
+    Symmetry {
+        /// The change of H at a point of the guess; `None` if the signs themselves are wrong.
+        change: Option<f64>,
+    },
     /// No value of a momentum, on the chosen branch, gives the required energy.
     NoMomentum {
         /// The name of the momentum.

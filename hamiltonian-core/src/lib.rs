@@ -161,7 +161,7 @@ pub mod stores {
 
 /// Derivatives of the numerical map: Lyapunov exponents, Floquet multipliers, periodic orbits.
 pub mod tangents {
-    pub use crate::periodic::{Closing, PeriodicOrbit};
+    pub use crate::periodic::{Closing, OrbitSearch, PeriodicOrbit};
     pub use crate::tangent::{Tangent, megno, monodromy, multipliers, symplectic_defect};
 }
 
@@ -195,7 +195,7 @@ pub mod prelude {
         WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
     };
     pub use crate::tangents::{
-        Closing, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,
+        Closing, OrbitSearch, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,
     };
     pub use crate::{
         AnyRun, Checkpoint, DoubleDouble, Dual, Ensemble, Ensembles, Error, Gradient, Integrator,

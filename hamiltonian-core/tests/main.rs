@@ -13,6 +13,7 @@ mod exponential;
 mod function;
 mod lanes;
 mod observers;
+mod orbits;
 mod own;
 #[cfg(feature = "plot")]
 mod plot;

@@ -133,7 +133,7 @@ fn what_lies_between_zeros_on_steps_is_found_and_no_pole_is_a_root() {
         let mut random = Random(seed);
         let steps = 3 + random.below(8) as u32;
         let size = [0.25, 0.1, 1.0 / 3.0][seed as usize % 3];
-        let step = if seed % 2 == 0 { size } else { -size };
+        let step = if seed.is_multiple_of(2) { size } else { -size };
         let product = Product::random(&mut random, steps, |k| k * step);
         let last = f64::from(steps) * step;
         let expected = product.roots(last);
@@ -321,7 +321,7 @@ fn roots_of_products_are_those_of_their_factors() {
     let mut count = 0;
     for seed in 0..cases(300, 3_000) {
         let mut random = Random(1_000_000 + seed);
-        let h = random.between(0.05, 0.2) * if seed % 2 == 0 { 1.0 } else { -1.0 };
+        let h = random.between(0.05, 0.2) * if seed.is_multiple_of(2) { 1.0 } else { -1.0 };
         count += match seed % 3 {
             0 => product_of_differences(verlet, h, &mut random),
             1 => product_of_differences(moan, h, &mut random),

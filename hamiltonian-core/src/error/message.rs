@@ -252,6 +252,34 @@ impl Display for Error {
                  conditions by {gap:e}\n\
                  help: give a nearer guess, or more steps"
             ),
+            Self::PointOrbit { distance } => write!(
+                f,
+                "the search for a periodic orbit tends to an equilibrium, at a distance of {distance:e} from the guess\n\
+                 help: give the energy instead of the period (`Closing::OfEnergy`), or a guess on a larger orbit"
+            ),
+            Self::FarOrbit {
+                distance,
+                widths,
+                period,
+            } => write!(
+                f,
+                "the periodic orbit that was found, with the period {period}, starts at a distance of {distance:e} from \
+                 the guess, {widths:.1} times the width of the guessed orbit\n\
+                 help: give a nearer guess, more arcs or a symmetry; `with_reach` accepts orbits that are further away"
+            ),
+            Self::Symmetry { change: None } => write!(
+                f,
+                "a symmetry needs a sign, 1 or -1, for each coordinate, then for each momentum; those of a coordinate and \
+                 its momentum must differ"
+            ),
+            Self::Symmetry {
+                change: Some(change),
+            } => write!(
+                f,
+                "H changes by {change:e} under the symmetry, at a point of the guess\n\
+                 help: give the signs of a symmetry that turns time round, such as `&[1, -1, -1, 1]` for \
+                 H(x, -y, -p_x, p_y) = H(x, y, p_x, p_y)"
+            ),
             Self::NoMomentum {
                 name,
                 index,

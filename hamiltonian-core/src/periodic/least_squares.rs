@@ -39,10 +39,3 @@ pub(super) fn solve(matrix: &DMatrix<f64>, right: &[f64]) -> Vec<f64> {
     }
     x
 }
-
-/// The largest absolute value; NaN if any number is.
-pub(super) fn largest(numbers: &[f64]) -> f64 {
-    numbers
-        .iter()
-        .fold(0.0, |most, number| Real::max(most, number.abs()))
-}

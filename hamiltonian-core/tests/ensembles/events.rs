@@ -199,13 +199,17 @@ fn zeros_on_steps_are_found_in_lanes() {
             c: at(5) + 0.01,
             ..Default::default()
         };
-        let p = if member.index % 2 == 0 { 1.0 } else { -1.0 };
+        let p = if member.index.is_multiple_of(2) {
+            1.0
+        } else {
+            -1.0
+        };
         (system, State::new([if p > 0.0 { 0.0 } else { 2.0 }], [p]))
     };
     let sought = |member: Member| {
         let marks = Event::named("marks");
         Events::new([
-            if member.index % 5 == 0 {
+            if member.index.is_multiple_of(5) {
                 marks.rising()
             } else {
                 marks

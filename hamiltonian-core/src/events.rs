@@ -24,7 +24,7 @@ use alloc::vec::Vec;
 use core::cell::OnceCell;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
-use locate::Stretch;
+use locate::StepFunction;
 
 /// A state at which an event occurred.
 #[derive(Debug, Clone, PartialEq)]
@@ -260,7 +260,7 @@ impl<V: Vector> Events<V> {
             let from = history.value;
             let here = at(view.state);
             let end = event.unwrapped(from, here);
-            let mut stretch = Stretch {
+            let mut in_step = StepFunction {
                 function: |theta| Ok(event.unwrapped(from, at(&part(theta)?))),
                 rounding: |theta| {
                     let state = part(theta)?;
@@ -272,7 +272,7 @@ impl<V: Vector> Events<V> {
                 change: history.change,
                 slope: event.slope,
             };
-            let (roots, side) = stretch.roots()?;
+            let (roots, side) = in_step.roots()?;
             for root in roots {
                 let located = Located {
                     event: number,

@@ -214,7 +214,7 @@ impl<'a> OrbitSearch<'a> {
     /// condition does not single out an orbit, or because the period leaves the range from half to twice the guess;
     /// [`Error::PointOrbit`] if the orbit is an equilibrium; [`Error::FarOrbit`] if it is too far from the guess;
     /// [`Error::Symmetry`] for signs that are no symmetry; [`Error::Unknown`] for a section that the system does not
-    /// declare; those of [`Tangent::new`](crate::Tangent::new) and [`Tangent::advance`](crate::Tangent::advance) at the
+    /// declare; those of [`Tangent::new`](crate::tangents::Tangent::new) and [`Tangent::advance`](crate::tangents::Tangent::advance) at the
     /// guess.
     ///
     /// With [`Closing::Driven`], a point is accepted if ∂H/∂t is not 0 along the guess, or if the guess is that point.

@@ -28,7 +28,7 @@ pub(super) struct Root<T> {
 }
 
 /// The function of an event in a step.
-pub(super) struct Stretch<T, F, N> {
+pub(super) struct StepFunction<T, F, N> {
     /// The value at a fraction of the step.
     pub(super) function: F,
     /// The change of the function due to rounding of the state at a fraction of the step.
@@ -65,7 +65,7 @@ fn largest<T: Real>(samples: &[Sample<T>]) -> f64 {
     sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
 }
 
-impl<T, F, N> Stretch<T, F, N>
+impl<T, F, N> StepFunction<T, F, N>
 where
     T: Real,
     F: FnMut(T) -> Result<T, Error>,

@@ -28,7 +28,7 @@
 //!
 //! // {H², H} = 0, and {q, H} is not.
 //! let squared = model.dag.powi(h, 2);
-//! assert!(matches!(is_invariant(&model, squared, None), Verdict::Proven));
+//! assert!(matches!(is_invariant(&model, squared, None), Verdict::Proven(_)));
 //! assert!(matches!(is_invariant(&model, q, None), Verdict::Disproven { .. }));
 //!
 //! // Pieces that add up to H, each with an exact flow.

@@ -14,11 +14,8 @@ fn verdict(model: &mut Model, invariant: &str, shell: Option<&str>) -> Verdict {
 }
 
 fn accepted(model: &mut Model, invariant: &str) {
-    assert_eq!(
-        verdict(model, invariant, None),
-        Verdict::Proven,
-        "{invariant}"
-    );
+    let found = verdict(model, invariant, None);
+    assert!(found.is_proven(), "{invariant}: {found:?}");
 }
 
 fn rejected(model: &mut Model, invariant: &str) -> String {
@@ -101,7 +98,7 @@ fn kerr_keeps_carters_constant() {
     rejected(&mut kerr, &on_all.replacen("a^2*(-2*(", "a^2*(2*(", 1));
     let fixed = "p_th^2 + cos(th)^2*(a^2*(1 - E^2) + L^2/sin(th)^2)";
     rejected(&mut kerr, fixed);
-    assert_eq!(verdict(&mut kerr, fixed, Some("-1/2")), Verdict::Proven);
+    assert!(verdict(&mut kerr, fixed, Some("-1/2")).is_proven());
     for (invariant, shell) in [
         (fixed, "-1/3"),
         ("p_th^2 - cos(th)^2*(a^2*(1 - E^2) + L^2/sin(th)^2)", "-1/2"),
@@ -346,7 +343,7 @@ fn a_loop_longer_than_its_modulus_proves_nothing() {
     let mut m = system("q[N]; p[N]; t", "N", "", "sum(i in 0..N) { (i + 1)*p[i] }");
     let bad = "sum(i in 0..3*N) { q[i % N] } - t*sum(i in 0..3*N) { 1 + if i + 1 <= N { i } else { i - N } }";
     let bad = parse(&mut m, bad);
-    assert_ne!(is_invariant(&m, bad, None), Verdict::Proven);
+    assert!(!is_invariant(&m, bad, None).is_proven());
 }
 
 /// A sum inside a derivative that is read at an index modulo N: over a loop that another one's
@@ -440,7 +437,7 @@ fn what_no_rule_proves_is_undecided_with_its_residual() {
     );
     // u changes by −π/2, which only a rule that is not there would say.
     match verdict(&mut m, "p", None) {
-        Verdict::Proven => {}
+        Verdict::Proven(_) => {}
         other => panic!("{other:?}"),
     }
     let mut m = system("q; p; t", "", "", "p*(asin(q) + acos(q)) - p*pi/2");

@@ -99,7 +99,7 @@ fn edges_are_answered() {
     let still = [("dq/dt", "0"), ("dp/dt", "0")].map(|(of, is)| (of.to_owned(), is.to_owned()));
     assert_eq!(hamilton_equations(&m).written(Notation::Text), still);
     let q = parse(&mut m, "q");
-    assert_eq!(is_invariant(&m, q, None), Verdict::Proven);
+    assert!(is_invariant(&m, q, None).is_proven());
     for source in [
         "1/0*q",
         "0^-1 + q",
@@ -126,7 +126,7 @@ fn edges_are_answered() {
     let _ = analyse(&mut m);
     let _ = hamilton_equations(&m).written(Notation::Latex);
     let s = parse(&mut m, "r");
-    assert_eq!(is_invariant(&m, s, None), Verdict::Proven);
+    assert!(is_invariant(&m, s, None).is_proven());
 }
 
 #[test]
@@ -192,10 +192,10 @@ fn powers_are_not_expanded() {
         "{undecided:?}"
     );
     let h = "(1 + q + p)^300";
-    assert_eq!(verdict(h, h), Verdict::Proven);
+    assert!(verdict(h, h).is_proven());
     for power in ["-2147483648", "-2147483647", "9007199254740993"] {
         let h = format!("p^2/2 + q^({power})");
-        assert_eq!(verdict(&h, &h), Verdict::Proven, "{power}");
+        assert!(verdict(&h, &h).is_proven(), "{power}");
     }
     let mut m = model("q; p", "", "");
     for (power, value) in [

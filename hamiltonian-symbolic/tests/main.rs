@@ -3,6 +3,7 @@
 mod balls;
 mod bracket;
 mod common;
+mod crossings;
 mod derivatives;
 mod equations;
 mod expressions;

@@ -255,7 +255,7 @@ fn functions_of_h_are_conserved() {
         }
         let square = m.dag.powi(node, 2);
         match is_invariant(&m, square, None) {
-            Verdict::Proven => proven += 1,
+            Verdict::Proven(_) => proven += 1,
             Verdict::Undecided { .. } => {}
             Verdict::Jumps { part, .. } => {
                 // The larger of two is infinite on one side of a pole of either.

@@ -383,7 +383,7 @@ fn statements_are_decided() {
             }
             claims.len()
         };
-        right += expect(conserved, |v| *v == Verdict::Proven);
+        right += expect(conserved, Verdict::is_proven);
         wrong += expect(changing, |v| matches!(v, Verdict::Disproven { .. }));
         wrong += expect(jumping, |v| matches!(v, Verdict::Jumps { .. }));
     }

@@ -36,7 +36,7 @@ fn check(signature: &str, parameters: &str, l: &str, good: &[&str], bad: &[&str]
     let (mut model, legendre) = lagrangian(signature, parameters, l);
     for source in good {
         let found = verdict(&mut model, &legendre, source);
-        assert_eq!(found, Verdict::Proven, "{source}");
+        assert!(found.is_proven(), "{source}: {found:?}");
     }
     for source in bad {
         let found = verdict(&mut model, &legendre, source);

@@ -1,28 +1,37 @@
 //! Claims that are proven or refused: invariants, that events can happen, that pieces add up to H.
 //!
-//! Input: the lowered definition. Output: errors with the residual and, where one was found, a
-//! point. Invariant: `#[assume]` silences claims that could not be decided, never false ones.
+//! Input: the lowered definition. Output: the certificates of the invariants, and errors with the residual and,
+//! where one was found, a point. Invariant: `#[assume]` silences claims that could not be decided, never false
+//! ones.
 
 use hamiltonian_language::checked::Checked;
 use hamiltonian_language::lower::Lowered;
 use hamiltonian_language::report::Report;
-use hamiltonian_symbolic::bracket::{Verdict, is_invariant, is_invariant_of_lagrangian};
+use hamiltonian_symbolic::bracket::{
+    Certificate, Verdict, is_invariant, is_invariant_of_lagrangian,
+};
 use hamiltonian_symbolic::dag::{Dependence, Node};
 use hamiltonian_symbolic::loops::SamplePoint;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use hamiltonian_symbolic::transform::check_split;
 use proc_macro2::Ident;
 
+/// Of each observable the certificates of its components: none for those that are assumed, and for monitors and
+/// events.
+pub type Certificates = Vec<Vec<Certificate>>;
+
 /// Proves the claims of the definition on the declared coordinates.
-pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
-    invariants(checked, lowered, report);
+pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) -> Certificates {
+    let certificates = invariants(checked, lowered, report);
     events(checked, lowered, report);
     if checked.charts.is_empty() {
         split(checked, &mut lowered.model, report);
     }
+    certificates
 }
 
-fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
+fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) -> Certificates {
+    let mut certificates: Certificates = vec![Vec::new(); checked.observables.len()];
     let mut in_velocities = lowered.in_velocities.iter().copied();
     for (at, observable) in checked.observables.iter().enumerate() {
         let components = &lowered.model.observables[at].components;
@@ -44,7 +53,10 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                 _ => is_invariant(&lowered.model, *value, shell),
             };
             let (message, help) = match verdict {
-                Verdict::Proven => continue,
+                Verdict::Proven(certificate) => {
+                    certificates[at].push(certificate);
+                    continue;
+                }
                 Verdict::Disproven {
                     residual,
                     point,
@@ -82,6 +94,7 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
             break;
         }
     }
+    certificates
 }
 
 fn if_known(name: &Ident) -> String {

@@ -23,6 +23,7 @@ use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
 use crate::op::{Break, Far, Op, SingularSet, ValueSign};
 use crate::sort::Arrange;
 use differences::{difference, is_pair};
+pub(crate) use leaves::{have_no_degree_in_common, is_of_own_rows};
 use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
 
 /// The regularity of a node.
@@ -434,8 +435,11 @@ impl Facts {
             Far::Nothing => false,
         };
         let is_limited = is_closed && regularity.far == Far::Limits || is_decaying;
-        // In x^y the base may be infinite, the exponent not.
-        let is_bounded = op != Op::Pow || self.get(y).is_continuous;
+        // In x^y the base may be infinite, the exponent not. Where the base is 0 or infinite and the exponent
+        // passes through 0, x^y has no limit.
+        let is_away = first.has_no_zero && first.is_continuous;
+        let is_one_limit = self.points == Points::Most || self.get(y).is_still || is_away;
+        let is_bounded = op != Op::Pow || self.get(y).is_continuous && is_one_limit;
         let has_no_zero = match op {
             Op::Sqrt | Op::Abs | Op::Cbrt => first.has_no_zero,
             Op::Hypot => x.iter().any(|x| self.get(*x).has_no_zero) || misses(SingularSet::Origin),
@@ -462,7 +466,9 @@ impl Facts {
             is_analytic: all.is_analytic && is_smooth && pole.is_none(),
             is_continuous: is_finite,
             is_lipschitz: all.is_lipschitz && is_gentle && pole.is_none(),
-            is_meromorphic: all.is_analytic && regularity.is_entire,
+            // With w = ∛q in the place of a coordinate q = w³, ∛q is analytic, and so is what was.
+            is_meromorphic: all.is_analytic && regularity.is_entire
+                || op == Op::Cbrt && is_moving_leaf(dag, x[0]),
             is_projective: all.is_projective && is_bounded && (all.is_continuous || is_closed),
             has_no_zero,
             has_no_moving_zero,

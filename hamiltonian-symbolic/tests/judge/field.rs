@@ -340,7 +340,19 @@ impl Maker<'_> {
                 let range = self.model.dag.range(domain).clone();
                 let (start, end) = (self.affine(&range.start), self.affine(&range.end));
                 let chosen = self.only.iter().find(|(own, _)| *own == domain);
-                let known = self.known.clone();
+                // A loop inside the same loop binds the variable once more.
+                let around = self.known.clone();
+                let outer = self.variables.get(&domain).copied();
+                let is_free = |(node, _): &(&Node, &usize)| {
+                    let mut loops = self.model.dag.variables(**node).members();
+                    loops.all(|other| other != domain)
+                };
+                let known: Map<Node, usize> = around
+                    .iter()
+                    .filter(is_free)
+                    .map(|(node, at)| (*node, *at))
+                    .collect();
+                self.known.clone_from(&known);
                 let mut terms = Vec::new();
                 for i in start..end {
                     if chosen.is_none_or(|(_, only)| *only == i) {
@@ -349,6 +361,10 @@ impl Maker<'_> {
                     }
                     // What stands in a loop is another thing in its next iteration.
                     self.known.clone_from(&known);
+                }
+                self.known = around;
+                if let Some(outer) = outer {
+                    self.variables.insert(domain, outer);
                 }
                 Operation::Sum(D::from(0.0), terms)
             }

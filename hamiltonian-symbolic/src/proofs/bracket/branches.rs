@@ -125,9 +125,9 @@ fn reads(dag: &Dag, root: Node, node: Node) -> bool {
     dag.reachable(&[root]).binary_search(&node).is_ok()
 }
 
-/// An expression with its steps replaced by an arbitrary smooth function of what is 0 there; `None`
-/// where it has none.
-pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<Node> {
+/// An expression with its steps replaced by an arbitrary smooth function S of what is 0 there, which stands for
+/// 0 where that is negative and for 1 where it is positive, and the places of the steps; `None` if it has none.
+pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(Node, Vec<Node>)> {
     let dag = &mut model.dag;
     let facts = Facts::of(dag, &[root], given);
     let is_step = |dag: &Dag, node: Node| {
@@ -141,11 +141,13 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<N
         }
         is_first
     };
-    let mut has_steps = false;
+    let mut steps: Vec<Node> = Vec::new();
     let nodes = dag.reachable(&[root]);
     let new = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
         Kind::Select(condition, yes, no) if is_step(dag, node) => {
-            has_steps = true;
+            for (a, b) in comparisons(dag, condition) {
+                steps.push(dag.sub(a, b));
+            }
             let weight = weight(dag, condition);
             let (yes, no) = (new[&yes], new[&no]);
             let difference = dag.sub(yes, no);
@@ -153,13 +155,16 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<N
             dag.add(&[no, chosen])
         }
         Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
-            has_steps = true;
+            steps.push(x[0]);
             let x = new[&x[0]];
-            dag.external(STEP, Partial::Value, &[x])
+            let step = dag.external(STEP, Partial::Value, &[x]);
+            // sign x = 2·S(x) − 1
+            let terms = [(Rational::integer(2), step)];
+            dag.linear(&Rational::MINUS_ONE, &terms)
         }
         _ => dag.rebuild(node, &|child| new[&child]),
     });
-    has_steps.then(|| new[&root])
+    (!steps.is_empty()).then(|| (new[&root], steps))
 }
 
 /// A condition as a number: 1 where it holds and 0 elsewhere, but for the functions in the places of its

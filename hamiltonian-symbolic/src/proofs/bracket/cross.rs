@@ -1,20 +1,27 @@
 //! The step from "its derivative vanishes wherever everything is smooth" to "it is constant along
 //! every orbit".
 //!
-//! Input: a model, an expression whose derivative along the flow of H vanishes. Output: nothing where
-//! one of the rules of [`Claim::passes`] applies, or the part that stands in the way, and why.
-//! Invariant: no rule here looks at points, and each states what it assumes.
+//! Input: a model, an expression whose derivative along the flow of H vanishes. Output: the certificate of
+//! the rule of [`Claim::passes`] that applies, or the part that stands in the way, and why.
+//! Invariant: no rule here looks at points, and each states what it assumes of ranges, poles and functions:
+//! - a range may be empty, for some size or in some iteration of the loops around it;
+//! - an orbit crosses a pole of a part of H, or of the statement, where H itself stays finite, as it crosses
+//!   q = 0 under p²/2 + 1/(1 − 1/q)², and on any set where infinities of H cancel or are multiplied by 0;
+//! - functions in Rust are analytic, which the certificate says.
 
 pub(super) mod orbits;
+mod walls;
 
+use super::certificate::{Certificate, Place, Reason, Rule};
 use super::{branches, derivative};
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::facts::{Facts, Given, Locus, Regular};
+use crate::facts::{Facts, Given, Locus, Regular, comparisons};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::{Break, Op, SingularSet};
 use crate::print;
 use crate::rational::Rational;
+use walls::At;
 
 const BOTH_SIDES: &str = "may jump, which no derivative shows; no rule says that both sides agree";
 
@@ -26,38 +33,44 @@ pub(super) struct Obstacle {
     pub(super) why: String,
 }
 
-/// The first obstacle for an expression whose derivative along the flow of `h` vanishes, everywhere or,
-/// with `is_on_shell`, on one shell of H only.
+/// The certificate of an expression whose derivative along the flow of `h` vanishes, everywhere or,
+/// with `is_on_shell`, on one shell of H only; or the first obstacle.
 pub(super) fn find(
     model: &Model,
     expression: Node,
     h: Node,
     is_on_shell: bool,
-) -> Option<Obstacle> {
+) -> Result<Certificate, Obstacle> {
     let mut model = model.clone();
     let claim = Claim::new(&model, expression, h, is_on_shell);
     let roots = claim.roots(&model);
     let mut given = branches::known(&mut model.dag, &roots);
-    if claim.passes(&model, &given) {
-        return None;
+    if let Some(rule) = claim.passes(&mut model, &given) {
+        return Ok(claim.certificate(&mut model, vec![rule], &given, &[]));
     }
-    if claim.passes_tidily(&mut model) || !is_on_shell && claim.passes_without_steps(&mut model) {
-        return None;
+    if let Some(found) = claim.passes_tidily(&mut model) {
+        return Ok(found);
+    }
+    if !is_on_shell && let Some(found) = claim.passes_without_steps(&mut model) {
+        return Ok(found);
     }
     let known = given.clone();
     let learnt = match is_on_shell {
         true => orbits::Learnt::default(),
         false => orbits::learn(&mut model, &claim, &mut given),
     };
-    if learnt.anything {
+    if !learnt.places.is_empty() {
         // A condition on a constant of the motion counts at the one value where it switches: orbits
         // stay there.
         let rest = orbits::without_energy(&mut model, expression, h).unwrap_or(expression);
         let rate = derivative(&mut model, rest, h);
         let vanishes = |rate| normal_form::vanishes(&mut model.dag, rate, Scope::Everywhere);
         let is_constant = rate.is_some_and(vanishes);
-        if claim.passes(&model, &given) {
-            return (!is_constant).then(|| Obstacle {
+        if let Some(rule) = claim.passes(&mut model, &given) {
+            if is_constant {
+                return Ok(claim.certificate(&mut model, vec![rule], &given, &learnt.places));
+            }
+            return Err(Obstacle {
                 part: print::text(&model, expression),
                 why: "may change where a condition on constants of the motion switches".to_owned(),
             });
@@ -67,7 +80,7 @@ pub(super) fn find(
     if let Some(limit) = learnt.limit() {
         obstacle.why.push_str(&limit);
     }
-    Some(obstacle)
+    Err(obstacle)
 }
 
 /// A statement to prove: an expression is constant along the orbits of H under the model's force.
@@ -81,14 +94,17 @@ pub(super) struct Claim {
     pub(super) is_still: bool,
 }
 
-/// Returns true if H is analytic wherever it is finite, so that its velocity is Lipschitz there and its flow is
-/// continuous: each part with a kink, a jump or a steep root that vanishes is a divisor or in a logarithm,
-/// where H is infinite or has no value. Either all its uses are such, or one is a term of H, or a factor of
-/// a term, which is read at every point.
-fn is_smooth_where_finite(dag: &Dag, h: Node, everywhere: &Facts) -> bool {
+/// Returns true if the flow of H is continuous: H is continuous into the closed line term by term, so that it
+/// is infinite or finite at each point, and analytic wherever it is finite, so that its velocity is
+/// Lipschitz there. Each part with a kink or a steep root that vanishes is one that makes H infinite, or only
+/// a divisor, or in a logarithm, of terms that are infinite where it vanishes. Assumes that what has a jump is
+/// nowhere in H.
+fn has_continuous_flow(dag: &mut Dag, h: Node, everywhere: &Facts, given: &Given) -> bool {
+    if !is_projective_by_terms(dag, h, everywhere) {
+        return false;
+    }
     let nodes = dag.reachable(&[h]);
-    let terms = terms_and_factors(dag, h);
-    let is_rough = |node: Node| match dag.kind(node) {
+    let is_rough = |dag: &Dag, node: Node| match dag.kind(node) {
         Kind::Call(op, _) => {
             let has_root = matches!(op, Op::Sqrt | Op::Cbrt | Op::Hypot | Op::Pow);
             has_root || op.row().regularity.breaks != Break::Nowhere
@@ -96,56 +112,89 @@ fn is_smooth_where_finite(dag: &Dag, h: Node, everywhere: &Facts) -> bool {
         Kind::Select(..) => true,
         _ => false,
     };
-    let is_vanishing_alone = |node: Node| {
+    let is_vanishing_alone = |dag: &Dag, node: Node| {
         matches!(
             dag.kind(node),
             Kind::Call(Op::Sqrt | Op::Cbrt | Op::Hypot | Op::Abs, _)
         )
     };
-    let is_divided_by = |user: Node, node: Node| match dag.kind(user) {
-        Kind::Product(_, factors) => factors.iter().any(|(base, n)| *base == node && *n < 0),
-        Kind::Call(Op::Ln, arguments) => arguments.contains(&node),
+    let is_divided_by = |dag: &Dag, user: Node, node: Node| match dag.kind(user) {
+        Kind::Product(_, factors) => factors.iter().all(|(base, n)| *base != node || *n < 0),
+        Kind::Call(Op::Ln, _) => true,
         _ => false,
     };
-    let is_guarded = |node: Node| {
-        terms.iter().any(|term| is_divided_by(*term, node))
-            || node != h
-                && nodes.iter().all(|user| {
-                    let mut is_read = false;
-                    dag.for_children(*user, |child| is_read |= child == node);
-                    !is_read || is_divided_by(*user, node)
-                })
+    let users = |dag: &Dag, node: Node| -> Vec<Node> {
+        let reads = |user: &&Node| {
+            let mut is_read = false;
+            dag.for_children(**user, |child| is_read |= child == node);
+            is_read
+        };
+        nodes.iter().filter(reads).copied().collect()
     };
-    nodes
+    let is_only_divisor = |dag: &Dag, node: Node| {
+        let mut users = users(dag, node).into_iter();
+        node != h && users.all(|user| is_divided_by(dag, user, node))
+    };
+    let is_steep = |dag: &Dag, node: Node| {
+        let mut users = users(dag, node).into_iter();
+        users.all(|user| is_coordinate_over(dag, user, everywhere))
+    };
+    let rough: Vec<Node> = nodes
         .iter()
-        .filter(|node| !everywhere.get(**node).is_analytic)
-        .all(|node| !is_rough(*node) || is_vanishing_alone(*node) && is_guarded(*node))
+        .copied()
+        .filter(|node| !everywhere.get(*node).is_analytic && is_rough(dag, *node))
+        .collect();
+    rough.into_iter().all(|node| {
+        is_vanishing_alone(dag, node)
+            && (is_only_divisor(dag, node)
+                && (is_steep(dag, node) || walls::is_infinite(dag, h, node, given, At::Most))
+                || walls::is_infinite(dag, h, node, given, At::All))
+    })
 }
 
-/// The terms of a sum, its factors with positive powers, and theirs: where one of them is infinite or has
-/// no value, so is the sum or it has none.
-fn terms_and_factors(dag: &Dag, sum: Node) -> Vec<Node> {
-    let mut found = vec![sum];
-    let mut next = 0;
-    while let Some(node) = found.get(next).copied() {
-        next += 1;
-        let mut add = |node: Node| {
-            if !found.contains(&node) {
-                found.push(node);
-            }
-        };
-        match dag.kind(node) {
-            Kind::Sum(..) => dag.for_children(node, add),
-            Kind::Product(_, factors) => {
-                factors
-                    .iter()
-                    .filter(|(_, n)| *n > 0)
-                    .for_each(|(base, _)| add(*base));
-            }
-            _ => {}
-        }
+/// Returns true if each term of H is continuous into the closed line at every point, so that no motion goes on
+/// through the zeros of a factor of an infinity, or is a coordinate over functions. Infinities of several terms
+/// may cancel where they meet.
+fn is_projective_by_terms(dag: &Dag, h: Node, everywhere: &Facts) -> bool {
+    if everywhere.get(h).is_projective || is_coordinate_over(dag, h, everywhere) {
+        return true;
     }
-    found
+    match dag.kind(h) {
+        Kind::Sum(_, terms) => {
+            let mut terms = terms.iter();
+            terms.all(|(_, term)| is_projective_by_terms(dag, *term, everywhere))
+        }
+        Kind::Reduce(_, body) => is_projective_by_terms(dag, *body, everywhere),
+        Kind::Product(_, factors) => {
+            let is_moving = |(factor, _): &&(Node, i32)| !everywhere.get(*factor).is_still;
+            let mut moving = factors.iter().filter(is_moving);
+            match (moving.next(), moving.next()) {
+                (Some((factor, 1)), None) => is_projective_by_terms(dag, *factor, everywhere),
+                _ => false,
+            }
+        }
+        _ => false,
+    }
+}
+
+/// Returns true if a term is a coordinate x over Lipschitz functions D. Where both are 0 on an orbit with a finite
+/// velocity, the force ∂H/∂x grows as 1/D, and |D| at most as the time to or from there, so that the momentum
+/// is infinite.
+fn is_coordinate_over(dag: &Dag, term: Node, everywhere: &Facts) -> bool {
+    let Kind::Product(_, factors) = dag.kind(term) else {
+        return false;
+    };
+    let is_leaf = |node: Node| matches!(dag.kind(node), Kind::Element(..));
+    let mut above = 0;
+    let are_fine = factors.iter().all(|(factor, n)| {
+        let regular = everywhere.get(*factor);
+        let is_above = !regular.is_still && *n > 0;
+        above += usize::from(is_above);
+        regular.is_still
+            || is_above && *n == 1 && is_leaf(*factor)
+            || *n < 0 && regular.is_lipschitz
+    });
+    are_fine && above == 1
 }
 
 impl Claim {
@@ -165,69 +214,102 @@ impl Claim {
         [self.expression, self.h].into_iter().chain(force).collect()
     }
 
-    /// Returns true if a rule applies. In each the derivative vanishes at least at points near every point,
+    /// The rule that applies. In each the derivative vanishes at least at points near every point,
     /// of phase space or of the shell.
-    pub(super) fn passes(&self, model: &Model, given: &Given) -> bool {
+    pub(super) fn passes(&self, model: &mut Model, given: &Given) -> Option<Rule> {
         let roots = self.roots(model);
-        let (dag, is_free) = (&model.dag, model.force.is_empty());
-        if !self.is_on_shell && is_free {
-            let facts = Facts::of(dag, &roots, given);
-            if self.passes_by_continuation(&facts) {
-                return true;
-            }
-            // Sets of two dimensions less do not count under a continuous flow. Where the velocity is not
-            // Lipschitz, as at the equilibrium of p²/2 − |q|, orbits branch and come to rest there:
-            // the statement, up to H, is to hold at every point.
-            let everywhere = Facts::everywhere(dag, &roots, given);
-            let is_enough = is_smooth_where_finite(dag, self.h, &everywhere) || {
-                let mut given = given.clone();
-                if self.is_still {
-                    given.constant.insert(self.h, ());
-                }
-                let beside_h = Facts::everywhere(dag, &roots, &given);
-                beside_h.get(self.expression).is_projective
-            };
-            if is_enough && self.passes_by_continuity(&facts) {
-                return true;
-            }
-        }
-        let facts = Facts::everywhere(dag, &roots, given);
-        let force = roots[2..].iter().map(|f| facts.get(*f));
-        let force = force.reduce(Regular::and);
+        let is_free = model.force.is_empty();
+        let dag = &mut model.dag;
+        let everywhere = Facts::everywhere(dag, &roots, given);
         if self.is_on_shell {
-            return self.passes_by_continuation(&facts)
-                && force.is_none_or(|f| {
-                    f.is_analytic
-                        && self.roots(model)[..2]
-                            .iter()
-                            .all(|n| facts.get(*n).is_analytic)
-                });
+            let are_analytic = roots.iter().all(|root| everywhere.get(*root).is_analytic);
+            let is_enough = self.passes_by_continuation(&everywhere) && (is_free || are_analytic);
+            return is_enough.then_some(Rule::Continuation);
         }
-        // H may have no step: a step pushes orbits, which no derivative shows.
+        if is_free && self.passes_by_continuation(&everywhere) {
+            return Some(Rule::Continuation);
+        }
         let most = Facts::of(dag, &roots, given);
+        // H may have no step: a step pushes orbits, which no derivative shows.
         if !most.get(self.h).is_projective {
-            return false;
+            return None;
         }
         // The derivative of a function with continuous first derivatives is linear in the velocity of
         // the orbit. It vanishes for all limits of velocities at a kink or jump of the force, so for
         // their convex combinations too, along which orbits slide or stop there (Filippov 1988,
         // Differential Equations with Discontinuous Righthand Sides, §4). Assumes nothing of the flow.
-        if facts.get(self.expression).is_analytic {
-            return true;
+        if everywhere.get(self.expression).is_analytic {
+            return Some(Rule::Smoothness);
         }
-        // Under a force that is Lipschitz everywhere, the flow is continuous with its inverse.
-        force.is_some_and(|force| force.is_lipschitz) && self.passes_by_continuity(&most)
+        // Where the velocity is not Lipschitz, as at the equilibrium of p²/2 − |q|, orbits branch and come to
+        // rest: the statement, up to H, is to hold at every point. A force may stop an orbit anywhere.
+        let is_continuous = self.keeps_values(&most) && most.get(self.expression).is_projective;
+        if is_free && is_continuous {
+            let mut beside = given.clone();
+            if self.is_still {
+                beside.constant.insert(self.h, ());
+            }
+            let beside_h = Facts::everywhere(dag, &roots, &beside);
+            if beside_h.get(self.expression).is_projective {
+                return Some(Rule::Continuity);
+            }
+        }
+        // Sets of two dimensions less do not count under a flow that is continuous with its inverse. They do if
+        // anything was learnt of single orbits: on a level of a constant of the motion they may have
+        // one dimension less.
+        let is_learnt = !given.constant.is_empty() || !given.nonzero.is_empty();
+        let force = roots[2..].iter().map(|f| everywhere.get(*f));
+        let is_continuous_flow = match force.reduce(Regular::and) {
+            None => has_continuous_flow(dag, self.h, &everywhere, given),
+            Some(force) => force.is_lipschitz && everywhere.get(self.h).is_analytic,
+        };
+        if is_learnt || !is_continuous_flow {
+            return None;
+        }
+        if is_free && self.passes_by_continuation(&most) {
+            return Some(Rule::Continuation);
+        }
+        is_continuous.then_some(Rule::Continuity)
     }
 
-    /// A statement that is continuous, into the line closed by one infinity, under a flow that is
-    /// continuous with its inverse: along almost every orbit it is constant between isolated times and
-    /// has one limit at each, which is not ∞. Assumes that H is continuous, or that it tends to
-    /// infinity where it is not and is conserved, so that no orbit comes there. Not on a shell,
-    /// whose neighbours have another energy.
-    fn passes_by_continuity(&self, facts: &Facts) -> bool {
-        let (expression, h) = (facts.get(self.expression), facts.get(self.h));
-        let is_kept = h.is_continuous || h.is_projective && self.is_still;
-        is_kept && expression.is_projective
+    /// Returns true if H keeps orbits in one piece: it is finite, or conserved and continuous into the closed line.
+    fn keeps_values(&self, facts: &Facts) -> bool {
+        let h = facts.get(self.h);
+        h.is_continuous || h.is_projective && self.is_still
+    }
+
+    /// The certificate of a proof by a rule: the poles and thresholds at which both sides agree, and what was
+    /// learnt of orbits.
+    fn certificate(
+        &self,
+        model: &mut Model,
+        rules: Vec<Rule>,
+        given: &Given,
+        learnt: &[Place],
+    ) -> Certificate {
+        let roots = self.roots(model);
+        let facts = Facts::of(&model.dag, &roots, given);
+        let mut places: Vec<Place> = learnt.to_vec();
+        let mut zeros: Vec<Node> = Vec::new();
+        for locus in &facts.loci {
+            zeros.extend(zero(&mut model.dag, *locus));
+        }
+        let meeting: Vec<Node> = given.meeting.keys().copied().collect();
+        for node in meeting {
+            if let Kind::Select(condition, ..) = *model.dag.kind(node)
+                && !facts.get(condition).is_still
+            {
+                for (a, b) in comparisons(&model.dag, condition) {
+                    zeros.push(model.dag.sub(a, b));
+                }
+            }
+        }
+        for zero in zeros {
+            if model.dag.dependence(zero).on(Dependence::MOVING) {
+                places.push(Place::of(model, zero, Reason::BothSidesAgree));
+            }
+        }
+        Certificate::new(model, rules, places, &roots)
     }
 
     /// Quotients of analytic functions. With H = N/D, the orbits with H = e are, up to their
@@ -242,46 +324,50 @@ impl Claim {
 
     /// Returns true if a rule applies to the normal form of the statement, which has its values wherever the
     /// statement has any.
-    fn passes_tidily(&self, model: &mut Model) -> bool {
-        let Some(tidy) = normal_form::tidy(&mut model.dag, self.expression) else {
-            return false;
-        };
+    fn passes_tidily(&self, model: &mut Model) -> Option<Certificate> {
+        let tidy = normal_form::tidy(&mut model.dag, self.expression)?;
         let tidy = Claim {
             expression: tidy,
             ..*self
         };
         let roots = tidy.roots(model);
         let given = branches::known(&mut model.dag, &roots);
-        tidy.passes(model, &given)
+        let rule = tidy.passes(model, &given)?;
+        Some(tidy.certificate(model, vec![Rule::NormalForm, rule], &given, &[]))
     }
 
     /// Returns true if a rule applies for every H that has smooth functions in the place of its steps: an
     /// orbit of H with steps is a limit of such orbits. Assumes a statement without steps.
-    fn passes_without_steps(&self, model: &mut Model) -> bool {
+    fn passes_without_steps(&self, model: &mut Model) -> Option<Certificate> {
         let given = branches::known(&mut model.dag, &[self.h]);
-        let Some(smooth) = branches::smoothed(model, self.h, &given) else {
-            return false;
-        };
-        let smooth = Claim { h: smooth, ..*self };
+        let (h, steps) = branches::smoothed(model, self.h, &given)?;
+        let smooth = Claim { h, ..*self };
         let roots = smooth.roots(model);
         let given = branches::known(&mut model.dag, &roots);
-        let rate = derivative(model, smooth.expression, smooth.h);
-        rate.is_some_and(|rate| normal_form::vanishes(&mut model.dag, rate, Scope::Densely))
-            && smooth.passes(model, &given)
+        let rate = derivative(model, smooth.expression, smooth.h)?;
+        if !normal_form::vanishes(&mut model.dag, rate, Scope::Densely) {
+            return None;
+        }
+        let rule = smooth.passes(model, &given)?;
+        let places: Vec<Place> = steps
+            .into_iter()
+            .map(|step| Place::of(model, step, Reason::StepOfH))
+            .collect();
+        Some(smooth.certificate(model, vec![Rule::SmoothedSteps, rule], &given, &places))
     }
 
     /// The first part that no rule lets pass, of the first term that does not pass by itself.
     fn obstacle(&self, model: &mut Model, given: &Given) -> Obstacle {
         let mut roots = self.roots(model);
         if let Kind::Sum(_, terms) = model.dag.kind(self.expression).clone() {
-            let stays = |(_, term): &&(Rational, Node)| {
+            let mut stays = |(_, term): &(Rational, Node)| {
                 let alone = Claim {
                     expression: *term,
                     ..*self
                 };
-                !alone.passes(model, given) && !alone.passes_tidily(model)
+                alone.passes(model, given).is_none() && alone.passes_tidily(model).is_none()
             };
-            if let Some((_, term)) = terms.iter().find(stays) {
+            if let Some((_, term)) = terms.iter().find(|term| stays(term)) {
                 roots[0] = *term;
             }
         }
@@ -351,14 +437,34 @@ fn place(model: &mut Model, locus: Locus, part: Node) -> Option<String> {
     if !(is_below(locus.x) && is_below(locus.y)) {
         return None;
     }
-    let one = dag.integer(1);
-    let zero = match locus.at {
-        SingularSet::Cut => {
-            let why = "may jump, which no derivative shows; the angle of a point does where the point crosses the \
-                 negative half of an axis";
-            return Some(why.to_owned());
+    if locus.at == SingularSet::Cut {
+        let why = "may jump, which no derivative shows; the angle of a point does where the point crosses the \
+             negative half of an axis";
+        return Some(why.to_owned());
+    }
+    let at = match zero(dag, locus) {
+        Some(zero) => format!("`{}` is 0", print::text(model, zero)),
+        None => {
+            let (x, y) = (print::text(model, locus.x), print::text(model, locus.y));
+            match locus.at {
+                SingularSet::Whole => format!("`{x}` is whole"),
+                SingularSet::HalfWhole => format!("`{x} - 1/2` is whole"),
+                SingularSet::Multiple => format!("`{x}` is a multiple of `{y}`"),
+                SingularSet::HalfMultiple => {
+                    format!("`{x}` is an odd multiple of half of `{y}`")
+                }
+                _ => return None,
+            }
         }
-        SingularSet::Zero => locus.x,
+    };
+    Some(format!("{BOTH_SIDES} where {at}"))
+}
+
+/// The expression that is 0 at a locus; of a cut, on the whole axis. Of other sets none.
+fn zero(dag: &mut Dag, locus: Locus) -> Option<Node> {
+    let one = dag.integer(1);
+    Some(match locus.at {
+        SingularSet::Zero | SingularSet::Cut => locus.x,
         SingularSet::One => dag.sub(locus.x, one),
         SingularSet::MinusOne => dag.add(&[locus.x, one]),
         SingularSet::Equal if dag.is_zero(locus.x) => locus.y,
@@ -372,17 +478,17 @@ fn place(model: &mut Model, locus: Locus, part: Node) -> Option<String> {
         SingularSet::Whole
         | SingularSet::HalfWhole
         | SingularSet::Multiple
-        | SingularSet::HalfMultiple => {
-            let (x, y) = (print::text(model, locus.x), print::text(model, locus.y));
-            let at = match locus.at {
-                SingularSet::Whole => format!("`{x}` is whole"),
-                SingularSet::HalfWhole => format!("`{x} - 1/2` is whole"),
-                SingularSet::Multiple => format!("`{x}` is a multiple of `{y}`"),
-                _ => format!("`{x}` is an odd multiple of half of `{y}`"),
-            };
-            return Some(format!("{BOTH_SIDES} where {at}"));
-        }
-    };
-    let zero = print::text(model, zero);
-    Some(format!("{BOTH_SIDES} where `{zero}` is 0"))
+        | SingularSet::HalfMultiple => return None,
+    })
+}
+
+/// An expression that is 0 where the node is, without roots, absolute values and powers.
+fn stem(dag: &Dag, mut node: Node) -> Node {
+    loop {
+        node = match dag.kind(node) {
+            Kind::Call(Op::Sqrt | Op::Abs | Op::Cbrt, x) => x[0],
+            Kind::Product(_, factors) if factors.len() == 1 && factors[0].1 > 0 => factors[0].0,
+            _ => return node,
+        };
+    }
 }

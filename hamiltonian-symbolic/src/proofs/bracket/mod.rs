@@ -6,11 +6,13 @@
 //! comes with sizes and a point where the time derivative along the flow is not zero.
 
 mod branches;
+mod certificate;
 mod cross;
 mod lagrange;
 mod pair;
 mod shell;
 
+pub use certificate::{Certificate, Place, Reason, Rule};
 pub use pair::bracket;
 
 use crate::dag::{Dependence, Kind, Node};
@@ -27,8 +29,8 @@ use cross::orbits;
 /// The verdict on a claimed invariant.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
-    /// It is conserved.
-    Proven,
+    /// It is conserved, and how this is shown.
+    Proven(Certificate),
     /// It is not.
     Disproven {
         /// Its time derivative along the flow, {I, H} + ∂I/∂t, as text.
@@ -59,6 +61,19 @@ pub enum Verdict {
     },
 }
 
+impl Verdict {
+    /// The derivative vanishes identically, of which [`cross`] makes a proof.
+    fn identity() -> Verdict {
+        Verdict::Proven(Certificate::default())
+    }
+
+    /// Returns true if it is conserved.
+    #[must_use]
+    pub fn is_proven(&self) -> bool {
+        matches!(self, Verdict::Proven(_))
+    }
+}
+
 /// Judges if an expression is conserved along the flow of the model's H: {I, H} + ∂I/∂t = 0. With a
 /// `shell` the statement is about points with H = shell only, which takes a constant shell and a
 /// conserved H.
@@ -85,7 +100,7 @@ fn left(model: &Model, shell: Node) -> Option<Verdict> {
         return None;
     }
     match judge(model, h, None).0 {
-        Verdict::Proven => None,
+        Verdict::Proven(_) => None,
         Verdict::Disproven { .. } => no_shell("H is not conserved"),
         undecided => Some(undecided),
     }
@@ -105,7 +120,7 @@ pub fn is_invariant_of_lagrangian(
     let is_free = model.force.is_empty();
     let is_of_velocities = is_free && has_velocities;
     let verdict = if is_of_velocities && lagrange::vanishes(model, legendre, in_velocities) {
-        Verdict::Proven
+        Verdict::identity()
     } else {
         let mut verdict = judge(model, expression, None).0;
         if let Verdict::Undecided { why, .. } = &mut verdict
@@ -130,14 +145,13 @@ fn crossed(model: &Model, expression: Node, verdict: Verdict, is_on_shell: bool)
             residual,
             why: "nothing is known of the functions in Rust in it".to_owned(),
         },
-        Verdict::Proven => {
-            cross::find(model, expression, h, is_on_shell).map_or(Verdict::Proven, |found| {
-                Verdict::Jumps {
-                    part: found.part,
-                    why: found.why,
-                }
-            })
-        }
+        Verdict::Proven(_) => match cross::find(model, expression, h, is_on_shell) {
+            Ok(certificate) => Verdict::Proven(certificate),
+            Err(found) => Verdict::Jumps {
+                part: found.part,
+                why: found.why,
+            },
+        },
         verdict => verdict,
     }
 }
@@ -156,21 +170,21 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> (Verdict, bool
             rate.is_some_and(|rate| normal_form::vanishes(&mut model.dag, rate, Scope::Densely))
         })
     {
-        return (Verdict::Proven, false);
+        return (Verdict::identity(), false);
     }
     let general = derivative(&mut model, expression, h);
     // A proof for all points, and all sizes, is the common case and the cheapest.
     if let Some(residual) = general
         && normal_form::vanishes(&mut model.dag, residual, Scope::Densely)
     {
-        return (Verdict::Proven, false);
+        return (Verdict::identity(), false);
     }
     let is_on_shell = shell.is_some();
     let mut text = "the bracket with H".to_owned();
     if let Some(residual) = general {
         match readable(&mut model, residual) {
             Some(residual) => text = residual,
-            None => return (Verdict::Proven, false),
+            None => return (Verdict::identity(), false),
         }
     }
     if !model.dag.has_loops(&[h, expression]) && model.sizes.is_empty() {
@@ -222,7 +236,9 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> (Verdict, bool
                 };
                 return (verdict, is_on_shell);
             }
-            Verdict::Proven if model.sizes.is_empty() => return (Verdict::Proven, is_on_shell),
+            Verdict::Proven(_) if model.sizes.is_empty() => {
+                return (Verdict::identity(), is_on_shell);
+            }
             Verdict::Undecided { why: last, .. } if model.sizes.is_empty() => why = last,
             _ => {}
         }
@@ -255,7 +271,7 @@ fn decide(
     text: String,
 ) -> Verdict {
     if model.dag.is_zero(residual) {
-        return Verdict::Proven;
+        return Verdict::identity();
     }
     let found = match difference {
         None => witness(model, residual, Effort::Search, others),
@@ -280,7 +296,7 @@ fn decide(
         }
     };
     match answer {
-        Answer::Zero => Verdict::Proven,
+        Answer::Zero => Verdict::identity(),
         _ => Verdict::Undecided {
             residual: text,
             why: answer.why(),

@@ -1,7 +1,9 @@
 //! Dependence of expressions on coordinates, momenta and time: which of them they vary with, and where
 //! they vanish together.
 
-use crate::dag::{Array, Dag, Dependence, Kind, Node};
+use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
+use crate::index::Domain;
+use crate::op::Break;
 
 /// A coordinate, a momentum, the time.
 pub fn is_moving_leaf(dag: &Dag, node: Node) -> bool {
@@ -17,7 +19,12 @@ pub fn varies(dag: &Dag, node: Node) -> bool {
         Kind::Product(_, factors) => factors.iter().all(|(factor, n)| {
             varies(dag, *factor) || *n < 0 && !dag.dependence(*factor).on(Dependence::MOVING)
         }),
-        Kind::Call(op, x) => op.row().arguments.len() == 1 && varies(dag, x[0]),
+        // A function that jumps may be constant between its jumps.
+        Kind::Call(op, x) => {
+            let row = op.row();
+            let jumps = matches!(row.regularity.breaks, Break::Jump(_));
+            row.arguments.len() == 1 && !jumps && varies(dag, x[0])
+        }
         // A leaf that one term reads alone.
         Kind::Sum(_, terms) => terms.iter().enumerate().any(|(at, (_, term))| {
             let leaves = || dag.reachable(&[*term]).into_iter().filter(|n| is_leaf(*n));
@@ -78,6 +85,37 @@ pub fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
     !moving(dag, a)
         .iter()
         .any(|a| others.iter().any(|b| may_be_same(*a, *b)))
+}
+
+/// Returns true if no pair of a coordinate and its momentum is read by both, nor the time, and the first
+/// reads coordinates or momenta only: where it is infinite, so are the momenta or coordinates of its pairs,
+/// whatever the other is.
+pub fn have_no_degree_in_common(dag: &Dag, a: Node, b: Node) -> bool {
+    let degree = |leaf: Leaf| match leaf {
+        Some((Array::Phase(column), row)) => Some((Array::Phase(column.on(Side::Q)), row)),
+        other => other,
+    };
+    let is_of = |leaf: &Leaf, wanted: Side| matches!(leaf, Some((Array::Phase(column), _)) if column.side == wanted);
+    let [own, others] = [moving(dag, a), moving(dag, b)];
+    let is_of_one_side = [Side::Q, Side::P]
+        .into_iter()
+        .any(|side| own.iter().all(|leaf| is_of(leaf, side)));
+    is_of_one_side
+        && !own.iter().any(|a| {
+            let mut others = others.iter();
+            others.any(|b| may_be_same(degree(*a), degree(*b)))
+        })
+}
+
+/// Returns true if each iteration of a loop reads elements of its own row alone, and not the time.
+pub fn is_of_own_rows(dag: &Dag, body: Node, domain: Domain) -> bool {
+    dag.reachable(&[body])
+        .into_iter()
+        .all(|node| match dag.kind(node) {
+            Kind::Element(Array::Phase(_), row, _) => row.as_loop() == Some(domain),
+            Kind::Time => false,
+            _ => true,
+        })
 }
 
 /// The coordinates, momenta and time in a node.

@@ -5,30 +5,32 @@
 //! an infinity of a conserved H for all parameters.
 
 use super::Claim;
+use super::walls::{self, At};
 use crate::bracket::branches::STEP;
+use crate::bracket::certificate::{Place, Reason};
 use crate::bracket::derivative;
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Partial, StandIn};
+use crate::dag::{Dependence, Kind, Map, Node, Partial, StandIn};
 use crate::facts::{Facts, Given};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
-use crate::op::{Far, Op, SingularSet};
+use crate::op::SingularSet;
 use crate::rational::Rational;
 
 /// The most expressions that are looked at.
 const MOST: usize = 64;
 
 /// The findings of [`learn`].
-#[derive(Clone, Copy, Default)]
+#[derive(Default)]
 pub(super) struct Learnt {
-    /// True if there was anything.
-    pub(super) anything: bool,
+    /// The places, and why no orbit crosses them.
+    pub(super) places: Vec<Place>,
     /// True if there were more expressions than are looked at.
     is_cut: bool,
 }
 
 impl Learnt {
     /// The limit, as the end of a sentence.
-    pub(super) fn limit(self) -> Option<String> {
+    pub(super) fn limit(&self) -> Option<String> {
         self.is_cut.then(|| {
             format!("; of the expressions that may be constant along orbits only {MOST} are tried")
         })
@@ -49,7 +51,8 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Lear
         tried.len() < MOST && tried.insert(node, ()).is_none()
     };
     if below.binary_search(&claim.h).is_ok() && is_constant(model, claim, claim.h, given) {
-        learnt.anything = true;
+        let energy = Place::named(model, "H", claim.h, Reason::Constant);
+        learnt.places.push(energy);
         given.constant.insert(claim.h, ());
     }
     // Functions of a constant are constant too, which reveals further sets.
@@ -61,13 +64,17 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Lear
                 if facts.get(node).is_still || !is_new(node, &mut learnt.is_cut) {
                     continue;
                 }
-                if is_constant(model, claim, node, given) {
+                let reason = if is_constant(model, claim, node, given) {
                     given.constant.insert(node, ());
-                    found = true;
-                } else if locus.at == SingularSet::Zero && is_wall(model, claim, node) {
+                    Reason::Constant
+                } else if locus.at == SingularSet::Zero && is_wall(model, claim, node, given) {
                     given.nonzero.insert(node, ());
-                    found = true;
-                }
+                    Reason::HIsInfinite
+                } else {
+                    continue;
+                };
+                found = true;
+                learnt.places.push(Place::of(model, node, reason));
             }
         }
         for condition in model.dag.reachable(&[claim.expression]) {
@@ -76,15 +83,20 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Lear
                 if is_still || !is_new(condition, &mut learnt.is_cut) {
                     continue;
                 }
-                // An orbit stays on one side of a = b.
+                // An orbit stays on one side of a = b, unless a − b changes its sign at a pole.
                 let apart = model.dag.sub(a, b);
-                if is_constant(model, claim, apart, given) || is_wall(model, claim, apart) {
-                    given.constant.insert(condition, ());
-                    found = true;
-                }
+                let reason = if is_constant(model, claim, apart, given) {
+                    Reason::Constant
+                } else if is_wall(model, claim, apart, given) && is_finite(model, apart, given) {
+                    Reason::HIsInfinite
+                } else {
+                    continue;
+                };
+                given.constant.insert(condition, ());
+                found = true;
+                learnt.places.push(Place::of(model, apart, reason));
             }
         }
-        learnt.anything |= found;
         if !found {
             return learnt;
         }
@@ -129,7 +141,7 @@ fn is_constant(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> b
         expression: node,
         ..*claim
     };
-    if !this.passes(model, given) {
+    if this.passes(model, given).is_none() {
         return false;
     }
     if node == claim.h {
@@ -144,62 +156,17 @@ fn is_constant(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> b
     rate.is_some_and(|rate| normal_form::vanishes(&mut model.dag, rate, Scope::Densely))
 }
 
-/// Returns true if H is conserved and tends to infinity wherever a node is 0, whatever the parameters.
-/// Assumes an H that is continuous into the line closed by one infinity: what one of its terms is
-/// infinite at, the sum is.
-fn is_wall(model: &mut Model, claim: &Claim, node: Node) -> bool {
-    let facts = Facts::of(&model.dag, &[claim.h], &Given::default());
-    if !claim.is_still || !facts.get(claim.h).is_projective {
-        return false;
-    }
-    let dag = &mut model.dag;
-    let minus = dag.neg(node);
-    let zeros = [stem(dag, node), stem(dag, minus)];
-    let is_zero_there = |dag: &Dag, x: Node| zeros.contains(&stem(dag, x));
-    let mut infinite: Map<Node, bool> = Map::default();
-    for x in dag.reachable(&[claim.h]) {
-        let is_infinite = facts.get(x).is_projective
-            && match dag.kind(x) {
-                Kind::Sum(_, terms) => terms.iter().any(|(_, term)| infinite[term]),
-                Kind::Product(_, factors) => (0..factors.len()).any(|at| {
-                    let (factor, n) = factors[at];
-                    let grows = match n > 0 {
-                        true => infinite[&factor],
-                        false => is_zero_there(dag, factor),
-                    };
-                    let mut others = factors.iter().enumerate().filter(|(other, _)| *other != at);
-                    grows
-                        && others.all(|(_, (other, n))| {
-                            let regular = facts.get(*other);
-                            match *n > 0 {
-                                true => regular.has_no_zero,
-                                false => regular.is_continuous,
-                            }
-                        })
-                }),
-                Kind::Reduce(_, body) => infinite[body],
-                Kind::Call(Op::Ln, x) if is_zero_there(dag, x[0]) => true,
-                Kind::Call(Op::Pow, x) => {
-                    let exponent = dag.as_constant(x[1]);
-                    exponent.is_some_and(Rational::is_negative) && is_zero_there(dag, x[0])
-                }
-                Kind::Call(op, x) if x.len() == 1 => {
-                    op.row().regularity.far == Far::Infinite && infinite[&x[0]]
-                }
-                _ => false,
-            };
-        infinite.insert(x, is_infinite);
-    }
-    infinite[&claim.h]
+/// Returns true if an expression is finite and continuous at every point that orbits come to.
+fn is_finite(model: &Model, node: Node, given: &Given) -> bool {
+    let facts = Facts::everywhere(&model.dag, &[node], given);
+    facts.get(node).is_continuous
 }
 
-/// An expression that is 0 where the node is, without roots, absolute values and powers.
-fn stem(dag: &Dag, mut node: Node) -> Node {
-    loop {
-        node = match dag.kind(node) {
-            Kind::Call(Op::Sqrt | Op::Abs | Op::Cbrt, x) => x[0],
-            Kind::Product(_, factors) if factors.len() == 1 && factors[0].1 > 0 => factors[0].0,
-            _ => return node,
-        };
-    }
+/// Returns true if no orbit reaches the place where a node is 0: H is conserved, and infinite there for all
+/// parameters and sizes. Assumes that H has no step elsewhere, at which it would not be conserved.
+fn is_wall(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> bool {
+    let facts = Facts::of(&model.dag, &[claim.h], &Given::default());
+    claim.is_still
+        && facts.get(claim.h).is_projective
+        && walls::is_infinite(&mut model.dag, claim.h, node, given, At::All)
 }

@@ -34,7 +34,7 @@ const LARGE: usize = 1000;
 /// `#root::private`.
 pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> Option<TokenStream> {
     let mut lowered = lower(checked, report)?;
-    proofs::prove(checked, &mut lowered, report);
+    let certificates = proofs::prove(checked, &mut lowered, report);
     surface::refuse_unsupported(checked, report);
     report.barrier(())?;
     // In other variables than those of L, H is a formula like any other.
@@ -48,6 +48,8 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> O
         return None;
     }
     let defaults = surface::defaults(checked, report)?;
+    let assumed: Vec<bool> = checked.observables.iter().map(|of| of.assumed).collect();
+    let proofs = docs::proofs(&certificates, &assumed);
     let beyond = std::mem::take(&mut lowered.beyond);
     let System {
         model,
@@ -59,6 +61,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> O
         root,
         defaults: &defaults,
         beyond: &beyond,
+        proofs: &proofs,
     };
     let mut code = TokenStream::new();
     for (name, hamiltonian) in &pieces {
@@ -85,6 +88,8 @@ struct Frame<'a> {
     root: &'a TokenStream,
     defaults: &'a surface::Defaults,
     beyond: &'a Beyond,
+    /// The proofs of the observables in words.
+    proofs: &'a [Vec<String>],
 }
 
 /// The definition's own system, or a piece of its split.
@@ -133,6 +138,7 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
         root: frame.root,
         checked,
         defaults: frame.defaults,
+        proofs: frame.proofs,
         piece: part.piece,
         pieces: part.pieces,
         declared: part.declared,

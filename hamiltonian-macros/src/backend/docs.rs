@@ -3,7 +3,9 @@
 //! Input: a model with its structure. Output: the texts emission puts into docs, `Display` and
 //! constants. Invariant: none of it is read by the program.
 
+use super::proofs::Certificates;
 use crate::emit::Text;
+use hamiltonian_symbolic::bracket::{Place, Reason};
 use hamiltonian_symbolic::count::{self, Count, Operations};
 use hamiltonian_symbolic::legendre::Readable;
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -164,6 +166,80 @@ fn signature(model: &Model) -> String {
         .as_ref()
         .map_or_else(String::new, |time| format!("; {time}"));
     format!("H({coordinates}; {momenta}{time})")
+}
+
+/// The places of one kind that the documentation of an invariant lists, at most.
+const PLACES: usize = 4;
+
+/// The proofs of invariants in words, a sentence each: why nothing jumps, and what is assumed. `assumed` has the
+/// invariants without a proof.
+pub fn proofs(certificates: &Certificates, assumed: &[bool]) -> Vec<Vec<String>> {
+    let each = certificates.iter().zip(assumed);
+    each.map(|(components, is_assumed)| {
+        if *is_assumed && components.is_empty() {
+            return vec!["It is assumed to be conserved, without a proof.".to_owned()];
+        }
+        let places = components.iter().flat_map(|component| &component.places);
+        let of = |reason: Reason| -> Option<String> {
+            let mut found: Vec<String> = Vec::new();
+            for place in places.clone().filter(|place| place.reason == reason) {
+                let words = written(place);
+                if !found.contains(&words) {
+                    found.push(words);
+                }
+            }
+            if found.len() > PLACES {
+                found.truncate(PLACES);
+                found.push("…".to_owned());
+            }
+            (!found.is_empty()).then(|| found.join(", "))
+        };
+        let mut sentences: Vec<String> = Vec::new();
+        if let Some(list) = of(Reason::HIsInfinite) {
+            sentences.push(format!(
+                "It holds where H is finite: it is infinite at {list}, where no orbit comes."
+            ));
+        }
+        if let Some(list) = of(Reason::Constant) {
+            sentences.push(format!("No orbit crosses a level of {list}."));
+        }
+        if let Some(list) = of(Reason::BothSidesAgree) {
+            sentences.push(format!("Orbits may cross {list}, where both sides agree."));
+        }
+        if let Some(list) = of(Reason::StepOfH) {
+            sentences.push(format!("Orbits may cross the steps of H at {list}."));
+        }
+        let mut functions: Vec<String> = Vec::new();
+        for name in components.iter().flat_map(|component| &component.functions) {
+            let name = format!("`{name}`");
+            if !functions.contains(&name) {
+                functions.push(name);
+            }
+        }
+        if let Some((last, others)) = functions.split_last() {
+            let (names, are) = match others {
+                [] => (last.clone(), "is"),
+                _ => (format!("{} and {last}", others.join(", ")), "are"),
+            };
+            sentences.push(format!(
+                "{names} {are} assumed to be smooth: analytic, without jumps, kinks and poles."
+            ));
+        }
+        sentences
+    })
+    .collect()
+}
+
+/// `` `q - 1` = 0 ``, or `` `q[i] - q[j]` = 0 (i in 0..n, j in 0..i) ``; of a constant without `= 0`
+fn written(place: &Place) -> String {
+    let within = match place.within.as_str() {
+        "" => String::new(),
+        within => format!(" ({within})"),
+    };
+    match place.reason {
+        Reason::Constant => format!("`{}`{within}", place.at),
+        _ => format!("`{}` = 0{within}", place.at),
+    }
 }
 
 /// Facts of H, a sentence each.

@@ -75,6 +75,8 @@ pub struct Definition<'a> {
     pub checked: &'a Checked,
     /// The defaults of the parameters, number by number: expressions of the scalar `T`.
     pub defaults: &'a [Option<Vec<String>>],
+    /// Of each observable the sentences about its proof.
+    pub proofs: &'a [Vec<String>],
     /// The name of the piece of a split that is emitted; none for the whole system.
     pub piece: Option<&'a Ident>,
     /// The pieces that are types of their own.

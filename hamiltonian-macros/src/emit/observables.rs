@@ -97,9 +97,17 @@ pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
         let text = format!(" {:?} `{}` at a state.", observable.kind, observable.name);
         let docs = documented(attributes, &text);
         let domain = domain(context.model, observable);
+        let proof = match context.definition.proofs[at].as_slice() {
+            [] => None,
+            sentences => {
+                let text = format!("\n\n {}", sentences.join(" "));
+                Some(quote! { #[doc = #text] })
+            }
+        };
         out.extend(quote! {
             #docs
             #domain
+            #proof
             #allow
             #[must_use]
             #visibility fn #name<T: #bound>(&self, state: &__h::State<#state>) -> #result { #body }

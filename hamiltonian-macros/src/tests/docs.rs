@@ -380,6 +380,58 @@ fn an_invariant_says_where_it_has_values() {
     assert!(code.contains(said), "{code}");
 }
 
+/// The documentation of an invariant says what its proof rests on beside its derivative.
+#[test]
+fn an_invariant_says_how_it_is_proven() {
+    let method = |source: &str| {
+        let code = code(source);
+        let (docs, _) = code
+            .split_once("pub fn kept")
+            .expect("the method of the invariant");
+        docs[docs.rfind("pub fn").unwrap_or(0)..].to_owned()
+    };
+    for (definition, said) in [
+        (
+            "pub struct A {} H(q; p) = p^2/2 + 1/q^2; invariant kept = sign(q)",
+            "It holds where H is finite: it is infinite at `q` = 0, where no orbit comes.",
+        ),
+        (
+            "pub struct A<const N: usize> {} H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + 1/q[i]^2 };
+             invariant kept = sum(i in 0..N) { sign(q[i]) }",
+            "it is infinite at `q[i]` = 0 (i in 0..N), where no orbit comes.",
+        ),
+        (
+            "pub struct A {} H(x, y; u, v) = (u^2 + v^2)/2; invariant kept = sign(x*v - y*u)",
+            "No orbit crosses a level of `x*v - y*u`.",
+        ),
+        (
+            "pub struct A {} H(q; p) = p^2/2; invariant kept = (max(q - 5, 0) - max(5 - q, 0))/(q - 5)",
+            "Orbits may cross `q - 5` = 0, where both sides agree.",
+        ),
+        (
+            "pub struct A {} H(x, y; p, u) = (p^2 + u^2)/2 + sign(x); invariant kept = u",
+            "Orbits may cross the steps of H at `x` = 0.",
+        ),
+        (
+            "pub struct A {} fn V(x) = well; fn W(x) = well; H(q, x; p, u) = (p^2 + u^2)/2 + 1/V(q)^2 + W(x);
+             invariant kept = sign(V(q))",
+            "it is infinite at `V(q)` = 0, where no orbit comes. `V` and `W` are assumed to be smooth: \
+             analytic, without jumps, kinks and poles.",
+        ),
+        (
+            "pub struct A {} fn V(x) = well; H(q; p) = p^2/2 + V(q); #[assume] invariant kept = q",
+            "It is assumed to be conserved, without a proof.",
+        ),
+    ] {
+        let docs = method(definition);
+        assert!(docs.contains(said), "{definition}: {docs}");
+    }
+    let plain = method("pub struct A {} H(q; p) = p^2/2 + cos(q); invariant kept = H");
+    for word in ["orbit", "assumed", "infinite"] {
+        assert!(!plain.contains(word), "{plain}");
+    }
+}
+
 /// No inverse of the mass matrix is needed for the proof.
 #[test]
 fn a_block_of_masses_keeps_its_energy() {

@@ -522,6 +522,17 @@ impl<T: Real> Real for Dual<T> {
         self.less_multiples(re, other)
     }
     #[inline(always)]
+    fn orbit_remainder(self, c: Self) -> Self {
+        // 1 − n/turns, where the whole number n is constant.
+        let re = self.re.orbit_remainder(c.re);
+        let off = T::one() - re;
+        let growth = T::constant(1.5, 0.0) * c.eps / c.re - self.eps / self.re;
+        Self {
+            re,
+            eps: T::select(off.equals(T::zero()), T::zero(), off * growth),
+        }
+    }
+    #[inline(always)]
     fn universal_anomaly(self, b: Self, c: Self) -> Self {
         // The derivative of the equation: 0 = F′·dy + ∂F.
         let y = self.re.universal_anomaly(b.re, c.re);

@@ -19,6 +19,7 @@ mod mathml;
 mod nests;
 mod normal_form;
 mod operations;
+mod orbits;
 mod order;
 mod pairs;
 mod print;

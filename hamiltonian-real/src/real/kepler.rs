@@ -12,6 +12,9 @@ use super::{Mask, Real};
 const STEPS: u32 = 128;
 const PATIENCE: u32 = 12;
 
+/// The revolutions from which on an angle has no digits, 2⁵⁰.
+const LONGEST: f64 = (1_u64 << 50) as f64;
+
 /// c₂(ψ) = (1 − cos √ψ)/ψ and c₃(ψ) = (√ψ − sin √ψ)/√ψ³, entire functions of ψ.
 ///
 /// K. Stumpff, *Himmelsmechanik* I, 1959, §41.
@@ -78,6 +81,30 @@ fn alternating<T: Real, const N: usize, const M: usize>(
         sums[at % 2] = sums[at % 2].fma(square, T::constant(high, low));
     }
     (-psi).fma(sums[1], sums[0])
+}
+
+/// The part of the time of a motion that is left after its whole revolutions, in units of that time: 1 if there is
+/// none, and of either sign, since the nearest whole number is taken off. NaN if no digit of the angle is known.
+///
+/// F grows by 2πb/c^{3/2} in each revolution: the solver and the increments of q and p would lose the digits of
+/// a part of a revolution in a long time.
+#[inline(always)]
+pub(crate) fn remainder<T: Real>(b: T, c: T) -> T {
+    let (zero, one) = (T::zero(), T::one());
+    // 2π
+    let tau = T::constant(core::f64::consts::TAU, 2.449_293_598_294_706_4e-16);
+    let around = tau * b;
+    let is_bound = zero.lt(b) & zero.lt(c);
+    let returns = is_bound & (around * around).le(c * c * c);
+    if !returns.any() {
+        return one;
+    }
+    let c = T::select(returns, c, one);
+    let turns = c * c.sqrt() / T::select(returns, around, one);
+    let left = (turns - turns.round()) / turns;
+    let digits = turns.lt(T::constant(LONGEST, 0.0));
+    let left = T::select(digits, left, T::constant(f64::NAN, 0.0));
+    T::select(returns, left, one)
 }
 
 /// Kepler's equation F(y) = y·c₁(ψ) + a·y²·c₂(ψ) + b·y³·c₃(ψ) − 1 with ψ = c·y², and F′, F″.

@@ -480,6 +480,22 @@ pub trait Real:
     fn universal_anomaly(self, b: Self, c: Self) -> Self {
         kepler::anomaly(self, b, c)
     }
+    /// The part of the time that is left after whole revolutions, for b = `self` and c of
+    /// [`universal_anomaly`](Real::universal_anomaly), in units of the time: 1 if the orbit does not return in it;
+    /// otherwise of either sign and at most half a revolution. With a, b and c for that part of the time no digits
+    /// are lost in long times but those that the period has lost. NaN from 2⁵⁰ revolutions on.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// // A circle of radius 1 with μ = 1, after two and a quarter revolutions.
+    /// let t = 4.5 * core::f64::consts::PI;
+    /// assert!(((t * t).orbit_remainder(t * t) - 1.0 / 9.0).abs() < 1e-15);
+    /// ```
+    #[inline(always)]
+    fn orbit_remainder(self, c: Self) -> Self {
+        kepler::remainder(self, c)
+    }
     /// Stumpff's function c₂(ψ) = (1 − cos √ψ)/ψ = ½ − ψ/4! + ψ²/6! − …, for ψ of either sign.
     ///
     /// ```

@@ -321,6 +321,9 @@ operations! {
     Anomaly universal_anomaly(a, b, c) None None, "\\operatorname{y}",
         [All, Positive, Nowhere, None, Nothing, Branched],
         |d, x, f| underivable();
+    Orbit orbit_remainder(b, c) None None, "\\operatorname{rem}",
+        [All, Any, Nowhere, None, Nothing, Branched],
+        |d, x, f| underivable();
     Stumpff2 stumpff_2(x) None None, "c_2",
         [All, NonNegative, Nowhere, None, Mixed, Entire],
         |d, x, f| underivable();

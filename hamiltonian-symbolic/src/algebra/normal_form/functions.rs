@@ -124,6 +124,7 @@ impl Algebra {
             | Op::Erf
             | Op::Atan2
             | Op::Anomaly
+            | Op::Orbit
             | Op::Stumpff2
             | Op::Stumpff3 => {
                 let mut arguments = vec![first];

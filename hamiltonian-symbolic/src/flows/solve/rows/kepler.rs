@@ -59,11 +59,13 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     if !space.same(h, form) {
         return None;
     }
-    // The equations of `Real::universal_anomaly`: v = 2ap, μ = 2aκ.
+    // The equations of `Real::universal_anomaly`: v = 2ap, μ = 2aκ. The motion is followed for the part of the time
+    // that is left after whole revolutions.
     names.read(
         space.dag(),
-        "r = sqrt(rr); v = 2*a*s; A = v*qp/rr; B = v*s*k/(r*rr); C = 2*B - v*v*pp/rr; \
-         y = universal_anomaly(A, B, C); psi = C*y^2; c2 = stumpff_2(psi); c3 = stumpff_3(psi); \
+        "r = sqrt(rr); whole = 2*a*s; inner = whole*s*k/(r*rr); outer = 2*inner - whole*whole*pp/rr; \
+         part = orbit_remainder(inner, outer); s = part*s; v = part*whole; A = v*qp/rr; B = part*part*inner; \
+         C = part*part*outer; y = universal_anomaly(A, B, C); psi = C*y^2; c2 = stumpff_2(psi); c3 = stumpff_3(psi); \
          g1 = y - y*psi*c3; g2 = y^2*c2; c0 = 1 - psi*c2; rise = A*g1; r1 = c0 + rise + B*g2; \
          f = -B*g2; g = v - v*B*y^3*c3; fd = -s*k*g1/(r*rr*r1); gd = f/r1",
     )?;
@@ -101,6 +103,9 @@ fn straight(space: &mut Space, pairs: &[(Node, Node)], names: &mut Names) -> Opt
     let turns = names.one(dag, "epsilon*rr*pp < area")?;
     let ahead = names.one(dag, "0 < (1 + c0 + rise)*(pi^2 - psi)")?;
     let once = names.one(dag, "psi < 4*pi^2")?;
+    // After whole revolutions the part is at most a third.
+    let never = names.one(dag, "1/2 < part")?;
+    let once = dag.and(once, never);
     let misses = dag.and(ahead, once);
     Some(dag.or(turns, misses))
 }

@@ -109,6 +109,41 @@ fn every_orbit_has_its_anomaly() {
 }
 
 #[test]
+fn whole_revolutions_are_taken_off() {
+    let mut random = Random(7);
+    for _ in 0..1_000 {
+        let turns = 10f64.powf(6.0 * random.unit() - 1.0);
+        let (size, tau) = (random.wide(3.0).abs(), 2.0 * core::f64::consts::PI);
+        // c^{3/2} = 2πb·turns
+        let b = size;
+        let c = (tau * b * turns).cbrt() * (tau * b * turns).cbrt();
+        let part = b.orbit_remainder(c);
+        let exact = DoubleDouble::from(b).orbit_remainder(DoubleDouble::from(c));
+        let off = (DoubleDouble::from(part) - exact).to_f64().abs();
+        assert!(off < 8.0 * f64::EPSILON, "{b} {c}: {part}");
+        let left = part * turns;
+        assert!((turns - left).fract().min(1.0 - (turns - left).fract()) < 1e-9 * turns);
+        assert!(if turns < 0.999 {
+            part == 1.0
+        } else {
+            turns < 1.001 || left.abs() <= 0.501
+        });
+        // Between the jumps it is 1 − n·2πb/c^{3/2}.
+        let (by_b, by_c) = (
+            Dual::variable(b).orbit_remainder(Dual::fixed(c)).eps,
+            Dual::fixed(b).orbit_remainder(Dual::variable(c)).eps,
+        );
+        let gone = 1.0 - part;
+        assert!((by_b + gone / b).abs() <= 1e-14 * gone / b);
+        assert!((by_c - 1.5 * gone / c).abs() <= 1e-14 * gone / c);
+    }
+    for (b, c) in [(1.0, -1e6), (-1.0, 1e6), (1.0, 0.0), (1.0, f64::NAN)] {
+        assert_eq!(b.orbit_remainder(c), 1.0);
+    }
+    assert!(1.0_f64.orbit_remainder(1e12).is_nan());
+}
+
+#[test]
 fn what_is_no_orbit_has_no_anomaly() {
     for [a, b, c] in [
         [f64::NAN, 1.0, 1.0],

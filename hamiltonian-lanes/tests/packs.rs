@@ -300,6 +300,9 @@ fn an_anomaly_does_not_see_its_neighbours() {
             let dual = dual.universal_anomaly(Dual::fixed(b.0[i]), Dual::fixed(c.0[i]));
             assert_eq!(slope.eps.0[i].to_bits(), dual.eps.to_bits());
             assert_eq!(alone.is_nan(), a.0[i].is_nan());
+            let part = (Pack([900.0; LANES]) * b).orbit_remainder(Pack([900.0; LANES]) * c);
+            let (b, c) = (900.0 * b.0[i], 900.0 * c.0[i]);
+            assert_eq!(part.0[i].to_bits(), b.orbit_remainder(c).to_bits());
         }
     }
 }

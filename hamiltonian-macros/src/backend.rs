@@ -252,8 +252,8 @@ fn derive(
                 SHARE_LOOPS,
             ),
             Err(NoProgram::Internal { fault }) => report.internal(definition(checked), &fault),
-            Err(NoProgram::OutOfRange { number }) => {
-                blame::number(checked, number.as_ref(), frame.beyond, report);
+            Err(NoProgram::OutOfRange(number)) => {
+                blame::number(checked, &number, frame.beyond, report);
             }
         }
         return None;

@@ -46,10 +46,11 @@ mod proofs;
 pub use algebra::ball::Ball;
 pub use algebra::dag::op;
 pub use algebra::{
-    dag, diff, index, loops, model, normal_form, print, product, ranges, rational, set, sort,
+    dag, diff, index, loops, model, normal_form, overflow, print, product, ranges, rational, set,
+    sort,
 };
 pub use flows::split;
-pub use programs::{count, forces, hoist, interpret, pairs, pipeline, program, schedule};
+pub use programs::{count, forces, hoist, interpret, pairs, pipeline, program, schedule, support};
 pub use proofs::{bracket, facts, legendre, structure, transform};
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.

@@ -125,7 +125,12 @@ fn by_elements(z: State<f64>, time: f64) -> (State<D>, [f64; 2]) {
     let f = one - a / r * (one - cos);
     let g = (mean - d + sin) / n;
     let (fd, gd) = (-a.sqrt() * sin / (r * r1), one - a / r1 * (one - cos));
-    let end = [f * x + g * u, f * y + g * v, fd * x + gd * u, fd * y + gd * v];
+    let end = [
+        f * x + g * u,
+        f * y + g * v,
+        fd * x + gd * u,
+        fd * y + gd * v,
+    ];
     // δn/n = 3δa/2a, and δa/a = a·(2/r + v²)·ε.
     let [a, r, n, r1] = [a, r, n, r1].map(|x| x.to_f64());
     let spread = a * (2.0 / r + square.to_f64());
@@ -180,7 +185,10 @@ fn no_time_is_left_after_whole_periods() {
     for turns in [1.0, -3.0, 1000.0, 1e6] {
         let end = moved(&program, z, turns * PI_2);
         let bound = 4.0 * EPSILON * PI_2 * f64::abs(turns);
-        assert!(end.iter().zip(z).all(|(a, b)| (a - b).abs() < bound), "{end:?}");
+        assert!(
+            end.iter().zip(z).all(|(a, b)| (a - b).abs() < bound),
+            "{end:?}"
+        );
     }
     // Past the last digit of the angle there is no state.
     assert!(moved(&program, z, 1e17).iter().all(|x| x.is_nan()));
@@ -188,6 +196,9 @@ fn no_time_is_left_after_whole_periods() {
     let fall = [1.0, 0.0, 0.0, 0.0];
     assert!(moved(&program, fall, 0.5).iter().all(|x| x.is_finite()));
     for time in [1.2, 2.3, 5.0, 100.0, -7.0] {
-        assert!(moved(&program, fall, time).iter().all(|x| x.is_nan()), "{time}");
+        assert!(
+            moved(&program, fall, time).iter().all(|x| x.is_nan()),
+            "{time}"
+        );
     }
 }

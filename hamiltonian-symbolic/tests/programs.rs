@@ -57,7 +57,8 @@ fn simplification_adds_no_operation() {
         let (before, after) = (tree.operations(), work(&program, &program.functions[0]));
         written += before;
         left += after;
-        if after > before {
+        // Forms that do not overflow may take more.
+        if after > before && !tree.has_exponentials() {
             more += 1;
             if more < 20 {
                 println!("{before} → {after}: {}", tree.text());

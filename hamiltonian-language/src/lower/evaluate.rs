@@ -173,12 +173,8 @@ impl<'a> Evaluator<'a> {
                 {
                     self.derived.wrote(value);
                 }
-                if model.dag.leaves_f64(value) {
-                    let coefficient = match model.dag.kind(value) {
-                        dag::Kind::Constant(k) | dag::Kind::Product(k, _) => k.clone(),
-                        _ => Rational::ONE,
-                    };
-                    self.beyond.push((coefficient, node));
+                if let Some(number) = model.dag.number_near_limits(value) {
+                    self.beyond.push((number, node));
                 }
                 self.note(node, demand, value);
                 if model.dag.len() > LARGEST {

@@ -31,7 +31,7 @@ use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ParameterDeclaration, Shape, VectorEntry, VectorFunction,
     VectorUse,
 };
-use hamiltonian_symbolic::rational::Rational;
+use hamiltonian_symbolic::overflow::OutOfRange;
 use proc_macro2::Span;
 use scope::{group_shape, shape};
 
@@ -40,7 +40,7 @@ use scope::{group_shape, shape};
 const LARGEST: usize = 1 << 18;
 
 /// Expressions with their coefficients.
-pub type Beyond = Vec<(Rational, NodeId)>;
+pub type Beyond = Vec<(OutOfRange, NodeId)>;
 
 /// A definition as mathematics.
 #[derive(Debug)]

@@ -19,6 +19,9 @@ const TYPES: &[&str] = &[
 /// The largest number of digits. The longest exact decimal of an f64 has 767.
 const MOST_DIGITS: usize = 1000;
 
+/// The largest power of ten in a literal.
+const LARGEST_EXPONENT: i64 = 2000;
+
 impl Parser<'_> {
     /// The literal at the cursor as an operand.
     pub(super) fn number_node(&mut self) -> ExprId {
@@ -111,7 +114,11 @@ impl Parser<'_> {
             );
             return None;
         };
-        if rounded.is_infinite() {
+        let exponent = plain.split(['e', 'E']).nth(1);
+        let is_long = |text: &str| !text.parse().is_ok_and(|n: i64| n.abs() <= LARGEST_EXPONENT);
+        // Simplification may bring a number into the range of f64.
+        let is_out = exponent.is_some_and(is_long);
+        if rounded.is_infinite() && is_out {
             self.report.error(
                 span,
                 format!("`{text}` is larger than any f64"),
@@ -123,7 +130,7 @@ impl Parser<'_> {
         if mantissa.is_some_and(|digits| digits.bytes().all(|digit| matches!(digit, b'0' | b'.'))) {
             return Some(Rational::ZERO);
         }
-        if rounded == 0.0 {
+        if rounded == 0.0 && is_out {
             self.report.error(
                 span,
                 format!("`{text}` is smaller than any f64 but not 0"),

@@ -9,8 +9,8 @@ use hamiltonian_language::checked::{Checked, NodeId};
 use hamiltonian_language::lower::Beyond;
 use hamiltonian_language::report::{Report, Spans};
 use hamiltonian_symbolic::model::{Model, VectorUse};
+use hamiltonian_symbolic::overflow::OutOfRange;
 use hamiltonian_symbolic::program::Purpose;
-use hamiltonian_symbolic::rational::Rational;
 
 /// Reports that a purpose needs a third derivative of `function`. `blamed` are the statements that did
 /// already: a monitor that has the derivative in it has it in its gradient too.
@@ -35,14 +35,16 @@ pub fn third_derivative(
 
 /// Reports a number past the range of `f64` at the innermost expression that makes it; a derivative
 /// may make one that is written nowhere.
-pub fn number(checked: &Checked, number: Option<&Rational>, beyond: &Beyond, report: &mut Report) {
-    let size = |k: &Rational| k.abs();
-    let same = |(k, _): &&(Rational, NodeId)| number.is_some_and(|number| size(number) == size(k));
+pub fn number(checked: &Checked, number: &OutOfRange, beyond: &Beyond, report: &mut Report) {
+    let same = |(other, _): &&(OutOfRange, NodeId)| match (number, other) {
+        (OutOfRange::Number(number), OutOfRange::Number(other)) => number.abs() == other.abs(),
+        (number, other) => number == other,
+    };
     let place = beyond.iter().find(same).or(beyond.first());
     let spans = place.map_or(definition(checked), |(_, node)| checked.node(*node).spans);
-    let message = match number.filter(|number| number.to_f64() == 0.0) {
-        Some(_) => "a number here is smaller than any f64 but not 0",
-        None => "a number here is larger than any f64",
+    let message = match number.is_small() {
+        true => "a number here is smaller than any f64 but not 0",
+        false => "a number here is larger than any f64",
     };
     report.error(
         spans,

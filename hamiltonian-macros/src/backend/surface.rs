@@ -26,7 +26,7 @@ pub fn defaults(checked: &Checked, report: &mut Report) -> Option<Defaults> {
         let mut numbers = Vec::with_capacity(values.len());
         for (value, root) in values.into_iter().zip(roots) {
             let spans = checked.node(*root).spans;
-            if dag.leaves_f64(value) {
+            if dag.out_of_range(&[value]).is_some() {
                 let message = format!("the default of `{}` does not fit an f64", parameter.name);
                 report.error(spans, message, "write a number between 1e-323 and 1.7e308");
                 return None;

@@ -14,6 +14,7 @@ use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction, VectorUse};
+use hamiltonian_symbolic::support::support;
 use hamiltonian_symbolic::transform::{self, Chart, NoTransform, Placement};
 use proc_macro2::Ident;
 
@@ -71,7 +72,9 @@ impl System {
             if let (ObservableKind::Event | ObservableKind::Monitor, &[value]) =
                 (observable.kind, observable.components.as_slice())
             {
-                let gradient = self.model.partials(value);
+                let mut value = [value];
+                support(&mut self.model.dag, &mut value);
+                let gradient = self.model.partials(value[0]);
                 self.offer(VectorUse::Gradient(at), gradient);
             }
         }

@@ -88,12 +88,38 @@ fn numbers_that_leave_f64_are_an_error_where_they_are_made() {
         ("1e300*q*1e200", large, "1e300*q*1e200"),
         ("q*(1e-300*1e-200)", small, "(1e-300*1e-200)"),
         ("q*exp(1000)", large, "exp(1000)"),
+        ("q*exp(-1000)", small, "exp(-1000)"),
+        ("q*pi^-700", small, "pi^-700"),
+        ("q*(1/3)^1000000", small, "(1/3)^1000000"),
+        ("q*1e400", large, "1e400"),
+        ("q*1e-400", small, "1e-400"),
+        ("q*sqrt(exp(-1000) + exp(-1001))", small, "exp(-1000)"),
+        ("q/(1e300*exp(-1000))", small, "exp(-1000)"),
         // Only the derivative makes it.
         ("1e308*q^3", large, "p^2/2 + 1e308*q^3"),
         ("q*tan(pi/2)", "`tan` of pi/2 is not a real number", "pi/2"),
     ] {
         let (text, at) = only_error(right);
         assert_eq!((text.as_str(), at.as_str()), (message, place), "{right}");
+    }
+}
+
+/// What leaves the range of `f64` before simplification alone is accepted.
+#[test]
+fn numbers_that_return_to_f64_are_accepted() {
+    for (right, expected) in [
+        ("q*1e400/1e399", " + 10*q"),
+        ("q*(1e-400*1e399)", " + 0.1*q"),
+        ("q*exp(710)/exp(709)", " + q*exp(1)"),
+        ("q*exp(1000)*exp(-1000)", " + q"),
+        ("q*ln(exp(1000))", " + 1000*q"),
+        ("q*sqrt(1e400)/1e200", " + q"),
+        ("q*pi^700/pi^700", " + q"),
+        ("q*3^1000000*(1/3)^1000000", " + q"),
+        ("q*(1 + exp(-1000))", " + q*(exp(-1000) + 1)"),
+        ("q*cosh(exp(-1000))", " + q*cosh(exp(-1000))"),
+    ] {
+        assert_eq!(hamiltonian(right), expected, "{right}");
     }
 }
 

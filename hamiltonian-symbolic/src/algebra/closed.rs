@@ -1,7 +1,7 @@
 //! Expressions of numbers alone.
 //!
 //! Input: nodes without variables. Output: the value of a function where it is known exactly, a number with
-//! a bound of its error, and whether `f64` has one. Invariant: an exact value is exact in every scalar.
+//! a bound of its error. Invariant: an exact value is exact in every scalar.
 
 use crate::algebra::ball::Ball;
 use crate::dag::{Dag, Kind, Map, Node, Stage};
@@ -59,11 +59,17 @@ impl Dag {
         }
     }
 
+    /// Returns true if the expression is made of numbers alone.
+    #[must_use]
+    pub fn is_number(&self, node: Node) -> bool {
+        self.stage(node) == Stage::Constant && self.variables(node).is_empty()
+    }
+
     /// The value of an expression of numbers alone, with a bound of its error; infinite past the range of `f64`,
     /// `None` at a pole, or so near to one that rounding hides it.
     #[must_use]
     pub fn number(&self, root: Node) -> Option<Ball> {
-        if self.stage(root) != Stage::Constant || !self.variables(root).is_empty() {
+        if !self.is_number(root) {
             return None;
         }
         let mut values: Map<Node, Ball> = Map::default();
@@ -89,20 +95,6 @@ impl Dag {
             values.insert(node, value);
         }
         values.get(&root).copied()
-    }
-
-    /// Returns true if the coefficient of a node, or all of it where it is made of numbers alone, is past the
-    /// range of `f64`.
-    #[must_use]
-    pub fn leaves_f64(&self, node: Node) -> bool {
-        let coefficient = match self.kind(node) {
-            Kind::Constant(k) | Kind::Product(k, _) => k.leaves_f64(),
-            _ => false,
-        };
-        coefficient
-            || self
-                .number(node)
-                .is_some_and(|number| number.value.is_infinite())
     }
 }
 

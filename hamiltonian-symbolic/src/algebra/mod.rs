@@ -13,6 +13,7 @@ pub mod index;
 pub mod loops;
 pub mod model;
 pub mod normal_form;
+pub mod overflow;
 pub mod print;
 pub mod product;
 pub mod ranges;

@@ -241,6 +241,16 @@ impl Rational {
             .then(|| Rational::from_big(BigRational::new_raw(n, d)))
     }
 
+    /// The number as x·4ⁿ with x near 1; `None` of 0 or where 4ⁿ is longer than [`LONGEST`].
+    #[must_use]
+    pub fn in_powers_of_four(&self) -> Option<(Rational, i32)> {
+        let value = self.big();
+        let bits = |part: &BigInt| i64::try_from(part.bits()).ok();
+        let n = i32::try_from((bits(value.numer())? - bits(value.denom())?) / 2).ok()?;
+        let power = Rational::integer(4).pow(-n)?;
+        (!self.is_zero()).then(|| (self.mul(&power), n))
+    }
+
     /// Returns true if this is 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {

@@ -269,8 +269,15 @@ impl Dag {
             match self.kind(node).clone() {
                 Kind::Constant(value) => match multiplied(&k, &value, n) {
                     Some(product) => k = product,
-                    // 0 to a negative power is left to run time, a long number until the end.
-                    None => factors.multiply(self, node, n),
+                    // 0 to a negative power is left to run time, a long number until the end, as a power of
+                    // a number of at least 1.
+                    None => match value.recip().filter(|_| value.abs() < Rational::ONE) {
+                        Some(inverse) => {
+                            let inverse = self.constant(inverse);
+                            factors.multiply(self, inverse, -n);
+                        }
+                        None => factors.multiply(self, node, n),
+                    },
                 },
                 Kind::Product(c, inner) if self.is_taken_apart(node, &inner, n) => {
                     match multiplied(&k, &c, n) {
@@ -301,6 +308,7 @@ impl Dag {
             false
         });
         self.collect_roots(&mut product);
+        self.collect_exponentials(&mut product);
         let product = product.simplified();
         self.bare_product(product.coefficient, product.factors)
     }
@@ -351,6 +359,71 @@ impl Dag {
         }
     }
 
+    /// Exponentials of numbers as one: each may be outside the range of `f64` though the product is not.
+    fn collect_exponentials(&mut self, product: &mut Product) {
+        let mut terms = Vec::new();
+        for &(node, n) in &product.factors {
+            if n != 0
+                && let Some(exponent) = self.exponent_of_number(node)
+            {
+                terms.push((Rational::integer(i64::from(n)), exponent, node));
+            }
+        }
+        if terms.len() < 2 {
+            return;
+        }
+        let sum: Vec<_> = terms
+            .iter()
+            .map(|(n, exponent, _)| (n.clone(), *exponent))
+            .collect();
+        let sum = self.linear(&Rational::ZERO, &sum);
+        let all = self.call(Op::Exp, &[sum]);
+        product
+            .factors
+            .retain(|(node, _)| terms.iter().all(|(_, _, other)| other != node));
+        match self.as_constant(all) {
+            Some(value) => product.coefficient = product.coefficient.mul(value),
+            None => product.multiply(all, 1),
+        }
+    }
+
+    /// x of exp(x) if x is made of numbers alone.
+    fn exponent_of_number(&self, node: Node) -> Option<Node> {
+        match self.kind(node) {
+            Kind::Call(Op::Exp, x) if self.is_number(x[0]) => Some(x[0]),
+            _ => None,
+        }
+    }
+
+    /// ln or √ of a number that may be outside the range of `f64`.
+    fn of_far_number(&mut self, op: Op, x: Node) -> Option<Node> {
+        if let Some(exponent) = self.exponent_of_number(x) {
+            return Some(match op {
+                Op::Ln => exponent,
+                _ => {
+                    let half = self.scale(&Rational::new(1, 2), exponent);
+                    self.call(Op::Exp, &[half])
+                }
+            });
+        }
+        let value = self
+            .as_constant(x)
+            .filter(|k| k.leaves_f64() && !k.is_negative())?;
+        // value = part·2^2n
+        let (part, n) = value.in_powers_of_four()?;
+        let part = self.constant(part);
+        let near = self.call(op, &[part]);
+        let two = self.integer(2);
+        Some(match op {
+            Op::Ln => {
+                let log = self.call(Op::Ln, &[two]);
+                let k = Rational::integer(2 * i64::from(n));
+                self.linear(&Rational::ZERO, &[(Rational::ONE, near), (k, log)])
+            }
+            _ => self.product(&Rational::ONE, &[(near, 1), (two, n)]),
+        })
+    }
+
     /// `a·b` as a product that none takes apart: long products are trees of such.
     pub(crate) fn seal(&mut self, a: Node, b: Node) -> Node {
         if a == b || self.as_constant(a).is_some() || self.as_constant(b).is_some() {
@@ -370,8 +443,7 @@ impl Dag {
         }
         if let Some((n, d)) = self.as_constant(y).and_then(Rational::to_small)
             && let Some(n) = i32::try_from(n).ok()
-            && (n.unsigned_abs() <= LARGEST_POWER as u32
-                || (d == 1 && self.as_constant(x).is_some()))
+            && (n.unsigned_abs() <= LARGEST_POWER as u32 || (d == 1 && self.is_number(x)))
         {
             match d {
                 1 => return self.powi(x, n),
@@ -419,9 +491,10 @@ impl Dag {
             Op::Min | Op::Max if x == arguments[1] => return x,
             Op::Ln if self.is_one(x) => return self.integer(0),
             Op::Abs if self.is_nonnegative(x) => return x,
-            Op::Sqrt => {
-                if let Some(root) = self.exact_root(x) {
-                    return root;
+            Op::Sqrt | Op::Ln => {
+                let root = (op == Op::Sqrt).then(|| self.exact_root(x)).flatten();
+                if let Some(value) = root.or_else(|| self.of_far_number(op, x)) {
+                    return value;
                 }
             }
             _ => {}
@@ -548,10 +621,10 @@ impl ProductBuilder {
             return;
         };
         let m = self.list[at].1;
-        let most = match dag.kind(node) {
-            // A long number may still be divided away.
-            Kind::Constant(_) => i32::MAX,
-            _ => LARGEST_POWER,
+        // A long number may still be divided away.
+        let most = match dag.is_number(node) {
+            true => i32::MAX,
+            false => LARGEST_POWER,
         };
         match m
             .checked_add(n)

@@ -6,12 +6,14 @@
 use crate::dag::{Dag, Kind, Map, Node, Partial, Stage, work};
 use crate::hoist::Arrays;
 use crate::model::Model;
+use crate::overflow::OutOfRange;
 use crate::program::{Program, Purpose, Step};
 use crate::programs::balance::balance;
 use crate::programs::factor::factor;
 use crate::programs::request::request;
+use crate::programs::saturate::saturate;
 use crate::programs::share::share;
-use crate::rational::Rational;
+use crate::programs::support::support;
 use crate::schedule::{Request, prepared, schedule};
 
 /// The most operations a function may need after simplification.
@@ -26,10 +28,7 @@ pub enum NoProgram {
         operations: usize,
     },
     /// A constant outside the range of `f64`.
-    OutOfRange {
-        /// The constant; `None` if it is not rational.
-        number: Option<Rational>,
-    },
+    OutOfRange(OutOfRange),
     /// More than [`crate::index::LOOPS`] different loops.
     TooManyLoops,
     /// A fault of the engine.
@@ -46,8 +45,11 @@ pub enum NoProgram {
     },
 }
 
-/// H → requests → hoisted → factored → shared → scheduled.
+/// H → supports → requests → saturated → hoisted → factored → shared → scheduled.
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgram> {
+    let mut functions = model.functions();
+    support(&mut model.dag, &mut functions);
+    model.set_roots(&functions);
     let mut all = model.roots();
     balance(&mut model.dag, &mut all);
     model.set_roots(&all);
@@ -58,9 +60,13 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgra
         let mut request = request(model, purpose, &mut gradient).map_err(internal)?;
         let mut roots = request.roots();
         refuse(model, purpose, &roots)?;
+        support(&mut model.dag, &mut roots);
+        saturate(&mut model.dag, &mut roots);
         arrays.hoist(&mut model.dag, &model.parameters, &mut roots);
         factor(&mut model.dag, &mut roots);
-        in_range(&model.dag, &roots)?;
+        if let Some(number) = model.dag.out_of_range(&roots) {
+            return Err(NoProgram::OutOfRange(number));
+        }
         share(&mut model.dag, &mut roots, Stage::Evaluation);
         request.replace_roots(&roots);
         requests.push(request);
@@ -128,31 +134,6 @@ fn stores(steps: &[Step]) -> usize {
         Step::Let(_) | Step::Accumulate(..) => 0,
     };
     steps.iter().map(count).sum()
-}
-
-/// Refuses constants outside the range of `f64`.
-fn in_range(dag: &Dag, roots: &[Node]) -> Result<(), NoProgram> {
-    let refused = |number: Option<&Rational>| {
-        Err(NoProgram::OutOfRange {
-            number: number.cloned(),
-        })
-    };
-    for node in dag.reachable(roots) {
-        match dag.kind(node) {
-            Kind::Constant(k) | Kind::Product(k, _) if k.leaves_f64() => return refused(Some(k)),
-            Kind::Sum(c, terms) => {
-                let mut numbers = std::iter::once(c).chain(terms.iter().map(|(k, _)| k));
-                if let Some(k) = numbers.find(|k| k.leaves_f64()) {
-                    return refused(Some(k));
-                }
-            }
-            _ => {}
-        }
-        if dag.leaves_f64(node) {
-            return refused(None);
-        }
-    }
-    Ok(())
 }
 
 fn refuse(model: &Model, purpose: Purpose, roots: &[Node]) -> Result<(), NoProgram> {

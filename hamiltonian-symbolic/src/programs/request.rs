@@ -11,6 +11,7 @@ use crate::model::{ExactFlow, Model, Motion, Piece, VectorEntry};
 use crate::op::Op;
 use crate::program::{Purpose, Target};
 use crate::programs::stencil::at_sites;
+use crate::programs::support::support;
 use crate::schedule::{Request, Store};
 use crate::sort::Arrange;
 
@@ -176,6 +177,9 @@ fn updates(dag: &mut Dag, motion: &Motion) -> Vec<Store> {
 
 /// The stores that add c·J∇h of an expression.
 fn rates(model: &mut Model, h: Node) -> Vec<Store> {
+    let mut h = [h];
+    support(&mut model.dag, &mut h);
+    let [h] = h;
     let entries = model.partials(h);
     sums(&mut model.dag, entries)
 }

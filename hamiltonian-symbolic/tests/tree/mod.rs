@@ -178,6 +178,16 @@ impl Tree {
         }
         values.last().copied().unwrap_or(f64::NAN)
     }
+    /// Returns true if functions of exponentials occur.
+    pub fn has_exponentials(&self) -> bool {
+        let is_one = |part: &Part| {
+            matches!(
+                part,
+                Part::Call(Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh | Op::Tanh, _)
+            )
+        };
+        self.0.iter().any(is_one)
+    }
     /// Returns true if a variable occurs.
     pub fn mentions(&self, variable: usize) -> bool {
         self.0.contains(&Part::Variable(variable))

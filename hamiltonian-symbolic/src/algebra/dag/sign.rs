@@ -47,6 +47,7 @@ impl Sign {
             ValueSign::Positive => Sign::POSITIVE,
             ValueSign::NonNegative if op == Op::Sqrt => first.root(),
             ValueSign::NonNegative => Sign::NONNEGATIVE,
+            ValueSign::OfBase if first == Sign::POSITIVE => Sign::POSITIVE,
             ValueSign::OfBase if first.is_nonnegative() => Sign::NONNEGATIVE,
             ValueSign::OfBase | ValueSign::Any => Sign::UNKNOWN,
         }
@@ -87,6 +88,9 @@ impl Sign {
     /// Returns true if nothing is known, which further terms and factors do not change.
     pub(crate) fn is_unknown(self) -> bool {
         self.0 == Sign::UNKNOWN.0
+    }
+    pub(crate) fn may_be_zero(self) -> bool {
+        self.0 & Sign::ZERO.0 != 0
     }
     pub(crate) fn is_nonnegative(self) -> bool {
         self.0 & Sign::NEGATIVE.0 == 0

@@ -188,6 +188,7 @@ mod book {
         Lagrangian "tour/lagrangian.md"
         ManyPendulums "tour/sweep.md"
         Sensitivities "tour/sensitivities.md"
+        Studies "studies.md"
         Schemes "schemes.md"
         ExactFlows "exact-flows.md"
         Observers "observers.md"

@@ -7,7 +7,7 @@
 //! names contain the word alone.
 
 #[allow(dead_code)]
-#[path = "../tests/cargo/mod.rs"]
+#[path = "../tests/toolchain/cargo.rs"]
 mod cargo;
 
 use cargo::{Package, Workspace, workspace, write};

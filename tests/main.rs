@@ -1,5 +1,5 @@
-//! The library as its users see it: definitions through the macro, runs, and what rustc and cargo
-//! make of them.
+//! The library as its users see it: definitions through the macro, and runs. What rustc and cargo make of definitions is
+//! in `toolchain`, most of the generated definitions are in `generated`.
 
 // Under another name, as `hygiene` names it.
 extern crate hamiltonian as mechanics;
@@ -8,8 +8,6 @@ extern crate hamiltonian as mechanics;
 mod allocator;
 pub mod arrays;
 pub mod brackets;
-mod budgets;
-mod cargo;
 mod circles;
 mod common;
 pub mod compiled;
@@ -17,9 +15,10 @@ mod compositions;
 pub mod coordinates;
 mod corpus;
 mod counting;
-mod crates;
 pub mod dynamics;
 mod examples;
+#[path = "compiled/expressions.rs"]
+mod expressions;
 pub mod flows;
 mod forces;
 pub mod geometry;
@@ -29,7 +28,6 @@ pub mod lagrangian;
 pub mod language;
 mod lattices;
 mod layout;
-mod limits;
 pub mod long;
 mod loops;
 mod matrices;
@@ -44,7 +42,6 @@ pub mod planets;
 mod potentials;
 mod processed;
 mod products;
-mod profiles;
 pub mod readme;
 mod reindexed;
 pub mod sizes;
@@ -60,7 +57,4 @@ pub mod systems;
 #[allow(dead_code, unused_imports)]
 #[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]
 mod tree;
-mod ui;
-#[path = "../benches/support/valgrind.rs"]
-mod valgrind;
 pub mod variables;

@@ -5,9 +5,6 @@ use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::Coupled;
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::walk::{
-    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
-};
 use hamiltonian_core::{
     Real, Scheme, Vector,
     schemes::author::{Clock, Flow, Map, Point, Scratch, Step, VectorField},
@@ -117,36 +114,6 @@ fn lanes_are_lone_runs() {
         Adjoint(SymplecticEuler::KickDrift),
         ImplicitMidpoint::default(),
     );
-}
-
-/// Errors name the lane and the step, which are those of the lone run.
-#[test]
-fn failures_name_their_lane() {
-    struct Escapes;
-    impl Visitor<Four, Hand<HenonHeiles, 2>> for Escapes {
-        fn visit<M: Scheme<Four, Hand<HenonHeiles, 2>>>(&mut self, scheme: M) {
-            let start = lanes(
-                [[0.1, -0.2, 0.3, 0.0], [0.1, 0.0, 1.2, 0.2]],
-                [[0.1, 0.2, 0.4, 0.0], [0.0, 0.1, 0.6, 0.1]],
-            );
-            let name = scheme.entry().name;
-            let mut run =
-                Integrator::new(&Hand(HenonHeiles), scheme, start, Four([0.01; 4])).unwrap();
-            let error = run.advance(100_000).unwrap_err();
-            match &error {
-                Error::NotFinite { lane, step, .. } | Error::Solve { lane, step, .. } => {
-                    assert_eq!((*lane, *step), (Some(2), run.steps() + 1), "{name}");
-                }
-                other => panic!("{name}: {other:?}"),
-            }
-            assert!(error.to_string().contains("lane 2"), "{error}");
-            assert!(run.state().q.is_finite() && run.state().p.is_finite());
-        }
-    }
-    visit_any(&mut Escapes);
-    visit_unforced(&mut Escapes);
-    visit_separable(&mut Escapes);
-    visit_split(&mut Escapes);
 }
 
 /// A solve that fails in one lane says so of that one, and leaves the others' bits as they are.

@@ -3,6 +3,7 @@
 //! Input: schemes on systems written by hand. Output: numbers against closed forms and against
 //! schemes that should do worse. Invariant: every bound has a scheme that breaks it.
 
+use super::common::kepler::Kepler;
 use super::common::systems::{
     Formula, Halves, Hand, HenonHeiles, Paper34, Pendulum, counting, counting::Counted34, pendulum,
     scalar,
@@ -204,30 +205,6 @@ fn steps_with_few_stages_have_the_same_bits_together_and_one_by_one() {
         matches!(error, Error::Solve { step, .. } if step > 1),
         "{error}"
     );
-}
-
-/// Kepler's problem in the plane.
-#[derive(Debug, Clone)]
-pub struct Kepler;
-
-impl Formula<2> for Kepler {
-    const NAME: &'static str = "Kepler";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
-    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
-        let half = T::constant(0.5, 0.0);
-        half * (*px * *px + *py * *py) - T::one() / (*x * *x + *y * *y).sqrt()
-    }
-}
-
-impl Halves<2> for Kepler {
-    fn force<T: Real>(&self, _: T, [x, y]: &[T; 2]) -> [T; 2] {
-        let square = *x * *x + *y * *y;
-        let cube = square * square.sqrt();
-        [*x / cube, *y / cube]
-    }
-    fn velocity<T: Real>(&self, _: T, p: &[T; 2]) -> [T; 2] {
-        *p
-    }
 }
 
 /// Q = r^(−3/2).

@@ -4,150 +4,13 @@
 //! figures of long runs. Invariant: a scheme has the order and preserves the form in its entry, and
 //! schemes that should not have them fail the same checks.
 
+use super::common::measures::{assert_order, defect, slopes, tangent};
 use super::common::systems::{DoublePendulum, Hand, HenonHeiles, Paper34, Pumped, Relativistic};
-use super::common::walk::{Sample, everywhere};
 use super::common::{difference, start};
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::author::Splitting;
 use hamiltonian_core::schemes::*;
-use hamiltonian_core::schemes::{
-    author::Splitting,
-    walk::{Visitor, visit_exact},
-};
-use hamiltonian_core::{
-    DoubleDouble, Dual, Integrator, Real, Scheme, State, System, Vector, schemes::author::Form,
-};
-
-/// The slopes between successive halvings of the step, from differences of successive results, with
-/// the largest over `parts` times up to the span.
-pub fn slopes<S, M>(
-    system: &S,
-    scheme: &M,
-    start: &State<S::Vector>,
-    span: f64,
-    steps: u64,
-) -> Vec<f64>
-where
-    S: System<DoubleDouble>,
-    M: Scheme<DoubleDouble, S>,
-{
-    const PARTS: u64 = 4;
-    let states: Vec<Vec<_>> = (0..6)
-        .map(|halving| {
-            let steps = steps << halving;
-            let h = DoubleDouble::from(span) / DoubleDouble::from((PARTS * steps) as f64);
-            let run = Integrator::new(system, scheme.clone(), start.clone(), h);
-            let mut run = run.expect("a good start");
-            (0..PARTS)
-                .map(|_| run.advance(steps).expect("good steps").clone())
-                .collect()
-        })
-        .collect();
-    let errors: Vec<_> = (states.windows(2))
-        .map(|pair| {
-            (pair[0].iter().zip(&pair[1]))
-                .map(|(coarse, fine)| difference(coarse, fine))
-                .fold(0.0, f64::max)
-        })
-        .collect();
-    errors
-        .windows(2)
-        .map(|pair| (pair[0] / pair[1]).log2())
-        .collect()
-}
-
-/// The distance of the mean of the last three of four slopes from the entry's order.
-fn off_order<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64) -> f64
-where
-    S: System<DoubleDouble>,
-    M: Scheme<DoubleDouble, S>,
-{
-    let entry = scheme.entry();
-    let slopes = slopes(system, scheme, start, span, steps);
-    let (name, variant) = (entry.name, entry.variant);
-    println!("{name} {variant} on {}: {slopes:.3?}", S::NAME);
-    let mean = slopes[1..].iter().sum::<f64>() / (slopes.len() - 1) as f64;
-    (mean - f64::from(entry.order)).abs()
-}
-
-/// The slope of the entry's order, within 0.1.
-pub fn assert_order<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64)
-where
-    S: System<DoubleDouble>,
-    M: Scheme<DoubleDouble, S>,
-{
-    let off = off_order(system, scheme, start, span, steps);
-    assert!(off <= 0.1, "{:?}: {off}", scheme.entry());
-}
-
-/// From coarse steps for schemes of high order.
-struct Orders {
-    missed: Vec<String>,
-}
-
-impl<S: Sample<DoubleDouble>> Visitor<DoubleDouble, S> for Orders {
-    fn visit<M: Scheme<DoubleDouble, S>>(&mut self, scheme: M) {
-        let steps = match scheme.entry().order {
-            0..=4 => 32,
-            5..=8 => 16,
-            _ => 4,
-        };
-        let off = off_order(&S::sample(), &scheme, &S::begin(), 2.0, steps);
-        // False for NaN.
-        let meets = off <= 0.1;
-        if !meets {
-            self.missed.push(format!("{:?}: {off}", scheme.entry()));
-        }
-    }
-}
-
-#[test]
-fn every_scheme_has_its_order() {
-    let mut orders = Orders { missed: Vec::new() };
-    everywhere::<DoubleDouble, _>(&mut orders);
-    assert!(orders.missed.is_empty(), "{:#?}", orders.missed);
-}
-
-/// The form each scheme says it preserves, over three steps; the forms of two points are measured on the
-/// carried values, at the root of the workspace.
-struct Forms {
-    missed: Vec<String>,
-}
-
-impl<S: Sample<Dual<f64>>> Visitor<Dual<f64>, S> for Forms {
-    fn visit<M: Scheme<Dual<f64>, S>>(&mut self, scheme: M) {
-        let entry = scheme.entry();
-        let defect = defect::<f64>(&tangent(&S::sample(), &scheme, &S::begin(), 0.05, 3));
-        println!(
-            "{} {} on {}: {defect:.1e}",
-            entry.name,
-            entry.variant,
-            S::NAME
-        );
-        let right = match entry.preserves {
-            Form::OnePoint => defect <= 3e-13,
-            // Of the observed state, whatever is carried.
-            _ => defect > 1e-11,
-        };
-        if !right {
-            self.missed.push(format!("{entry:?}: {defect:e}"));
-        }
-    }
-}
-
-#[test]
-fn every_scheme_preserves_its_form() {
-    let mut forms = Forms { missed: Vec::new() };
-    everywhere::<Dual<f64>, _>(&mut forms);
-    assert!(forms.missed.is_empty(), "{:#?}", forms.missed);
-}
-
-/// H = √(1 + p²) − cos q + q⁴/10.
-#[test]
-fn tables_have_their_order_where_neither_half_is_quadratic() {
-    let mut orders = Orders { missed: Vec::new() };
-    visit_exact::<DoubleDouble, Hand<Relativistic, 1>>(&mut orders);
-    assert!(orders.missed.is_empty(), "{:#?}", orders.missed);
-}
+use hamiltonian_core::{DoubleDouble, Dual, Integrator, Scheme, State, System};
 
 #[test]
 fn splittings_have_their_order_where_both_pieces_depend_on_time() {
@@ -271,52 +134,6 @@ fn figures_of_the_papers_34() {
     assert!(drift_34(Gauss::<2>::default(), 0.1) <= 4.7e-5);
     assert!((drift_34(Tao { omega: 20.0 }, 0.1) - 0.079).abs() <= 0.0005);
     assert!(drift_34(Tao { omega: 20.0 }, 0.01) <= 6.3e-4);
-}
-
-/// The tangent of the visible state after `steps` steps, by dual numbers over any scalar.
-pub fn tangent<T, S, M>(
-    system: &S,
-    scheme: &M,
-    start: &State<S::Vector>,
-    h: f64,
-    steps: u64,
-) -> Vec<Vec<T>>
-where
-    T: Real,
-    S: System<Dual<T>>,
-    M: Scheme<Dual<T>, S>,
-{
-    let n = start.q.len();
-    let column = |seed: usize| {
-        let mut start = start.clone();
-        let moved = if seed < n { &mut start.q } else { &mut start.p };
-        moved.component_mut(seed % n).eps = T::one();
-        let h = Dual::fixed(T::constant(h, 0.0));
-        let run = Integrator::new(system, scheme.clone(), start, h);
-        let mut run = run.expect("a good start");
-        let end = run.advance(steps).expect("good steps");
-        (end.q.components().chain(end.p.components()))
-            .map(|x| x.eps)
-            .collect()
-    };
-    (0..2 * n).map(column).collect()
-}
-
-/// The largest entry of MᵀJM − J over ‖M‖².
-pub fn defect<T: Real>(columns: &[Vec<T>]) -> f64 {
-    let n = columns.len() / 2;
-    let (mut defect, mut size) = (0.0_f64, 0.0_f64);
-    for (i, a) in columns.iter().enumerate() {
-        for (j, b) in columns.iter().enumerate() {
-            let mut sum = T::constant(f64::from(i8::from(i == j + n) - i8::from(j == i + n)), 0.0);
-            for k in 0..n {
-                sum += a[k] * b[k + n] - a[k + n] * b[k];
-            }
-            defect = defect.max(sum.magnitude());
-            size = size.max(a[j].magnitude());
-        }
-    }
-    defect / (size * size)
 }
 
 pub fn symplectic<M>(scheme: M)

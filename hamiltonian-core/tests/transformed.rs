@@ -1,51 +1,15 @@
 //! Another time: Kepler's problem in even steps of a monitor function, its form, and refused monitors.
 
-use super::common::systems::{Formula, Hand};
-use super::preserving::{Close, Kepler};
-use super::schemes::{assert_order, defect, tangent};
+use super::common::kepler::{InRadius, Kepler, in_radius, pericentre};
+use super::common::measures::{assert_order, defect, tangent};
+use super::common::systems::Hand;
+use super::preserving::Close;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
-    Autonomous, DoubleDouble, Dual, Error, Integrator, QuadraticKinetic, Real, Scheme, State,
-    System, TimeTransformed, Vector,
-    schemes::author::{Dynamics, Group, VectorField, WithTime},
+    DoubleDouble, Dual, Error, Integrator, Scheme, State, System, Vector,
+    schemes::author::{Dynamics, VectorField, WithTime},
 };
-
-/// g = √(x² + y²), and a term of p_y where it is asked for.
-#[derive(Debug, Clone)]
-pub struct Radius {
-    with_momentum: bool,
-}
-
-impl Formula<2> for Radius {
-    const NAME: &'static str = "Radius";
-    const GROUPS: &'static [Group] = Kepler::GROUPS;
-    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], p: &[T; 2]) -> T {
-        let radius = (*x * *x + *y * *y).sqrt();
-        if self.with_momentum {
-            radius + T::constant(0.125, 0.0) * p[1] * p[1]
-        } else {
-            radius
-        }
-    }
-}
-
-impl Autonomous for Hand<Kepler, 2> {}
-impl Autonomous for Hand<Radius, 2> {}
-impl QuadraticKinetic for Hand<Kepler, 2> {}
-
-pub type InRadius = TimeTransformed<Hand<Kepler, 2>, Hand<Radius, 2>>;
-
-pub fn in_radius(with_momentum: bool) -> InRadius {
-    TimeTransformed::new(Hand(Kepler), Hand(Radius { with_momentum }))
-}
-
-/// An ellipse of eccentricity e from its pericentre; H = −1/2.
-pub fn pericentre<T: Real>(e: f64) -> State<SVector<T, 2>> {
-    let number = |x: f64| T::constant(x, 0.0);
-    let speed = (number(1.0 + e) / number(1.0 - e)).sqrt();
-    State::over([number(1.0 - e), T::zero()], [T::zero(), speed])
-}
 
 /// The largest |H + ½| of each tenth of a run.
 fn tenths(scheme: impl Scheme<f64, InRadius>, h: f64, steps: u64) -> Vec<f64> {

@@ -4,11 +4,12 @@
 //! momentum maps, forced motion. Invariant: actions are computed here from the Lagrangian and the
 //! path, with none of the library's equations.
 
+use super::common::measures::assert_order;
 use super::common::start;
 use super::common::systems::{
     DoublePendulum, Formula, Hand, Pendulum, Pumped, Relativistic, pendulum, scalar,
 };
-use super::schemes::{assert_order, on_34, on_the_double_pendulum, symplectic};
+use super::schemes::{on_34, on_the_double_pendulum, symplectic};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::Ends;
 use hamiltonian_core::schemes::collocation::Collocation;

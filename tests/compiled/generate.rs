@@ -1,13 +1,14 @@
-//! The generator: trees from seeds, and the file the macro reads them from.
+//! The generator: trees from seeds, and the files the macro reads them from.
 
 use super::interpret::Interpreted;
 use crate::tree::{PAIRS, Part, Random, TIME, Test, Tree, grow};
+use core::ops::Range;
 use hamiltonian_symbolic::dag::{Kind, Node, Stage};
 use hamiltonian_symbolic::op::Op;
 use std::fmt::Write;
 
 /// The number of expressions.
-pub const COUNT: usize = 256;
+const COUNT: usize = 256;
 /// The number of points each is evaluated at.
 pub const TESTS: usize = 16;
 
@@ -124,14 +125,21 @@ fn with_places(part: Part, m: impl Fn(usize) -> usize) -> Part {
     }
 }
 
-/// The text of `expressions.rs`.
-pub fn file() -> String {
-    let mut text = String::from(
+/// The text of a file with the expressions of these numbers.
+pub fn file(name: &str, numbers: Range<usize>) -> String {
+    let mut text = format!(
         "//! Random expressions for the macro. Made by `generate.rs`; not to be edited.\n\n\
-         use hamiltonian::hamiltonian;\n",
+         // Not every random expression reads every parameter.\n\
+         #![allow(unused_variables)]\n\n\
+         use hamiltonian::hamiltonian;\n\n\
+         /// The name of this file.\n\
+         pub const FILE: &str = {name:?};\n\n\
+         /// The numbers of the expressions in it.\n\
+         pub const NUMBERS: core::ops::Range<usize> = {numbers:?};\n"
     );
     let trees = trees();
-    for (number, (tree, _)) in trees.iter().enumerate() {
+    let here = || numbers.clone().zip(&trees[numbers.clone()]);
+    for (number, (tree, _)) in here() {
         let h = tree.text();
         // Writing to a string does not fail.
         let _ = write!(
@@ -139,8 +147,8 @@ pub fn file() -> String {
             "\nhamiltonian! {{\n    pub struct E{number} {{ a, b, c }}\n    H(x, y; px, py; t) = {h}\n}}\n"
         );
     }
-    text.push_str("\nsuper::list! {\n");
-    for (number, (_, kind)) in trees.iter().enumerate() {
+    text.push_str("\ncrate::compiled::list! {\n");
+    for (number, (_, kind)) in here() {
         let _ = writeln!(text, "    {number} E{number} {kind}");
     }
     text.push_str("}\n");

@@ -5,6 +5,8 @@
 pub mod allocator;
 pub mod chain;
 pub mod four;
+pub mod kepler;
+pub mod measures;
 pub mod pieces;
 pub mod python;
 pub mod random;

@@ -2,9 +2,9 @@
 //!
 //! Input: an action on a scheme. Output: the action done with each. Invariant: no entry is left out.
 
+use super::kepler::{InRadius, in_radius, pericentre};
 use super::start;
 use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic, scalar};
-use crate::transformed::{InRadius, in_radius, pericentre};
 use hamiltonian_core::schemes::{
     author::catalogue,
     walk::{

@@ -6,7 +6,7 @@
 //!
 //! `cargo bench --bench compile` prints times.
 
-use crate::{cargo, common, valgrind};
+use crate::{cargo, valgrind};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -35,7 +35,7 @@ fn examples_are_expanded_within_their_budget() {
         .filter(|path| path.extension().is_some_and(|extension| extension == "rs"))
         .collect();
     files.sort();
-    if !common::is_heavy() {
+    if !crate::is_heavy() {
         files.retain(|file| file.ends_with("toda.rs"));
     }
     let mut counts = Vec::new();
@@ -72,7 +72,7 @@ fn examples_are_expanded_within_their_budget() {
         }
     }
     // A count of nothing would pass anything.
-    assert!(counts.len() >= if common::is_heavy() { 10 } else { 1 });
+    assert!(counts.len() >= if crate::is_heavy() { 10 } else { 1 });
     assert!(counts.iter().all(|(_, count, _)| *count > 10_000_000));
     let over = counts.iter().filter(|(_, count, budget)| count > budget);
     let over: Vec<_> = over.collect();
@@ -115,7 +115,7 @@ fn products_grow_nearly_linearly() {
         format!("hamiltonian! {{ H(q[{count}]; p[{count}]) = {product} + {squares} }}")
     };
     // Quadratic terms show in the large ones best, which take a minute.
-    let by = if common::is_heavy() { 4 } else { 1 };
+    let by = if crate::is_heavy() { 4 } else { 1 };
     let sines = [25 * by, 100 * by].map(|n| count(&format!("sines {n}"), &sines(n)));
     let scalars = [12 * by, 48 * by].map(|n| count(&format!("scalars {n}"), &scalars(n)));
     let array = [12 * by, 48 * by].map(|n| count(&format!("array {n}"), &array(n)));

@@ -4,7 +4,6 @@
 //! `HAMILTONIAN_HEAVY=1` adds a sum just below the largest that is accepted.
 
 use crate::cargo::{Package, workspace, write};
-use crate::common;
 use std::fmt::Write;
 use std::fs;
 
@@ -67,7 +66,7 @@ fn cases() -> Vec<Case> {
         ),
         case("different_300", waves(300), None),
     ];
-    if common::is_heavy() {
+    if crate::is_heavy() {
         cases.push(case("different_6_500", waves(6_500), None));
     }
     cases

@@ -3,7 +3,7 @@
 use crate::cargo::{Package, workspace, write};
 use std::fs::create_dir_all;
 
-#[path = "crates/profiles.rs"]
+#[path = "../crates/profiles.rs"]
 mod runs;
 
 const STEP: f64 = 0.0625;

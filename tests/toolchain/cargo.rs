@@ -62,7 +62,7 @@ impl Package {
         let root = env!("CARGO_MANIFEST_DIR");
         let dependency = match self.dependency {
             Dependency::Library(name, std) => format!(
-                "{name} = {{ package = \"hamiltonian\", path = {root:?}, default-features = {std} }}"
+                "{name} = {{ package = \"hamiltonian-dynamics\", path = {root:?}, default-features = {std} }}"
             ),
             Dependency::Package(name) => format!("{name} = {{ path = \"../{name}\" }}"),
         };

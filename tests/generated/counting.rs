@@ -1,0 +1,4 @@
+//! The scalar whose functions are calls.
+
+#[path = "../counting/counted.rs"]
+pub mod counted;

@@ -34,6 +34,16 @@
 //! | [`tangents`] | Lyapunov exponents and periodic orbits |
 //! | `plot` | pictures of results, with the feature `plot` |
 //! | [`gallery`] | the pictures of the examples |
+//!
+//! | feature | |
+//! |---|---|
+//! | `std` (default) | ensembles on threads, files, the features of the CPU; without it the crate is `no_std` with `alloc` |
+//! | `rayon` (default) | one run on several threads |
+//! | `linear-algebra` | norms and decompositions of vectors and matrices, by nalgebra |
+//! | `progress` | a progress bar as an observer |
+//! | `plot` | pictures of results, as SVG |
+//!
+//! The package is `hamiltonian-dynamics`, the library in it `hamiltonian`.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 

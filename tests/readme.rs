@@ -40,6 +40,18 @@ fn its_first_program_prints_what_it_says() -> Result<(), Error> {
     Ok(())
 }
 
+/// The README of the macro, whose package cannot depend on the library, shows the tested example of its front page.
+#[test]
+fn the_macro_shows_a_tested_example() {
+    let (_, listings) = prose_and_listings(&read(&root().join("hamiltonian-macros/README.md")));
+    let [listing] = &listings[..] else {
+        panic!("{listings:?}");
+    };
+    let shown = listing.strip_prefix("```rust\n").expect("Rust");
+    let page = read(&root().join("src/lib.rs")).replace("//! ", "");
+    assert!(page.replace("//!\n", "\n").contains(shown), "{shown}");
+}
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }

@@ -54,6 +54,10 @@
 // A public signature must not give away a level that not every CPU has.
 #![deny(private_bounds, private_interfaces)]
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 mod double_double;
 
 #[allow(unsafe_code)]

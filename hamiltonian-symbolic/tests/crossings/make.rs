@@ -442,6 +442,28 @@ pub const WRONG: &[Wrong] = &[
         "",
     ),
     (
+        "two thresholds that differ on the step, where an orbit rests",
+        [
+            "x, y; p, u",
+            "",
+            "",
+            "(p^2 + u^2)/2 + (if x < 0 { y } else { 0 }) - if x <= 0 { y } else { 0 }",
+            "u",
+        ],
+        "",
+    ),
+    (
+        "a sign and a threshold that differ on the step",
+        [
+            "x, y; p, u",
+            "",
+            "",
+            "(p^2 + u^2)/2 + y*(1 + sign(x)) - if 0 < x { 2*y } else { 0 }",
+            "u",
+        ],
+        "",
+    ),
+    (
         "signs that cancel in an open set",
         [
             "x, y, z; p, u, w",
@@ -509,6 +531,16 @@ pub const RIGHT: &[(&str, [&str; 5])] = &[
             "",
             "(u^2 + v^2)/2 + 1/x^2 - 1/y^2",
             "sign(x)",
+        ],
+    ),
+    (
+        "the divisor has a step of H",
+        [
+            "x, y; p, u",
+            "",
+            "",
+            "(p^2 + u^2)/2 + 1/(3 + sign(x - y))",
+            "p + u",
         ],
     ),
     (

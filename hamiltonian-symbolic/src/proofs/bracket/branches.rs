@@ -11,7 +11,8 @@ use crate::normal_form::{self, Scope};
 use crate::op::Op;
 use crate::rational::Rational;
 
-/// The function that stands for a step: no function of a definition has this number.
+/// The function that stands for the step of a sign; those of the three comparisons have the numbers below it.
+/// They differ, as signs and comparisons do at the step itself. No function of a definition has these numbers.
 pub(super) const STEP: u16 = u16::MAX;
 
 /// The conditions below some roots whose branches agree where they switch.
@@ -125,8 +126,8 @@ fn reads(dag: &Dag, root: Node, node: Node) -> bool {
     dag.reachable(&[root]).binary_search(&node).is_ok()
 }
 
-/// An expression with its steps replaced by an arbitrary smooth function S of what is 0 there, which stands for
-/// 0 where that is negative and for 1 where it is positive, and the places of the steps; `None` if it has none.
+/// An expression with its steps replaced by arbitrary smooth functions of what is 0 there, and the places of the
+/// steps; `None` if it has none.
 pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(Node, Vec<Node>)> {
     let dag = &mut model.dag;
     let facts = Facts::of(dag, &[root], given);
@@ -157,10 +158,7 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
         Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
             steps.push(x[0]);
             let x = new[&x[0]];
-            let step = dag.external(STEP, Partial::Value, &[x]);
-            // sign x = 2·S(x) − 1
-            let terms = [(Rational::integer(2), step)];
-            dag.linear(&Rational::MINUS_ONE, &terms)
+            dag.external(STEP, Partial::Value, &[x])
         }
         _ => dag.rebuild(node, &|child| new[&child]),
     });
@@ -173,9 +171,9 @@ fn weight(dag: &mut Dag, condition: Node) -> Node {
     let one = dag.integer(1);
     let nodes = dag.reachable(&[condition]);
     let new = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
-        Kind::Compare(_, a, b) => {
+        Kind::Compare(relation, a, b) => {
             let apart = dag.sub(b, a);
-            dag.external(STEP, Partial::Value, &[apart])
+            dag.external(STEP - 1 - relation as u16, Partial::Value, &[apart])
         }
         Kind::Not(a) => {
             let a = new[&a];

@@ -4,7 +4,6 @@
 //! Output: [`Certificate`], as text that documentation quotes and a checker reads. Invariant: each place is named
 //! where something other than a derivative decides it, and each function in Rust whose formula is not known.
 
-use super::branches::STEP;
 use crate::dag::{Kind, Node};
 use crate::model::Model;
 use crate::print;
@@ -88,7 +87,6 @@ impl Certificate {
         let mut functions: Vec<String> = Vec::new();
         for node in model.dag.reachable(roots) {
             if let Kind::External(function, ..) = model.dag.kind(node)
-                && *function != STEP
                 && let Some(external) = model.externals.get(usize::from(*function))
                 && !functions.contains(&external.name)
             {

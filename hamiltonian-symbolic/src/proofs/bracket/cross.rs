@@ -305,7 +305,12 @@ impl Claim {
             }
         }
         for zero in zeros {
-            if model.dag.dependence(zero).on(Dependence::MOVING) {
+            // The functions that stand for steps have no names.
+            let count = model.externals.len();
+            let is_unnamed =
+                |kind: &Kind| matches!(kind, Kind::External(at, ..) if usize::from(*at) >= count);
+            let is_named = !model.dag.has(&[zero], is_unnamed);
+            if is_named && model.dag.dependence(zero).on(Dependence::MOVING) {
                 places.push(Place::of(model, zero, Reason::BothSidesAgree));
             }
         }

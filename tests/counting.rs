@@ -93,8 +93,8 @@ fn lattice<const N: usize>() {
     assert_eq!(work.prepare, Counts::default());
     // q − q, and into the sum ½·p·p + exp.
     assert_eq!(work.energy, with_tree(per_site(3, 2)));
-    // q − q, exp to one side and from the other; ∂H/∂p is p.
-    assert_eq!(work.gradient, per_site(3, 0));
+    // The gradient is the field with other signs: q − q, c·exp to one side and from the other; ∂H/∂p is c·p.
+    assert_eq!(work.gradient, per_site(4, 2));
     assert_eq!(work.energy_and_gradient, with_tree(per_site(5, 2)));
     // Besides v − v, and exp·(v − v).
     assert_eq!(work.hessian, per_site(4, 1));
@@ -132,8 +132,9 @@ fn one_root_and_one_division_for_each_pair() {
             divisions: pairs,
             ..counts(additions, multiplications)
         };
-        // A pair: 3 differences, 2 sums for the square of the distance, 6 for the force on both.
-        let gradient = expected(linear(11, 3, 0), linear(9, 4, 0));
+        // A pair: 3 differences, 2 sums for the square of the distance, 6 for the force on both. The gradient is the kick
+        // and the drift, with coefficients 1: a body's own part of both, c·G·m and c/m, and c·G.
+        let gradient = expected(linear(11, 6, 0), linear(9, 5, 1));
         assert_eq!(work.gradient, gradient);
         let with_energy = expected(linear(12, 7, 1), linear(10, 9, 2));
         assert_eq!(work.energy_and_gradient, with_energy);

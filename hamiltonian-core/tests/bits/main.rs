@@ -1,3 +1,9 @@
-//! Members of ensembles have the bits of lone runs, on every CPU. `.ci/run` has this test for aarch64 as well.
+//! Bits: those of runs are recorded, those of members are those of lone runs, on every CPU. `.ci/run` has these tests for
+//! aarch64 as well.
 
+#[allow(dead_code, unused_imports)]
+mod common;
 mod members;
+#[path = "../common/recorded.rs"]
+mod recorded;
+mod schemes;

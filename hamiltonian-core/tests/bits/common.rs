@@ -1,0 +1,26 @@
+//! Scalars and systems of the other tests.
+
+#[path = "../common/chain.rs"]
+pub mod chain;
+#[path = "../common/kepler.rs"]
+pub mod kepler;
+#[path = "../common/systems.rs"]
+pub mod systems;
+#[path = "../common/walk.rs"]
+pub mod walk;
+
+use hamiltonian_core::{Real, State, System, Vector};
+
+/// A start at t = 0.3 in any scalar.
+pub fn start<T: Real, S: System<T>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
+    let mut state = State {
+        t: T::constant(0.3, 0.0),
+        q: system.zeros(),
+        p: system.zeros(),
+    };
+    for (i, (q, p)) in q.iter().zip(p).enumerate() {
+        *state.q.component_mut(i) = T::constant(*q, 0.0);
+        *state.p.component_mut(i) = T::constant(*p, 0.0);
+    }
+    state
+}

@@ -55,7 +55,7 @@ pub use algebra::{
 };
 pub use flows::split;
 pub use programs::{count, forces, hoist, interpret, pairs, pipeline, program, schedule, support};
-pub use proofs::{bracket, facts, legendre, structure, transform};
+pub use proofs::{bracket, facts, jumps, legendre, structure, transform};
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.
 pub const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;

@@ -39,6 +39,7 @@ mod supports;
 mod systems;
 mod tape;
 mod time;
+mod timed;
 mod transform;
 mod tree;
 mod validate;

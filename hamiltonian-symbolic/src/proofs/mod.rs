@@ -5,6 +5,7 @@
 
 pub mod bracket;
 pub mod facts;
+pub mod jumps;
 pub mod legendre;
 pub mod structure;
 pub mod transform;

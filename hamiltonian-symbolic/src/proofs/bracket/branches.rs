@@ -32,7 +32,7 @@ pub(super) fn known(dag: &mut Dag, roots: &[Node]) -> Given {
 }
 
 /// Returns true if two branches are the same wherever a = b.
-fn agree(dag: &mut Dag, (a, b): (Node, Node), yes: Node, no: Node) -> bool {
+pub(crate) fn agree(dag: &mut Dag, (a, b): (Node, Node), yes: Node, no: Node) -> bool {
     let difference = dag.sub(yes, no);
     // A variable that a sum binds is not the one of the loop around.
     let home = dag.deepest(dag.variables(a) | dag.variables(b));

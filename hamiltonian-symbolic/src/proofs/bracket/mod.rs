@@ -12,6 +12,7 @@ mod lagrange;
 mod pair;
 mod shell;
 
+pub(crate) use branches::agree;
 pub use certificate::{Certificate, Place, Reason, Rule};
 pub use pair::bracket;
 

@@ -7,12 +7,14 @@
 
 mod components;
 mod expand;
+mod growth;
 mod quadratic;
 mod separate;
 
 pub(crate) use components::components;
 pub use expand::expand;
 pub(crate) use expand::{Collected, expand_within};
+pub use growth::growth;
 pub(crate) use quadratic::degrees;
 pub use quadratic::kick_beside;
 
@@ -79,6 +81,8 @@ pub struct Structure {
     pub autonomous: Result<(), String>,
     /// Coordinates H does not depend on.
     pub cyclic: Vec<Cyclic>,
+    /// See [`growth`].
+    pub growth: Option<u32>,
 }
 
 /// The structure of the model's H (0 where there is none).
@@ -94,6 +98,7 @@ pub fn analyse(model: &mut Model) -> Structure {
         quadratic_kinetic,
         autonomous: is_autonomous(model, h),
         cyclic: cyclic(model, h),
+        growth: growth(&model.dag, h),
     }
 }
 

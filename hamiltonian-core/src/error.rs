@@ -145,6 +145,14 @@ pub enum Error {
         /// The scheme.
         scheme: &'static str,
     },
+    /// H jumps at times that do not depend on the state, and the scheme evaluates it at the ends of steps or outside of
+    /// them, where the jumps may be.
+    Jumps {
+        /// The scheme.
+        scheme: &'static str,
+        /// The system.
+        system: &'static str,
+    },
     /// A monitor that depends on time, where only q and p may occur.
     Timed {
         /// The monitor.
@@ -161,11 +169,13 @@ pub enum Error {
         /// The names that the system declares.
         known: Vec<&'static str>,
     },
-    /// A step led to a NaN or an infinity: a number grew beyond all bounds, or the exact flow of a
-    /// piece left its domain. The run stays at the state before that step.
+    /// A step led to a NaN or an infinity: a number grew beyond all bounds, the exact flow of a
+    /// piece left its domain, or H is not defined at the end of the step. The run stays at the state before that step.
     NotFinite {
         /// The number of the step, counted from 1: the first whose end is not finite.
         step: u64,
+        /// H at the end of the step, if only H is not finite there.
+        energy: Option<f64>,
         /// The piece of H whose flow led there, where the scheme is a splitting.
         piece: Option<&'static str>,
         /// The first lane it happened in, where the scalar has several.

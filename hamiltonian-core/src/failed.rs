@@ -20,6 +20,8 @@ pub(crate) struct Failed {
     pub(crate) q: Vec<f64>,
     /// The momenta at its end.
     pub(crate) p: Vec<f64>,
+    /// H at its end, if only H is not finite there.
+    pub(crate) energy: Option<f64>,
 }
 
 impl Failed {
@@ -28,6 +30,11 @@ impl Failed {
         let Failed {
             step, lane, clock, ..
         } = self;
+        // All numbers of the step are finite.
+        let cause = match self.energy {
+            Some(_) => Cause::Overflow,
+            None => cause,
+        };
         match cause {
             Cause::Unsolved {
                 residual,
@@ -42,6 +49,7 @@ impl Failed {
             },
             Cause::Overflow | Cause::Piece(_) => Error::NotFinite {
                 step,
+                energy: self.energy,
                 piece: match cause {
                     Cause::Piece(name) => Some(name),
                     _ => None,

@@ -13,7 +13,7 @@ mod part;
 mod threads;
 
 pub use advance::States;
-pub(crate) use checks::{check_start, check_state, check_step};
+pub(crate) use checks::{check_scheme, check_start, check_state, check_step};
 pub use estimate::ErrorEstimate;
 pub(crate) use part::{Part, Recipe};
 
@@ -56,6 +56,10 @@ use threads::Threads;
 /// check in every step would cost a third of a simple system's run. If the state is not finite, the run repeats the
 /// block step by step and finds the first bad step, which the error reports. The state of the run is then the one before
 /// that step. No observer receives a state that is not finite.
+///
+/// At the end of a block H must be finite too: the derivative of `ln(x)` has values where `ln(x)` has none. H is
+/// evaluated there, unless the definition shows that it is finite, as polynomials, sines and cosines are. An orbit that
+/// leaves the domain of H and returns within one block is not detected.
 ///
 /// # Type
 /// `R` is the scheme's map; [`Run`] names the type by the scheme. (With the scheme as the
@@ -130,7 +134,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] if `start` does not have
     /// the system's shape; [`Error::Start`] if it is not finite; [`Error::Values`] if H or a
     /// derivative of it is not finite there; [`Error::Shell`] for a system in another time if the start is off the shell
-    /// H = 0 by more than a thousandth of the energies in it; those of [`Scheme::check`].
+    /// H = 0 by more than a thousandth of the energies in it; [`Error::Jumps`] for a scheme that evaluates H(t) at the
+    /// ends of steps, if H jumps; those of [`Scheme::check`].
     pub fn new<M: Scheme<T, S, Map = R>>(
         system: &S,
         scheme: M,
@@ -140,7 +145,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         let start = start.into_start();
         check_step(step)?;
         let prepared = check_start(system, &start)?;
-        scheme.check(&prepared, &start)?;
+        check_scheme(&scheme, &prepared, &start)?;
         Ok(Self::begin(system, prepared, scheme, start, step))
     }
 

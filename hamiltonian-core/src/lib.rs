@@ -51,6 +51,8 @@ mod state;
 
 mod system;
 
+mod domain;
+
 mod exponential;
 mod flow;
 mod held;

@@ -424,29 +424,43 @@ macro_rules! __each {
 #[doc(hidden)]
 macro_rules! __halves {
     ($impl:tt $system:ty, $prepared:ty, $kick:ty: $($structure:ident)*) => {
-        $($crate::__halves! { @$structure $impl $system, $crate::private::Kernel<$prepared, $kick>,
+        $crate::__halves! { $impl $system, $prepared, $kick, []: $($structure)* }
+    };
+    ($impl:tt $system:ty, $prepared:ty, $kick:ty, $jumping:tt: $($structure:ident)*) => {
+        $($crate::__halves! { @$structure $jumping $impl $system, $crate::private::Kernel<$prepared, $kick>,
         $crate::private::Kernel<$prepared, $crate::private::Shifts<$crate::private::Drift>> })*
     };
-    (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
+    (@jumping) => {};
+    (@jumping $first:literal $second:literal) => {
+        const JUMPING: [$crate::private::bool; 2] = [$first, $second];
+    };
+    (@Separable [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Separable<T> for $system {
             type Kick = $kick;
             const KICK: $kick = $crate::private::Kernel::PIECE;
             type Drift = $drift;
             const DRIFT: $drift = $crate::private::Kernel::PIECE;
+            $crate::__halves! { @jumping $($jumping)* }
         }
     };
-    (@Split [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
+    // A piece that jumps in time is not first.
+    (@Split [true false] $impl:tt $system:ty, $kick:ty, $drift:ty) => {
+        $crate::__halves! { @Split [false true] $impl $system, $drift, $kick }
+    };
+    (@Split [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $first:ty, $second:ty) => {
         $($impl)* $crate::private::Split<T> for $system {
-            type Pieces = ($kick, $drift);
+            type Pieces = ($first, $second);
             const PIECES: Self::Pieces = ($crate::private::Kernel::PIECE, $crate::private::Kernel::PIECE);
+            $crate::__halves! { @jumping $($jumping)* }
         }
     };
-    (@Nystrom [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
+    (@Nystrom [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Nystrom<T> for $system {
             type Kick = $kick;
             const KICK: $kick = $crate::private::Kernel::PIECE;
             type Quadratic = $drift;
             const QUADRATIC: $drift = $crate::private::Kernel::PIECE;
+            $crate::__halves! { @jumping $($jumping)* }
         }
     };
 }

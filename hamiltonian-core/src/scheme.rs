@@ -115,6 +115,12 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
     ) {
         self.prepare(prepared, Step::of(h)).step(t, end, z, work);
     }
+    /// The first and the last time at which a step evaluates parts of H that [jump](System::JUMPS), in units of its
+    /// duration. Systems with such parts require times inside of the step. The provided method returns the ends of the
+    /// step, so that they are refused.
+    fn times_of_jumps(&self) -> [f64; 2] {
+        [0.0, 1.0]
+    }
     /// Returns an error if the scheme cannot integrate this system from this state for a reason
     /// that the bounds of the implementation do not express. The provided method returns none.
     ///

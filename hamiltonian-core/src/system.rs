@@ -84,6 +84,15 @@ pub trait System<T: Real> {
     /// H = 0, on which alone orbits are those of h. Runs ask starts for it and show h as the energy.
     const FICTITIOUS_TIME: Option<&'static str> = None;
 
+    /// `Some(n)` if H is defined for all finite numbers, and neither it nor a part of it grows faster than the n-th
+    /// power of their size. Runs do not evaluate H where it is known to be finite. `None` if nothing is known: runs
+    /// then evaluate H at the end of each block of steps.
+    const GROWTH: Option<u32> = None;
+
+    /// True if H or the force jumps at times that do not depend on the state, such as `if t < 1 { … } else { … }`. Schemes
+    /// then evaluate it inside of their steps only, or are refused, so that steps may end at the jumps.
+    const JUMPS: bool = false;
+
     /// H in the author's notation, with a force and pieces where there are some; by it a saved run is
     /// recognised.
     const FORMULA: &'static str = "";
@@ -394,6 +403,8 @@ pub trait Split<T: Real>: System<T> {
     const PIECES: Self::Pieces;
     /// The pieces as text, in the same order.
     const NAMES: &'static [&'static str] = <Self::Pieces as Pieces<T, Self::Prepared>>::NAMES;
+    /// [`JUMPS`](System::JUMPS) of the first piece, and of the others. The macro puts a piece first that does not jump.
+    const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
 
 /// H = T(p, t) + V(q, t), proven at compile time.
@@ -412,6 +423,8 @@ pub trait Separable<T: Real>: System<T> {
     const KICK: Self::Kick;
     /// The drift.
     const DRIFT: Self::Drift;
+    /// [`JUMPS`](System::JUMPS) of the kick, and of the drift.
+    const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
 
 /// H = A(q, p) + V(q, t), with A at most quadratic in p and with an exact flow. Nyström schemes require it: then
@@ -435,6 +448,8 @@ pub trait Nystrom<T: Real>: System<T> {
     const KICK: Self::Kick;
     /// The piece that is at most quadratic in p.
     const QUADRATIC: Self::Quadratic;
+    /// [`JUMPS`](System::JUMPS) of the kick, and of the other piece.
+    const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
 
 /// No force acts besides −∂H/∂q. Schemes that cannot integrate a force require it.

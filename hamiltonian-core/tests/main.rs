@@ -7,6 +7,7 @@ mod checkpoint;
 #[allow(dead_code)]
 mod common;
 mod composition;
+mod domain;
 mod drift;
 mod estimate;
 mod events;
@@ -29,6 +30,7 @@ mod schemes;
 mod shard;
 mod start;
 mod store;
+mod switched;
 mod table;
 mod tables;
 mod tangent;

@@ -7,7 +7,7 @@ use super::drive::PackScheme;
 use super::drive::deviations::Deviations;
 use super::host::Host;
 use crate::error::Error;
-use crate::integrator::Recipe;
+use crate::integrator::{Recipe, check_scheme};
 use crate::map::Map;
 use crate::scheme::Entry;
 use crate::scheme::Scheme;
@@ -228,7 +228,7 @@ impl<S: System<f64>, M: Ensembles<S>> ErasedScheme<S> for M {
         step: f64,
         words: &mut Vec<f64>,
     ) -> Result<(), Error> {
-        self.check(prepared, start)?;
+        check_scheme(self, prepared, start)?;
         words.extend(self.start(prepared, start, step).components());
         Ok(())
     }

@@ -130,14 +130,16 @@ where
                 });
             }
             let n = end - lanes.made;
+            let numbers = finite;
             if n > 0 {
                 lanes.opening = Opening::Join;
+                finite = finite & lanes.inside::<L>(end, &occupants);
             }
             if attach.is_some() {
                 occupants.begin_drifts();
             }
             if !finite.all() {
-                lanes.remove_failed::<L>(self, finite, &mut occupants, host);
+                lanes.remove_failed::<L>(self, [numbers, finite], &mut occupants, host);
             }
             if has_sections {
                 lanes.pass_marked::<L>(self, n, &mut occupants, host);
@@ -388,14 +390,38 @@ where
         occupants.drifts_written();
     }
 
+    /// Returns the lanes whose members are inside the domain of H after a block of steps, and were so at each state at
+    /// which the block evaluated H.
+    #[inline(never)]
+    fn inside<L: Level>(&mut self, made: u64, occupants: &Occupants<T, S>) -> MaskIn<T, P> {
+        L::enter_at(WriteRows::<'_, _, T, P> {
+            times: &self.times,
+            made,
+            carried: &self.carried,
+            shown: &self.shown,
+            rows: &mut self.passed_rows,
+        });
+        let inside = occupants.inside(&self.passed_rows);
+        let mut lanes = match inside.contains(&false) {
+            true => lanes_of::<L, T, P>(&inside),
+            false => Mask::splat(true),
+        };
+        for drift in &self.drifts {
+            if drift.quantity == Quantity::Energy {
+                lanes = lanes & drift.numbers()[2].finite();
+            }
+        }
+        lanes
+    }
+
     /// Removes the members that are not finite after a block. They will be replayed step by step. A member that is
-    /// being replayed is passed to the host with its error.
+    /// being replayed is passed to the host with its error. In the lanes of `numbers`, only H is not finite.
     #[cold]
     #[inline(never)]
     fn remove_failed<L: Level>(
         &mut self,
         scheme: &M,
-        finite: MaskIn<T, P>,
+        [numbers, finite]: [MaskIn<T, P>; 2],
         occupants: &mut Occupants<T, S>,
         host: &mut dyn Host<T, S>,
     ) {
@@ -434,7 +460,8 @@ where
             let single = (&run.prepared, &run.state, run.step, run.clock);
             let made = (run.made, &*run.words);
             let reached = column(&shown, 2 * size).to_f64();
-            let error = explain(scheme, single, made, &point, reached);
+            let only_energy = numbers.lane(lane as u32);
+            let error = explain(scheme, single, made, (&point, reached), only_energy);
             host.fail(&mut run, error);
         }
     }

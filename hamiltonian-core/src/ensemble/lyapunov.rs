@@ -10,7 +10,7 @@ use super::ordered::in_order;
 use super::threads;
 use super::{MakeMember, Member};
 use crate::error::Error;
-use crate::integrator::{check_start, check_step, duration};
+use crate::integrator::{check_scheme, check_start, check_step, duration};
 use crate::state::State;
 use crate::system::System;
 use crate::tangent::{aslant, check_deviations, lifted, towards};
@@ -321,7 +321,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
                 Indicator::Megno => aslant(&lifted),
                 _ => towards(&lifted, deviation),
             };
-            self.scheme.check(&prepared, &start)?;
+            check_scheme(&self.scheme, &prepared, &start)?;
             let carried = self.scheme.start(&prepared, &start, Dual::fixed(self.step));
             words.reserve_exact(count * carried.len());
             words.extend(carried.components());

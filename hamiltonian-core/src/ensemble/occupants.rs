@@ -5,6 +5,7 @@
 //! are pending until the end, when they are replayed together, step by step.
 
 use super::host::{Host, MemberRun};
+use crate::domain::inside;
 use crate::observe::Deviation;
 use crate::state::State;
 use crate::system::System;
@@ -328,6 +329,16 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
     pub(crate) fn add_pending(&mut self, mut run: MemberRun<T, S>) {
         run.system_changed = true;
         self.pending.push(run);
+    }
+
+    /// Returns true for each lane whose member is inside the domain of H, or which has none. The rows have the states,
+    /// component by component.
+    pub(crate) fn inside(&self, rows: &[T]) -> Vec<bool> {
+        let members = self.runs.iter().zip(&self.status).map(|(run, status)| {
+            let run = run.as_ref().filter(|_| *status == LaneStatus::Running)?;
+            Some((&run.prepared, &run.state))
+        });
+        inside::<T, S>(members, rows, self.status.len())
     }
 
     /// Returns true if any running member is at its stop.

@@ -103,6 +103,12 @@ impl Display for Error {
                 "the monitor function depends on momenta, and `{scheme}` asks for one of \
                  coordinates alone: `Gauss` and other schemes that ask for no structure take any"
             ),
+            Self::Jumps { scheme, system } => write!(
+                f,
+                "`{system}` jumps in time, and `{scheme}` evaluates what jumps at the ends of steps or outside of \
+                 them: use `Gauss` or `ImplicitMidpoint`, which evaluate it inside, or, if a piece of H does not \
+                 jump, `StormerVerlet`, `BlanesMoan4` or another splitting; let steps end at the jumps"
+            ),
             Self::Timed { name, system } => write!(
                 f,
                 "the monitor `{name}` of `{system}` depends on time: only a definition with \
@@ -119,6 +125,26 @@ impl Display for Error {
             ),
             Self::NotFinite {
                 step,
+                energy: Some(energy),
+                lane,
+                clock,
+                time,
+                q,
+                p,
+                ..
+            } => write!(
+                f,
+                "step {step} led to a state at which H is {energy}{}: {clock} = {}, q = {}, p = {}; \
+                 end the run before it leaves the domain of H, or take shorter steps if the orbit \
+                 stays inside",
+                Lane(*lane),
+                Number(*time),
+                Numbers(q),
+                Numbers(p)
+            ),
+            Self::NotFinite {
+                step,
+                energy: None,
                 piece,
                 lane,
                 clock,

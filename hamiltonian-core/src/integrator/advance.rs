@@ -6,6 +6,7 @@
 
 use super::part::Part;
 use super::{Integrator, MapOf, numbers};
+use crate::domain;
 use crate::error::Error;
 use crate::failed::Failed;
 use crate::map::{Clock, Map, ScalarOf};
@@ -15,7 +16,7 @@ use crate::system::{System, clock};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
-/// The number of steps between two checks that everything is finite: few enough that a bad block is
+/// The number of steps between two checks that everything is finite, H included: few enough that a bad block is
 /// repeated quickly, enough that the check costs nothing.
 const BLOCK: u64 = 1024;
 
@@ -30,7 +31,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// Makes `n` steps and returns the state after them. If an observer ends the run, there are fewer steps.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::Solve`]. Then [`state`](Integrator::state) is the last finite state. For a
+    /// [`Error::NotFinite`], [`Error::Solve`]. Then [`state`](Integrator::state) is the last finite state. H is
+    /// evaluated at the end of blocks, see [Blocks](Integrator#blocks). For a
     /// resumed run, [`Error::Checkpoint`] if its observers are not those that were saved.
     pub fn advance(&mut self, n: u64) -> Result<&State<S::Vector>, Error> {
         if let Some(error) = &self.refused {
@@ -102,8 +104,13 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         Ok(())
     }
 
-    /// Makes `n` steps from a snapshot. Returns true if everything is finite after them.
+    /// Makes `n` steps from a snapshot. Returns true if everything is finite after them, H included.
     fn makes(&mut self, n: u64) -> bool {
+        self.makes_numbers(n) && domain::is_inside::<T, S>(&self.prepared, &self.state)
+    }
+
+    /// Makes `n` steps from a snapshot. Returns true if all numbers are finite after them.
+    fn makes_numbers(&mut self, n: u64) -> bool {
         let steps = Steps {
             map: &self.map,
             work: &mut self.work,
@@ -135,7 +142,12 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                 continue;
             }
             let bad = !(self.carried.finite() & self.shown.finite());
-            let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
+            let undefined = match bad.any() {
+                true => None,
+                false => domain::undefined::<T, S>(&self.prepared, &self.state),
+            };
+            let bad = bad.first().or(undefined.map(|(lane, _)| lane));
+            let lane = (T::LANES > 1).then(|| bad.unwrap_or(0));
             let made = self.steps - self.began;
             let (begin, end) = (self.clock.at(made), self.clock.at(made + 1));
             self.carried.copy_from(&self.snapshot);
@@ -150,6 +162,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                 end: self.state.t.to_f64(),
                 q: numbers(&self.state.q),
                 p: numbers(&self.state.p),
+                energy: undefined.map(|(_, energy)| energy),
             };
             let error = failed.because(cause);
             self.carried.copy_from(&self.snapshot);

@@ -6,6 +6,7 @@
 use super::{numbers, parameter_without_value, parameters};
 use crate::error::Error;
 use crate::output::names;
+use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::{Dynamics, System, clock, declared_energy};
 use crate::vector::Vector;
@@ -48,6 +49,24 @@ pub(crate) fn check_start<T: Real, S: System<T>>(
     let prepared = system.prepare();
     check_values(system, &prepared, start)?;
     Ok(prepared)
+}
+
+/// Returns an error for a scheme that cannot integrate this system from this state.
+pub(crate) fn check_scheme<T: Real, S: System<T>, M: Scheme<T, S>>(
+    scheme: &M,
+    prepared: &S::Prepared,
+    start: &State<S::Vector>,
+) -> Result<(), Error> {
+    /// Sums of weights are rounded.
+    const ROUNDING: f64 = 1e-9;
+    if S::JUMPS {
+        let [first, last] = scheme.times_of_jumps();
+        if !(first > ROUNDING && last < 1.0 - ROUNDING) {
+            let (scheme, system) = (scheme.entry().name, S::NAME);
+            return Err(Error::Jumps { scheme, system });
+        }
+    }
+    scheme.check(prepared, start)
 }
 
 /// Returns an error if H or a first derivative is not finite, or if the start is off the shell of

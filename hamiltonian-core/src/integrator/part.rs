@@ -4,6 +4,7 @@
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
 use super::{Integrator, MapOf, numbers};
+use crate::domain;
 use crate::error::Error;
 use crate::failed::Failed;
 use crate::flow::Scratch;
@@ -129,16 +130,20 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
             map.step(from.t, t, &mut carried, &mut work);
             let reached = carried.time(t);
             if !(carried.is_finite() && reached.is_finite()) {
-                return Err(self.explain(&map, from, h, t));
+                return Err(self.explain(&map, from, h, t, &carried));
             }
             missed = (reached - t).magnitude();
             if missed <= rounding {
                 let point = carried.point();
-                return Ok(State {
+                let state = State {
                     t: reached,
                     q: point.q.clone(),
                     p: point.p.clone(),
-                });
+                };
+                if !domain::is_inside::<T, S>(self.prepared, &state) {
+                    return Err(self.explain(&map, from, h, t, &carried));
+                }
+                return Ok(state);
             }
             part *= (t - from.t) / (reached - from.t);
         }
@@ -152,22 +157,31 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
         })
     }
 
+    /// The error of the step of size `h` from `from` that led to `carried`.
     #[cold]
-    fn explain(&self, map: &R, from: &State<S::Vector>, h: T, t: T) -> Error {
-        let mut carried = self.recipe.start_alone(self.prepared, from, h);
-        let mut work = Scratch::like(&carried);
-        let cause = map.explain(from.t, t, true, &mut carried, &mut work);
+    fn explain(&self, map: &R, from: &State<S::Vector>, h: T, t: T, carried: &R::Carried) -> Error {
+        let mut repeated = self.recipe.start_alone(self.prepared, from, h);
+        let mut work = Scratch::like(&repeated);
+        let cause = map.explain(from.t, t, true, &mut repeated, &mut work);
         let bad = !carried.finite();
-        let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
         let point = carried.point();
+        let undefined = match bad.any() {
+            true => None,
+            false => {
+                let (t, q, p) = (carried.time(t), point.q.clone(), point.p.clone());
+                domain::undefined::<T, S>(self.prepared, &State { t, q, p })
+            }
+        };
+        let bad = bad.first().or(undefined.map(|(lane, _)| lane));
         let failed = Failed {
             step: 1,
-            lane,
+            lane: (T::LANES > 1).then(|| bad.unwrap_or(0)),
             clock: clock::<T, S>(),
             begin: from.t.to_f64(),
             end: t.to_f64(),
             q: numbers(&point.q),
             p: numbers(&point.p),
+            energy: undefined.map(|(_, energy)| energy),
         };
         failed.because(cause)
     }

@@ -182,6 +182,11 @@ impl<const S: usize> Collocation<S> {
         (coordinates, momenta)
     }
 
+    /// The first and the last node.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.nodes[0].hi(), self.nodes[S - 1].hi()]
+    }
+
     /// `aᵢⱼ`.
     pub fn a(&self, i: usize, j: usize) -> DoubleDouble {
         self.integrals[i][j] * self.weights[j]

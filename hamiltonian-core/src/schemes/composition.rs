@@ -154,6 +154,20 @@ where
     M: OneStep + Scheme<T, S>,
 {
     type Map = Either<Composed<M::Map, STAGES, true>, Composed<M::Map, STAGES, false>>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        let mut times = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut at = 0.0;
+        for (scheme, weight) in &self.stages {
+            let weight = weight.to::<f64>();
+            let ends = scheme.times_of_jumps().map(|time| at + weight * time);
+            times = [
+                times[0].min(ends[0]).min(ends[1]),
+                times[1].max(ends[0]).max(ends[1]),
+            ];
+            at += weight;
+        }
+        times
+    }
     fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
         self.stages[0].0.check(prepared, state)
     }
@@ -341,6 +355,10 @@ where
     M::Map: Map<Carried = Point<S::Vector>>,
 {
     type Map = Inverted<M::Map>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        let [first, last] = self.0.times_of_jumps();
+        [1.0 - last, 1.0 - first]
+    }
     fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
         self.0.check(prepared, state)
     }

@@ -67,6 +67,9 @@ symmetric!(DiscreteGradient);
 
 impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for DiscreteGradient {
     type Map = EnergyKeeping<T, S::Prepared>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        [0.5; 2]
+    }
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         EnergyKeeping {
             dynamics: prepared.clone(),

@@ -142,6 +142,9 @@ symmetric!(Gauss<S>, const S: usize);
 
 impl<T: Real, S: System<T>, const STAGES: usize> Scheme<T, S> for Gauss<STAGES> {
     type Map = Collocated<T, S::Prepared, STAGES>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        self.coefficients.ends()
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let integrals = self.coefficients.symplectic();

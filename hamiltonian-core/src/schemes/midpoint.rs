@@ -71,6 +71,9 @@ symmetric!(ImplicitMidpoint);
 
 impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
     type Map = Midpoint<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        [0.5; 2]
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Midpoint {

@@ -146,6 +146,9 @@ where
     G: Density<S::Vector>,
 {
     type Map = Pacing<T, S, M, G>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        self.scheme.times_of_jumps()
+    }
     fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
         self.scheme.check(prepared, state)
     }

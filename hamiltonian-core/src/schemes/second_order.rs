@@ -130,6 +130,9 @@ where
     S: System<T> + Separable<T> + QuadraticKinetic + Unforced,
 {
     type Map = Eliminated<T, S::Prepared, STAGES>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        self.coefficients.ends()
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let h = step.h;

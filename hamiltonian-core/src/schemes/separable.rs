@@ -28,6 +28,9 @@ use hamiltonian_lanes::Real;
 ///
 /// The last piece of a step and the first of the next are one. Preserves dq∧dp.
 ///
+/// If V jumps at times that do not depend on the state, and T does not, steps begin with the drift in either setting;
+/// if only T jumps, with the kick.
+///
 /// Source: L. Verlet, Phys. Rev. 159 (1967) 98, eq. 4, doi:10.1103/PhysRev.159.98; E. Hairer,
 /// C. Lubich, G. Wanner, Acta Numerica 12 (2003) 399, eqs. 1.5 and 1.6,
 /// doi:10.1017/S0962492902000144.
@@ -74,14 +77,33 @@ impl Listed for StormerVerlet {
     }
 }
 
+impl StormerVerlet {
+    /// The order on a system: a piece that jumps in time is not first.
+    #[inline(always)]
+    fn on<T: Real, S: Separable<T>>(self) -> Self {
+        match S::JUMPING {
+            [true, false] => StormerVerlet::DriftKickDrift,
+            [false, true] => StormerVerlet::KickDriftKick,
+            _ => self,
+        }
+    }
+}
+
 impl<T: Real, S: Separable<T>> Scheme<T, S> for StormerVerlet {
     type Map = Either<
         ZigzagOf<T, S, (S::Kick, S::Drift), Strang>,
         ZigzagOf<T, S, (S::Drift, S::Kick), Strang>,
     >;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        let [kick, drift] = S::JUMPING;
+        match self.on::<T, S>() {
+            StormerVerlet::KickDriftKick => Strang.times_on([kick, drift]),
+            StormerVerlet::DriftKickDrift => Strang.times_on([drift, kick]),
+        }
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        match self {
+        match self.on::<T, S>() {
             StormerVerlet::KickDriftKick => {
                 Either::First(Zigzag::new(&Strang, &(S::KICK, S::DRIFT), prepared, step))
             }
@@ -177,6 +199,10 @@ impl Splitting for SymplecticEuler {
 
 impl<T: Real, S: Separable<T>> Scheme<T, S> for SymplecticEuler {
     type Map = ZigzagOf<T, S, (S::Drift, S::Kick), Self>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        let [kick, drift] = S::JUMPING;
+        self.times_on([drift, kick])
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Zigzag::new(self, &(S::DRIFT, S::KICK), prepared, step)

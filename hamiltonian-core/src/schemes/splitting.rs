@@ -53,6 +53,58 @@ pub trait Splitting: Listed + Copy {
     fn stages(&self) -> Self::Of<Durations>;
     /// The array with `value` in each element.
     fn filled<U: Clone>(value: U) -> Self::Of<U>;
+    /// The first and the last time at which a step evaluates the pieces that jump, in units of the step: the first
+    /// piece, and the others. A scheme of the table returns them from
+    /// [`times_of_jumps`](crate::Scheme::times_of_jumps).
+    fn times_on(&self, jumping: [bool; 2]) -> [f64; 2] {
+        let weights = self.stages();
+        let weights = weights.as_ref();
+        let down = |i: usize| weights.get(i).map_or(0.0, |(down, _)| down.to::<f64>());
+        let mut clocks = Clocks::new(weights);
+        let mut times = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut evaluates = |piece: usize, duration: f64, at: f64| {
+            if jumping[piece] && duration != 0.0 {
+                times = [times[0].min(at), times[1].max(at)];
+            }
+        };
+        evaluates(0, down(0), 0.0);
+        for (i, (_, up)) in weights.iter().enumerate() {
+            let [inner, outer] = clocks.next(weights, i, 1.0);
+            evaluates(1, 1.0, inner);
+            evaluates(0, up.to::<f64>().abs() + down(i + 1).abs(), outer);
+        }
+        times
+    }
+}
+
+/// The two clocks in units of the step, at the beginning of a stage.
+pub(super) struct Clocks<T> {
+    outer: T,
+    inner: T,
+}
+
+impl<T: Real> Clocks<T> {
+    #[inline(always)]
+    pub(super) fn new(weights: &[Durations]) -> Self {
+        Clocks {
+            outer: weights.first().map_or(T::zero(), |(down, _)| down.to()),
+            inner: T::zero(),
+        }
+    }
+
+    /// The times of the inner flows of stage `i` and of the flow after it.
+    #[inline(always)]
+    pub(super) fn next(&mut self, weights: &[Durations], i: usize, h: T) -> [T; 2] {
+        let zero = T::zero();
+        let (down, up) = weights
+            .get(i)
+            .map_or((zero, zero), |(down, up)| (down.to(), up.to()));
+        let next = weights.get(i + 1).map_or(zero, |(down, _)| down.to());
+        let inner_at = self.outer * h;
+        self.inner += down + up;
+        self.outer += up + next;
+        [inner_at, self.inner * h]
+    }
 }
 
 /// The table of the adjoint scheme: backwards, with the durations of each stage exchanged.

@@ -66,6 +66,9 @@ symmetric!(Strang);
 
 impl<T: Real, S: Split<T>> Scheme<T, S> for Strang {
     type Map = ZigzagOf<T, S, S::Pieces, Self>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        self.times_on(S::JUMPING)
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Zigzag::new(self, &S::PIECES, prepared, step)

@@ -72,7 +72,10 @@ macro_rules! tabulated {
 
 /// The methods of a scheme that applies its table to `$pieces`.
 macro_rules! on_pieces {
-    ($pieces:expr) => {
+    ($pieces:expr, $jumping:expr) => {
+        fn times_of_jumps(&self) -> [f64; 2] {
+            self.times_on($jumping)
+        }
         #[inline(always)]
         fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
             Zigzag::new(self, &$pieces, prepared, step)
@@ -99,7 +102,7 @@ macro_rules! on_exact_pieces {
     ($name:ty) => {
         impl<T: Real, S: Split<T> + Exact> Scheme<T, S> for $name {
             type Map = ZigzagOf<T, S, S::Pieces, Self>;
-            on_pieces!(S::PIECES);
+            on_pieces!(S::PIECES, S::JUMPING);
         }
     };
 }
@@ -220,6 +223,12 @@ general! {
 
 /// `first` and `second` are the constants of [`Nystrom`] for the two pieces.
 macro_rules! nystrom {
+    (@jumping KICK $system:ident) => {
+        $system::JUMPING
+    };
+    (@jumping QUADRATIC $system:ident) => {
+        [$system::JUMPING[1], $system::JUMPING[0]]
+    };
     ($($(#[$doc:meta])* $name:ident: $table:path, $stages:literal,
        $first:ident $first_piece:ident, $second:ident $second_piece:ident;)+) => {$(
         tabulated! {
@@ -241,7 +250,7 @@ macro_rules! nystrom {
 
         impl<T: Real, S: Nystrom<T>> Scheme<T, S> for $name {
             type Map = ZigzagOf<T, S, (S::$first_piece, S::$second_piece), Self>;
-            on_pieces!((S::$first, S::$second));
+            on_pieces!((S::$first, S::$second), nystrom!(@jumping $first S));
         }
     )+};
 }

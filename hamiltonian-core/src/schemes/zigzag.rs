@@ -9,7 +9,7 @@
 //! autonomous splitting of A(z, t₂) + B(z, t₁) + C(z, t₁) + … with a pair of conjugate energies, so
 //! tables keep their order.) Störmer–Verlet thus kicks at t and t + h and drifts at t + h/2.
 
-use super::splitting::{Durations, Splitting, Weight};
+use super::splitting::{Clocks, Splitting, Weight};
 use crate::flow::{Flow, Pieces};
 use crate::map::{Cause, Map, Step};
 use crate::state::{Carried, Point};
@@ -154,36 +154,6 @@ impl<T: Real, O, I> Stage<T, O, I> {
             outer: Link::new(pieces, prepared, up, next),
             outer_at,
         }
-    }
-}
-
-/// The two clocks in units of the step, at the beginning of a stage.
-struct Clocks<T> {
-    outer: T,
-    inner: T,
-}
-
-impl<T: Real> Clocks<T> {
-    #[inline(always)]
-    fn new(weights: &[Durations]) -> Self {
-        Clocks {
-            outer: weights.first().map_or(T::zero(), |(down, _)| down.to()),
-            inner: T::zero(),
-        }
-    }
-
-    /// The times of the inner flows of stage `i` and of the flow after it.
-    #[inline(always)]
-    fn next(&mut self, weights: &[Durations], i: usize, h: T) -> [T; 2] {
-        let zero = T::zero();
-        let (down, up) = weights
-            .get(i)
-            .map_or((zero, zero), |(down, up)| (down.to(), up.to()));
-        let next = weights.get(i + 1).map_or(zero, |(down, _)| down.to());
-        let inner_at = self.outer * h;
-        self.inner += down + up;
-        self.outer += up + next;
-        [inner_at, self.inner * h]
     }
 }
 

@@ -14,6 +14,8 @@ pub trait Formula<const N: usize>: Clone + std::fmt::Debug + Send + Sync + 'stat
     const NAME: &'static str;
     const GROUPS: &'static [Group];
     const OBSERVABLES: &'static [Observable] = &[];
+    /// True if V jumps in time, and the same for T.
+    const JUMPING: [bool; 2] = [false; 2];
     fn energy<T: Real>(&self, t: T, q: &[T; N], p: &[T; N]) -> T;
     /// ∂H/∂q, ∂H/∂p; by dual numbers unless written out.
     fn gradient<T: Real>(&self, t: T, q: &[T; N], p: &[T; N]) -> ([T; N], [T; N]) {
@@ -61,6 +63,7 @@ impl<T: Real, H: Formula<N>, const N: usize> System<T> for Hand<H, N> {
     const NAME: &'static str = H::NAME;
     const GROUPS: &'static [Group] = H::GROUPS;
     const OBSERVABLES: &'static [Observable] = H::OBSERVABLES;
+    const JUMPS: bool = H::JUMPING[0] || H::JUMPING[1];
     fn prepare(&self) -> Ready<H, N> {
         Ready(self.0.clone())
     }
@@ -186,6 +189,7 @@ impl<T: Real, H: Halves<N>, const N: usize> Separable<T> for Hand<H, N> {
     type Drift = Half<false>;
     const KICK: Half<true> = Half;
     const DRIFT: Half<false> = Half;
+    const JUMPING: [bool; 2] = H::JUMPING;
 }
 
 /// Whatever T is: where it is not quadratic in p, this is the negative control.
@@ -194,12 +198,14 @@ impl<T: Real, H: Halves<N>, const N: usize> Nystrom<T> for Hand<H, N> {
     type Quadratic = Half<false>;
     const KICK: Half<true> = Half;
     const QUADRATIC: Half<false> = Half;
+    const JUMPING: [bool; 2] = H::JUMPING;
 }
 
 impl<T: Real, H: Halves<N>, const N: usize> Split<T> for Hand<H, N> {
     type Pieces = (Half<true>, Half<false>);
     const PIECES: Self::Pieces = (Half, Half);
     const NAMES: &'static [&'static str] = &["V", "T"];
+    const JUMPING: [bool; 2] = H::JUMPING;
 }
 
 impl<H, const N: usize> Unforced for Hand<H, N> {}

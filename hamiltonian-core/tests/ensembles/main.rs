@@ -1,6 +1,7 @@
 //! Ensembles and sweeps: every member is what a single run of it is.
 
 mod allocations;
+mod domain;
 mod events;
 mod exponents;
 mod gathering;
@@ -49,6 +50,12 @@ hamiltonian! {
     /// A particle in a hole, where its potential ends.
     pub struct Hole { k = 1.0 }
     H(q; p) = p^2/2 + k*sqrt(q)
+}
+
+hamiltonian! {
+    /// A particle above a soft floor, below which H is not defined.
+    pub struct Floor { g = 0.1, k = 0.01 }
+    H(x; p) = p^2/2 + g*x - k*ln(x)
 }
 
 /// More than a pack of the widest level, and no multiple of one.

@@ -5,9 +5,10 @@
 //! operations of [`Tangent`](crate::tangents::Tangent) in the same order, so its bits depend only on its member and on
 //! the arithmetic of the pack.
 
-use super::rows::{Begin, Prepare, gather, load, scatter, store};
+use super::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::scalar::explain;
-use super::{CarriedIn, MapIn, PackScheme};
+use super::{CarriedIn, MapIn, MaskIn, PackScheme};
+use crate::domain::inside;
 use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
@@ -242,7 +243,7 @@ where
             if is_replay {
                 self.before.clone_from(&self.carried);
             }
-            let (is_finite, reached) = L::enter_at(DeviationBlock {
+            let (mut is_finite, reached) = L::enter_at(DeviationBlock {
                 map: &self.map,
                 clock: self.clock,
                 made,
@@ -261,8 +262,13 @@ where
                 sums: &mut self.sums,
                 megno: &mut self.megno,
             });
+            let numbers = self.finite[0];
+            if n > 0 {
+                self.finite[0] = self.finite[0] & self.inside::<L>(all, &reached);
+                is_finite &= self.finite[0].all();
+            }
             if !is_finite {
-                self.record_failures::<L>(scheme, all, (made, is_replay), &reached);
+                self.record_failures::<L>(scheme, all, (made, is_replay), &reached, numbers);
             }
             made += n;
             if made < next_renormalisation {
@@ -279,8 +285,34 @@ where
         }
     }
 
+    /// Returns the lanes whose members are inside the domain of H. All deviations have the same state.
+    #[inline(never)]
+    fn inside<L: Level>(
+        &mut self,
+        all: &Deviations<'_, T, S>,
+        reached: &T::Over<P>,
+    ) -> MaskIn<T, P> {
+        let lanes = P::LANES as usize;
+        let Point { q, p } = self.shown[0].point();
+        let mut rows = vec![T::zero(); (q.len() + p.len() + 1) * lanes];
+        let components = q.components().chain(p.components()).chain([*reached]);
+        for (component, row) in components.zip(rows.chunks_exact_mut(lanes)) {
+            scatter::<L, T, P>(&component, row);
+        }
+        let members = self.members.iter().map(|member| {
+            let member = &all.members[(*member)?];
+            Some((&member.prepared, &member.start))
+        });
+        let inside = inside::<T, S>(members, &rows, lanes);
+        match inside.contains(&false) {
+            true => lanes_of::<L, T, P>(&inside),
+            false => Mask::splat(true),
+        }
+    }
+
     /// Records the lanes that are not finite after a block, and in a replay the cause. As in a single run, the error is
-    /// that of the first deviation that is not finite at the next renormalisation.
+    /// that of the first deviation that is not finite at the next renormalisation. In the lanes of `numbers`, H alone
+    /// is not finite for the first deviation.
     #[cold]
     #[inline(never)]
     fn record_failures<L: Level>(
@@ -289,6 +321,7 @@ where
         all: &mut Deviations<'_, T, S>,
         (made, is_replay): (u64, bool),
         reached: &T::Over<P>,
+        numbers: MaskIn<T, P>,
     ) {
         let lanes = P::LANES as usize;
         let mut times = vec![T::zero(); lanes];
@@ -316,7 +349,9 @@ where
                     interval: all.interval,
                 };
                 let single = (&member.prepared, &member.start, all.step, clock);
-                let error = explain(scheme, single, (made, &words), &point, times[lane].to_f64());
+                let end = (&*point, times[lane].to_f64());
+                let only_energy = d == 0 && numbers.lane(lane as u32);
+                let error = explain(scheme, single, (made, &words), end, only_energy);
                 member.result = Err(error);
             }
         }

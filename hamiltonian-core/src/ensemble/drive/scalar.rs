@@ -3,6 +3,7 @@
 //! Input: numbers of the lanes. Output: states passed to observers, and causes of failures. Invariant: nothing here
 //! depends on the level.
 
+use crate::domain::{self, write_state};
 use crate::ensemble::host::Host;
 use crate::ensemble::occupants::Occupants;
 use crate::error::Error;
@@ -15,6 +16,7 @@ use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::{self, System};
 use crate::vector::Vector;
+use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
 /// Passes the states of members at their stops to the host.
@@ -87,13 +89,7 @@ impl<T: Real> PassedStates<'_, T> {
             };
             let mut rows = self.rows.chunks_exact(self.which.len());
             let mut next = || rows.next().map_or(T::zero(), |row| row[lane]);
-            let State { t, q, p } = &mut run.state;
-            for vector in [q, p] {
-                for c in 0..vector.len() {
-                    *vector.component_mut(c) = next();
-                }
-            }
-            *t = next();
+            write_state(&mut run.state, core::iter::from_fn(|| Some(next())));
             run.received = step;
             let part = Part {
                 prepared: &run.prepared,
@@ -123,14 +119,15 @@ pub(in crate::ensemble) type ScalarMember<'a, T, S> = (
 );
 
 /// Returns the error of a member whose step after `made` others is not finite. The step is replayed over the
-/// member's own scalar from the carried value. `point` is the state after it, `reached` its time.
+/// member's own scalar from the carried value. `point` is the state after it, `reached` its time. If `only_energy` is
+/// true, H alone is not finite there.
 #[inline(never)]
 pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,
     (prepared, state, step, clock): ScalarMember<'_, T, S>,
     (made, words): (u64, &[T]),
-    point: &[f64],
-    reached: f64,
+    (point, reached): (&[f64], f64),
+    only_energy: bool,
 ) -> Error {
     let mut carried = scheme.start(prepared, state, step);
     for (c, word) in words.iter().enumerate() {
@@ -141,6 +138,17 @@ pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
     let (begin, end) = (clock.at(made), clock.at(made + 1));
     let cause = map.explain(begin, end, made == 0, &mut carried, &mut work);
     let (q, p) = point.split_at(point.len() / 2);
+    let energy = only_energy.then(|| {
+        let numbers: Vec<T> = point
+            .iter()
+            .chain([&reached])
+            .map(|x| T::constant(*x, 0.0))
+            .collect();
+        let mut state = state.clone();
+        write_state(&mut state, numbers.into_iter());
+        // H that a pack evaluates with fused products may be NaN where this one is not.
+        domain::undefined::<T, S>(prepared, &state).map_or(f64::NAN, |(_, energy)| energy)
+    });
     let failed = Failed {
         step: made + 1,
         lane: None,
@@ -149,6 +157,7 @@ pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
         end: reached,
         q: q.into(),
         p: p.into(),
+        energy,
     };
     failed.because(cause)
 }

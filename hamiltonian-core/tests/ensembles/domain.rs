@@ -1,0 +1,157 @@
+//! Members that leave the domain of H: the errors of their single runs.
+
+use super::*;
+
+/// The generated members.
+const MEMBERS: usize = 330;
+/// The number of steps: two blocks and a part of one.
+const STEPS: u64 = 2600;
+const STEP: f64 = 0.004;
+
+/// A start above the floor, from which some members fall through it, at any time.
+fn falling(member: Member) -> (Floor, StateOf<Floor>) {
+    let part = |shift: u32| (member.seed.rotate_left(shift) >> 11) as f64 / (1_u64 << 53) as f64;
+    let system = Floor {
+        g: 0.02 + 0.3 * part(0).powi(2),
+        k: 10_f64.powf(-1.0 - 4.0 * part(17)),
+    };
+    let start = State::new([0.2 + 2.0 * part(31)], [0.8 * part(47) - 0.4]);
+    (system, start.at(part(5)))
+}
+
+/// The end of a single run, or its error without the index of the member.
+fn single(index: usize, end: Option<f64>) -> Result<Vec<u64>, String> {
+    let (system, start) = falling(Member::new(index, 0));
+    let mut run = Integrator::new(&system, StormerVerlet::default(), start, STEP)
+        .map_err(|error| error.to_string())?;
+    let state = match end {
+        Some(t) => run.advance_until(t),
+        None => run.advance(STEPS).cloned(),
+    };
+    state
+        .map(|state| bits(&state))
+        .map_err(|error| error.to_string())
+}
+
+/// The error inside that of a member.
+fn alone(error: &Error) -> String {
+    match error {
+        Error::Member { error, .. } => error.to_string(),
+        other => other.to_string(),
+    }
+}
+
+#[test]
+fn members_that_leave_the_domain_have_the_errors_of_single_runs() {
+    let _level = one_level();
+    let expected: Vec<_> = (0..MEMBERS).map(|index| single(index, None)).collect();
+    let failed = expected.iter().filter(|end| end.is_err()).count();
+    assert!(
+        failed > 90 && MEMBERS - failed > 90,
+        "{failed} of {MEMBERS} fail"
+    );
+    let is_quoted = |text: &String| text.contains("H is NaN");
+    assert!(
+        expected
+            .iter()
+            .filter_map(|end| end.as_ref().err())
+            .all(is_quoted)
+    );
+    // An ensemble, in one call and in several.
+    for calls in [[STEPS, 0], [700, STEPS - 700]] {
+        let mut swarm = Ensemble::new(MEMBERS, falling, StormerVerlet::default(), STEP)
+            .expect("there are members")
+            .reproducible();
+        for n in calls {
+            swarm.advance(n);
+        }
+        for (expected, end) in expected.iter().zip(swarm.states()) {
+            let end = end.map(|state| bits(&state)).map_err(|error| alone(&error));
+            assert_eq!(&end, expected);
+        }
+    }
+    // A sweep with an observer in lanes, one with an observer of states, and one in fused arithmetic.
+    let sweep = |fuses: bool| {
+        let sweep = Sweep::new(MEMBERS, falling, StormerVerlet::default(), STEP);
+        let sweep = if fuses { sweep } else { sweep.reproducible() };
+        sweep.steps(STEPS).chunk(100)
+    };
+    let take = |mut all: Vec<_>, row: &hamiltonian::Row<'_>| {
+        assert_eq!(row.error.is_some(), row.values[0].is_nan());
+        all.push((row.status, row.error.map(alone)));
+        all
+    };
+    let followed = sweep(false)
+        .observe(|_| hamiltonian::observers::every(3, EnergyDrift::new()))
+        .record(["drift"], |end| [end.observer.inner.max_relative()]);
+    let followed = followed.fold(vec![], take).expect("rows");
+    let watched = sweep(false)
+        .observe(|_| hamiltonian::observers::every(5, Recorder::of(["x"])))
+        .record(["least"], |end| {
+            [end.observer
+                .inner
+                .column("x")
+                .map_or(f64::NAN, |x| x.fold(f64::MAX, f64::min))]
+        });
+    let watched = watched.fold(vec![], take).expect("rows");
+    let fused = sweep(true).record(["x"], |end| [end.state.q[0]]);
+    let fused = fused.fold(vec![], take).expect("rows");
+    for (index, expected) in expected.iter().enumerate() {
+        let status = match expected {
+            Ok(_) => Status::Ended,
+            Err(_) => Status::NotFinite,
+        };
+        let error = expected.as_ref().err();
+        for rows in [&followed, &watched] {
+            assert_eq!(
+                (rows[index].0, rows[index].1.as_ref()),
+                (status, error),
+                "member {index}"
+            );
+        }
+        assert_eq!(fused[index].0, status, "member {index}");
+    }
+}
+
+#[test]
+fn parts_of_steps_and_deviations_stay_in_the_domain() {
+    let _level = one_level();
+    // Ends between steps.
+    let end = |member: Member| {
+        let (_, start) = falling(member);
+        start.t + STEP * (0.5 + STEPS as f64 * (member.index as f64 / MEMBERS as f64))
+    };
+    let sweep = Sweep::new(MEMBERS, falling, StormerVerlet::default(), STEP)
+        .reproducible()
+        .until_each(end)
+        .record(["x"], |end| [end.state.q[0]]);
+    let rows = sweep.fold(vec![], |mut all, row| {
+        all.push(row.error.map(alone));
+        all
+    });
+    let mut failed = 0;
+    for (index, found) in rows.expect("rows").into_iter().enumerate() {
+        let expected = single(index, Some(end(Member::new(index, 0)))).err();
+        failed += u32::from(expected.is_some());
+        assert_eq!(found, expected, "member {index}");
+    }
+    assert!(failed > 30, "{failed} failed");
+    let all = Lyapunov::new(MEMBERS, falling, StormerVerlet::default(), STEP)
+        .steps(STEPS)
+        .collect()
+        .expect("there are members");
+    for (index, found) in all.iter().enumerate() {
+        let expected = single(index, None);
+        match (&expected, found) {
+            (Ok(_), Ok(exponents)) => assert!(exponents.iter().all(|rate| rate.is_finite())),
+            (Err(text), Err(error)) => {
+                // Deviations do not change the orbit, but their arithmetic is fused.
+                let step = |text: &str| text.split(' ').nth(1).and_then(|n| n.parse::<i64>().ok());
+                let found = alone(error);
+                let apart = step(text).zip(step(&found)).map(|(a, b)| (a - b).abs());
+                assert!(apart.is_some_and(|apart| apart <= 1), "{text} {found}");
+            }
+            (single, found) => panic!("member {index}: {found:?}, alone {single:?}"),
+        }
+    }
+}

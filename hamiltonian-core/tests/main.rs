@@ -30,7 +30,6 @@ mod schemes;
 mod shard;
 mod start;
 mod store;
-mod switched;
 mod table;
 mod tables;
 mod tangent;

@@ -27,6 +27,10 @@ use hamiltonian_symbolic::structure;
 use proc_macro2::{Ident, TokenStream};
 use variables::System;
 
+/// The sentence of the docs on an H that jumps.
+const JUMPS: &str = "H or the force jumps at times that do not depend on the state. If steps end at these times, every scheme \
+    that accepts the system keeps its order.";
+
 /// Past this many nodes H is large.
 const LARGE: usize = 1000;
 
@@ -126,6 +130,9 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
     let split = splits::decide(checked, &mut model, &structure, &part, report);
     text.facts.extend(split.facts);
     let structure = verdicts::verdicts(&mut model, &structure, split.verdict);
+    if structure.jumping.is_some() {
+        text.facts.push(JUMPS.to_owned());
+    }
     let gradient = match large {
         true => Gradient::Written,
         false => source_of_gradient(&model, &structure),

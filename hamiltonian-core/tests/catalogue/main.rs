@@ -13,4 +13,5 @@ mod orders;
 mod runs;
 mod saved;
 mod steps;
+mod switched;
 mod tangents;

@@ -10,6 +10,7 @@ use crate::emit::Reason;
 use hamiltonian_language::checked::{self, Checked, NodeKind, Variable};
 use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::Node;
+use hamiltonian_symbolic::jumps::jumps;
 use hamiltonian_symbolic::model::{Model, Piece};
 use hamiltonian_symbolic::split::{self, NoFlow, PIECES, Splitting};
 use hamiltonian_symbolic::structure::Structure;
@@ -114,7 +115,13 @@ pub fn decide(
             let with = if is_forced { "with its force " } else { "" };
             refused(model, &format!("{with}it has more than {PIECES} pieces"))
         }
-        Ok(splitting) => {
+        Ok(mut splitting) => {
+            // The flow of the first piece is evaluated at the ends of steps, where H(t) may jump.
+            let mut pieces = splitting.pieces.iter();
+            let first = pieces.position(|piece| !jumps(&mut model.dag, piece.h));
+            if let Some(first) = first {
+                splitting.pieces[..=first].rotate_right(1);
+            }
             let mut facts = facts(&splitting);
             if is_forced {
                 facts.push("The force is a piece of its own, the innermost.".to_owned());

@@ -7,6 +7,7 @@ use crate::emit;
 use crate::emit::Reason;
 use hamiltonian_symbolic::dag::{Array, Column, Kind, Node, Side};
 use hamiltonian_symbolic::forces;
+use hamiltonian_symbolic::jumps::{force_jumps, jumps};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure::{Coupling, Structure, kick_beside};
@@ -29,6 +30,7 @@ pub fn verdicts(
 ) -> emit::Structure {
     let name = subject(model);
     let (kick, exact) = kick(model, structure);
+    let jumping = jumping(model, structure);
     let nystrom = nystrom(model, structure, kick).map_err(|obstacle| {
         let (what, why, label, note) = match obstacle {
             Obstacle::H(why) => (
@@ -102,7 +104,31 @@ pub fn verdicts(
             .iter()
             .map(|cyclic| cyclic.coordinate.clone())
             .collect(),
+        growth: structure.growth,
+        jumping,
     }
+}
+
+/// The parts that jump at times that do not depend on the state.
+fn jumping(model: &mut Model, structure: &Structure) -> Option<emit::Jumping> {
+    let h = model.h();
+    let force: Vec<Node> = model.force.iter().map(|entry| entry.value).collect();
+    let force = force_jumps(&mut model.dag, &force);
+    if !force && !jumps(&mut model.dag, h) {
+        return None;
+    }
+    let halves = match &structure.separable {
+        Ok(split) => [split.potential, split.kinetic].map(|half| jumps(&mut model.dag, half)),
+        Err(_) => [false; 2],
+    };
+    let pieces = model
+        .pieces
+        .iter()
+        .map(|piece| jumps(&mut model.dag, piece.h));
+    Some(emit::Jumping {
+        halves: [halves[0] || force, halves[1]],
+        pieces: pieces.chain([force]).collect(),
+    })
 }
 
 /// The kick V(q, t) and the piece at most quadratic in the momenta beside it: two pieces of the split,

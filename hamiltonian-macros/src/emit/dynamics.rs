@@ -90,7 +90,7 @@ impl<'a> Emission<'a> {
             "#[automatically_derived]\nimpl{} __h::System<T> for {} {{\n\
              type Vector = {};\ntype Prepared = {};\n\
              const NAME: &'static __h::str = {:?};\n\
-             const GROUPS: &'static [__h::Group] = &[{}];\n{}{}\
+             const GROUPS: &'static [__h::Group] = &[{}];\n{}{}{}{}\
              const FORMULA: &'static __h::str = {:?};\n{}",
             generics.declaration_with_scalar(),
             generics.system_type(),
@@ -102,6 +102,13 @@ impl<'a> Emission<'a> {
             context.model.evolution.as_ref().map_or(String::new(), |time| format!(
                 "const FICTITIOUS_TIME: __h::Option<&'static __h::str> = __h::Option::Some({time:?});\n"
             )),
+            context.definition.structure.growth.map_or(String::new(), |power| format!(
+                "const GROWTH: __h::Option<__h::core::primitive::u32> = __h::Option::Some({power});\n"
+            )),
+            match context.definition.structure.jumping {
+                Some(_) => "const JUMPS: __h::bool = true;\n",
+                None => "",
+            },
             self.formula(),
             self.parameters(),
         );

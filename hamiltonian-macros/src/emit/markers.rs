@@ -12,18 +12,21 @@ use std::fmt::Write;
 /// A piece that cannot exist.
 const NEVER: &str = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>";
 
+/// The types of pieces, their values, and which of them jump in time, if any does.
+pub type Pieces<'a> = (&'a [String], &'a str, Option<[bool; 2]>);
+
 /// A trait of pieces, each as a type and as a constant of these values, if they are there.
 pub fn of_pieces(
     out: &mut String,
     context: Context,
     name: &str,
     names: &[&str],
-    pieces: Result<(&[String], &str), (&str, &Reason)>,
+    pieces: Result<Pieces, (&str, &Reason)>,
 ) {
     let mut items = String::new();
     for (at, name) in names.iter().enumerate() {
         let (ty, value) = match &pieces {
-            Ok((types, value)) => (types[at].as_str(), *value),
+            Ok((types, value, _)) => (types[at].as_str(), *value),
             Err(_) => (NEVER, "__h::Never::PIECE"),
         };
         let constant = name.to_uppercase();
@@ -31,6 +34,9 @@ pub fn of_pieces(
             items,
             "type {name} = {ty};\nconst {constant}: Self::{name} = {value};"
         );
+    }
+    if let Ok((_, _, Some(jumping))) = &pieces {
+        let _ = writeln!(items, "const JUMPING: [__h::bool; 2] = {jumping:?};");
     }
     let declaration = context.generics.declaration_with_scalar();
     let name = format!("{name}<T>");

@@ -168,6 +168,19 @@ pub struct Structure {
     pub autonomous: Result<(), Reason>,
     /// Coordinates that do not appear in H.
     pub cyclic: Vec<String>,
+    /// The growth of H, where it is finite for all finite numbers.
+    pub growth: Option<u32>,
+    /// The parts that jump at times that do not depend on the state, if any does.
+    pub jumping: Option<Jumping>,
+}
+
+/// The parts of H that jump at times that do not depend on the state.
+#[derive(Debug)]
+pub struct Jumping {
+    /// V with the force, and T, where H is separable.
+    pub halves: [bool; 2],
+    /// The pieces of the model, and at the end the force.
+    pub pieces: Vec<bool>,
 }
 
 /// The places of the kick and of the piece at most quadratic in the momenta.

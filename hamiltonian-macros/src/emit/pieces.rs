@@ -9,7 +9,7 @@ use super::holder::Holder;
 use super::layout::Slice;
 use super::markers;
 use super::scan::scan;
-use super::{Nystrom, Reason};
+use super::{Jumping, Nystrom, Reason};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Purpose};
@@ -78,17 +78,27 @@ impl Emission<'_> {
         if !of_halves.is_empty() {
             line!(
                 self,
-                "__h::halves!([impl{}] {}, {}, {kick}: {});",
+                "__h::halves!([impl{}] {}, {}, {kick}{}: {});",
                 context.generics.declaration_with_scalar(),
                 context.generics.system_type(),
                 self.prepared.ty(context),
+                structure
+                    .jumping
+                    .as_ref()
+                    .map_or(String::new(), |Jumping { halves: [v, t], .. }| {
+                        format!(", [{v} {t}]")
+                    }),
                 of_halves.join(" "),
             );
         }
         let mut own: Vec<String> = (0..own.len()).map(|at| self.numbered(at)).collect();
+        let jumping = structure.jumping.as_ref();
         let kicked = structure.nystrom.as_ref().map(|nystrom| match nystrom {
-            Nystrom::Halves => halves.clone(),
-            Nystrom::Pieces(numbers) => numbers.map(|number| own[number].clone()),
+            Nystrom::Halves => (halves.clone(), jumping.map(|jumping| jumping.halves)),
+            Nystrom::Pieces(numbers) => {
+                let jumps = jumping.map(|jumping| numbers.map(|number| jumping.pieces[number]));
+                (numbers.map(|number| own[number].clone()), jumps)
+            }
         });
         if structure.kick.is_some() && structure.separable.is_err() {
             own.push(halves[0].clone());
@@ -97,19 +107,26 @@ impl Emission<'_> {
         let tuple = [format!("({},)", own.join(", "))];
         let mut of_pieces = |name, types: &[&str], pieces, bound| {
             if !of_halves.contains(&name) {
-                let pieces: Result<_, &Reason> = pieces;
+                let pieces: Result<markers::Pieces, &Reason> = pieces;
                 let pieces = pieces.map_err(|reason| (bound, reason));
                 markers::of_pieces(&mut self.out, context, name, types, pieces);
             }
         };
-        let separable = structure.separable.as_ref().map(|()| (&halves[..], PIECE));
+        let of_v_and_t = jumping.map(|jumping| jumping.halves);
+        let separable = structure.separable.as_ref();
+        let separable = separable.map(|()| (&halves[..], PIECE, of_v_and_t));
         of_pieces("Separable", &["Kick", "Drift"], separable, "__HIsSeparable");
+        let first_and_others = jumping.map(|jumping| match jumping.pieces.split_first() {
+            Some((first, others)) => [*first, others.contains(&true)],
+            None => [false; 2],
+        });
         let split = structure
             .split
             .as_ref()
-            .map(|()| (&tuple[..], values.as_str()));
+            .map(|()| (&tuple[..], values.as_str(), first_and_others));
         of_pieces("Split", &["Pieces"], split, "__HIsSplit");
-        let kicked = kicked.as_ref().map(|pieces| (&pieces[..], PIECE));
+        let kicked = kicked.as_ref();
+        let kicked = kicked.map(|(pieces, jumping)| (&pieces[..], PIECE, *jumping));
         let kicked = kicked.map_err(|reason| *reason);
         of_pieces(
             "Nystrom",

@@ -10,6 +10,7 @@ mod equations;
 mod expressions;
 mod false_proofs;
 mod flows;
+mod identities;
 mod judge;
 mod jumps;
 mod legendre;

@@ -232,12 +232,17 @@ impl Rational {
     /// The exact square root, if it is rational.
     #[must_use]
     pub fn sqrt(&self) -> Option<Rational> {
-        if self.is_negative() {
+        self.root(2)
+    }
+    /// The root of a degree, if it is rational.
+    #[must_use]
+    pub fn root(&self, degree: u32) -> Option<Rational> {
+        if self.is_negative() && degree.is_multiple_of(2) {
             return None;
         }
         let value = self.big();
-        let (n, d) = (value.numer().sqrt(), value.denom().sqrt());
-        (&n * &n == *value.numer() && &d * &d == *value.denom())
+        let [n, d] = [value.numer(), value.denom()].map(|part| part.nth_root(degree));
+        (n.pow(degree) == *value.numer() && d.pow(degree) == *value.denom())
             .then(|| Rational::from_big(BigRational::new_raw(n, d)))
     }
 

@@ -98,6 +98,15 @@ pub(super) struct Base {
     pub(super) second: Atom,
 }
 
+/// How often a loop runs.
+#[derive(Clone, Debug)]
+pub(super) struct Runs {
+    /// The number of its iterations.
+    pub(super) count: Poly,
+    /// The first value and one past the last, if that is nowhere less.
+    pub(super) ends: Option<[Poly; 2]>,
+}
+
 /// An algebra over the leaves of one arena.
 #[derive(Debug)]
 pub(crate) struct Algebra {
@@ -106,6 +115,8 @@ pub(crate) struct Algebra {
     pub(super) angles: Map<Monomial, Base>,
     pub(super) exponents: Map<Monomial, Base>,
     pub(super) converted: Map<Node, Rc<Poly>>,
+    /// How often loops run, as far as that was asked for ([`Algebra::count`]).
+    pub(super) runs: Map<Domain, Runs>,
     /// Arguments of functions so far, with whether they have divisors.
     pub(super) arguments: Vec<(Poly, bool)>,
     /// How often an atom was redefined.
@@ -132,6 +143,7 @@ impl Algebra {
             angles: Map::default(),
             exponents: Map::default(),
             converted: Map::default(),
+            runs: Map::default(),
             arguments: Vec::new(),
             redefined: 0,
             any_guarded: false,

@@ -54,7 +54,6 @@ impl Algebra {
             | Kind::Coefficient
             | Kind::Variable(_)
             | Kind::Extent(_)
-            | Kind::Count(_)
             | Kind::StandIn(_)
             | Kind::Element(..) => Poly::atom(self.leaf(dag, node), 1),
             Kind::Sum(c, terms) => {
@@ -78,6 +77,10 @@ impl Algebra {
             Kind::External(function, part, arguments) => {
                 self.external(*function, *part, &self.all(arguments))?
             }
+            Kind::Count(domain) => match self.runs.get(domain) {
+                Some(runs) => runs.count.clone(),
+                None => Poly::atom(self.leaf(dag, node), 1),
+            },
             Kind::Reduce(domain, body) => {
                 let body = self.of(*body);
                 let body = self.canonical(&body)?;
@@ -87,8 +90,12 @@ impl Algebra {
                         .0
                         .iter()
                         .partition(|(atom, _)| self.entry(*atom).variables.has(*domain));
-                    // A body without the variable is a count, which the constructors make.
-                    let looped = self.sum(dag, *domain, Monomial(inside));
+                    let inside = Monomial(inside);
+                    if let Some(total) = self.power_sum(dag, *domain, &inside)? {
+                        sum.add(&total.times(&Monomial(outside)), k);
+                        continue;
+                    }
+                    let looped = self.sum(dag, *domain, inside);
                     sum.add_term(Monomial(outside).mul(&Monomial::atom(looped, 1)), k.clone());
                 }
                 sum.finish(&self.budget)?

@@ -26,6 +26,9 @@ impl Algebra {
                 if first.is_zero() {
                     return Ok(first);
                 }
+                if let Some(base) = self.root_of_power(&first, 3)? {
+                    return Ok(base.scale(&sign));
+                }
                 let atom = self.function(Key::Root(3, first.clone()), Some((3, first)));
                 Poly::term(sign, Monomial::atom(atom, 1))
             }
@@ -401,6 +404,12 @@ impl Algebra {
         }
         let mut outside = Poly::integer(1);
         let mut inside = rest.scale(&k.sign());
+        if !k.is_negative()
+            && let Some(base) = self.root_of_power(&rest, 2)?
+        {
+            // √(r²) = |r|
+            (outside, inside) = (self.size(&base)?, Poly::integer(1));
+        }
         for &(atom, n) in &monomial.0 {
             if let Key::Exp(exponent) = self.entry(atom).key.clone() {
                 let factor = self.exponential(&exponent.scale(&Rational::new(i64::from(n), 2)))?;

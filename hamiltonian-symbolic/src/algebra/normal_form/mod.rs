@@ -10,11 +10,13 @@
 //! exponentials, e^a·e^b = e^(a+b), e^(n ln x) = xⁿ, (√x)² = x, logarithms of products, |x| = x·sign x,
 //! min, max and `if` as signs (−1, 0 or 1: the cube is the sign, the square is not 1), polynomials
 //! below fraction lines brought over a common denominator.
-//! A loop is an atom for each product it sums, the same one for all re-indexings of the loop.
+//! A loop is an atom for each product it sums, the same one for all re-indexings of the loop; sums of powers of its
+//! variable are polynomials over the ends of its range.
 
 mod angles;
 mod atoms;
 mod convert;
+mod count;
 mod functions;
 mod polynomial;
 mod reduce;
@@ -186,6 +188,7 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
         return Answer::Zero;
     }
     let mut decide = || {
+        algebra.count(dag, node)?;
         let poly = algebra.convert(dag, node)?;
         if symmetry::summands_vanish(algebra, &poly)? {
             return Ok(true);
@@ -193,6 +196,13 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
         if !dag.has_loops(&[node]) {
             return Ok(false);
         }
+        let poly = symmetry::canonical(algebra, dag, &poly)?;
+        if symmetry::summands_vanish(algebra, &poly)? {
+            return Ok(true);
+        }
+        let Some(poly) = symmetry::in_triangles(algebra, dag, &poly)? else {
+            return Ok(false);
+        };
         let poly = symmetry::canonical(algebra, dag, &poly)?;
         symmetry::summands_vanish(algebra, &poly)
     };

@@ -238,6 +238,53 @@ impl Algebra {
         Ok(Some(quotient))
     }
 
+    /// The polynomial of several terms whose power a polynomial is, if there is one. Neither has negative powers.
+    ///
+    /// Its leading term is the root of the leading term. The others follow one by one: if rⁿ is subtracted, what is left
+    /// begins with n·(leading term of r)ⁿ⁻¹ times the next term of r.
+    pub(super) fn root_of_power(&mut self, poly: &Poly, n: u32) -> Result<Option<Poly>, Undecided> {
+        /// The most terms of a root.
+        const MOST: usize = 8;
+        let newest = |poly: &Poly| {
+            let terms = poly.terms().iter();
+            terms.max_by(|a, b| a.0.newest_first(&b.0)).cloned()
+        };
+        if poly.terms().len() < 3 || Algebra::is_divided(poly) {
+            return Ok(None);
+        }
+        let Some((leading, k)) = newest(poly) else {
+            return Ok(None);
+        };
+        let is_power = leading.0.iter().all(|(_, m)| m % n as i32 == 0);
+        let Some(k) = k.root(n).filter(|_| is_power) else {
+            return Ok(None);
+        };
+        let over = leading.0.iter().map(|(atom, m)| (*atom, m / n as i32));
+        let leading = Monomial(over.collect());
+        let mut root = Poly::term(k.clone(), leading.clone());
+        let below = Poly::term(k, leading).pow(n - 1, &mut self.budget)?;
+        let Some((below, l)) = below.as_term().cloned() else {
+            return Ok(None);
+        };
+        let by = l.mul(&Rational::integer(i64::from(n))).recip();
+        let by = by.ok_or(Undecided::Zero)?;
+        loop {
+            let power = root.pow(n, &mut self.budget)?;
+            let Some((next, k)) = newest(&poly.sub(&power)) else {
+                return Ok(Some(root));
+            };
+            let Some(next) = next.over(&below).filter(|_| root.terms().len() < MOST) else {
+                return Ok(None);
+            };
+            let longer = root.add(&Poly::term(k.mul(&by), next));
+            // Each term is older than those before it.
+            if longer.terms().len() <= root.terms().len() {
+                return Ok(None);
+            }
+            root = longer;
+        }
+    }
+
     /// The polynomial with redefined atoms replaced.
     pub(super) fn resolved(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
         if self.redefined == 0 {

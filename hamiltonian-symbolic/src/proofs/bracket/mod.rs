@@ -84,7 +84,22 @@ pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Ver
         return refused;
     }
     let (verdict, is_on_shell) = judge(model, expression, shell);
-    crossed(model, expression, verdict, is_on_shell)
+    let verdict = crossed(model, expression, verdict, is_on_shell);
+    let is_open = matches!(verdict, Verdict::Undecided { .. } | Verdict::Jumps { .. });
+    match is_open && shell.is_none() && is_energy(model, expression) {
+        true => crossed(model, model.h(), Verdict::identity(), false),
+        false => verdict,
+    }
+}
+
+/// Returns true if an expression is proven to be H in another form, wherever both have values, and H is conserved along
+/// orbits unless it jumps: it does not depend on time, and no force acts.
+fn is_energy(model: &Model, expression: Node) -> bool {
+    let mut model = model.clone();
+    let h = model.h();
+    let is_still = model.force.is_empty() && !model.dag.dependence(h).on(Dependence::TIME);
+    let difference = model.dag.sub(expression, h);
+    is_still && normal_form::vanishes(&mut model.dag, difference, Scope::Everywhere)
 }
 
 /// Why orbits may leave a shell, if they may.

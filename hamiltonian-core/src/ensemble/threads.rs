@@ -113,7 +113,7 @@ pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&
                 on_large_stack(&worker);
             });
         }
-        beside(threads - 1, &worker, |_| on_large_stack(&worker));
+        beside(threads - 1, worker, |_| on_large_stack(&worker));
     }
     #[cfg(not(feature = "std"))]
     {

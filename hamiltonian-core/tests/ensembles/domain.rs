@@ -82,11 +82,11 @@ fn members_that_leave_the_domain_have_the_errors_of_single_runs() {
         all
     };
     let followed = sweep(false)
-        .observe(|_| hamiltonian::observers::every(3, EnergyDrift::new()))
+        .observe(|_| every(3, EnergyDrift::new()))
         .record(["drift"], |end| [end.observer.inner.max_relative()]);
     let followed = followed.fold(vec![], take).expect("rows");
     let watched = sweep(false)
-        .observe(|_| hamiltonian::observers::every(5, Recorder::of(["x"])))
+        .observe(|_| every(5, Recorder::of(["x"])))
         .record(["least"], |end| {
             [end.observer
                 .inner

@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut swarm =
         Ensemble::new(stars, start, BlanesMoan4, STEP)?.observe(|_| every(20, EnergyDrift::new()));
 
-    let places = |swarm: &Ensemble<Bar, _>| -> Result<Vec<(f64, f64)>, Error> {
+    let places = |swarm: &Ensemble<Bar, _, _>| -> Result<Vec<(f64, f64)>, Error> {
         let places = swarm
             .states()
             .map(|state| state.map(|State { q, .. }| (q[0], q[1])));

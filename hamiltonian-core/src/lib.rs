@@ -115,7 +115,10 @@ pub mod private;
 
 pub use any::AnyRun;
 pub use checkpoint::Checkpoint;
-pub use ensemble::{End, Ensemble, Ensembles, Lyapunov, Member, Record, Row, Status, Sweep};
+pub use ensemble::{
+    End, Ensemble, Ensembles, Fused, Lyapunov, Member, Record, Rounding, Row, Status, Sweep,
+    Unfused,
+};
 pub use error::Error;
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 pub use integrator::{ErrorEstimate, Integrator, Run, States};

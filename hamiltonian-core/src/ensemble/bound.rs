@@ -1,11 +1,13 @@
 //! The bound of schemes that advance ensembles, on every CPU level.
 //!
-//! Input: a scheme and a system. Output: [`Ensembles`], which enters the level of the CPU and drives members
-//! there. Invariant: a scheme that does not take the system is rejected with the message of [`Scheme`].
+//! Input: a scheme, a system, a rounding. Output: [`Ensembles`], which enters the level of the CPU and drives members
+//! there. Invariants: a scheme that does not take the system is rejected with the message of [`Scheme`]; a level is
+//! compiled only for the roundings that a program names.
 
 use super::drive::PackScheme;
 use super::drive::deviations::Deviations;
 use super::host::Host;
+use super::rounding::{Fused, Rounding, Unfused};
 use crate::error::Error;
 use crate::integrator::{Recipe, check_scheme};
 use crate::map::Map;
@@ -18,7 +20,7 @@ use crate::vector::Vector;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
-use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Pack, Real, W};
+use hamiltonian_lanes::{Cpu, KernelAt, Level, Nf, OnEveryLevel, Pack, Real, W};
 
 /// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `T` and packs of `T`.
 ///
@@ -29,7 +31,7 @@ use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Pack, Real, W};
 /// use hamiltonian::prelude::*;
 ///
 /// fn swarm<S: System<f64>, M: Ensembles<S>>(make: impl Fn(usize) -> (S, StateOf<S>), scheme: M)
-/// -> Result<Ensemble<S>, Error> {
+/// -> Result<Ensemble<S, M>, Error> {
 ///     Ensemble::new(1_000, |member| make(member.index), scheme, 0.01)
 /// }
 /// ```
@@ -42,10 +44,10 @@ use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Pack, Real, W};
 pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     /// Drives the members of a host to their ends.
     #[doc(hidden)]
-    fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool);
+    fn drive<A: Rounding>(&self, host: &mut dyn Host<T, S>);
     /// Advances members with deviations to their ends.
     #[doc(hidden)]
-    fn deviate(&self, all: &mut Deviations<'_, T, S>, fuses: bool);
+    fn deviate<A: Rounding>(&self, all: &mut Deviations<'_, T, S>);
     /// Returns true if two systems may share a pack.
     #[doc(hidden)]
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
@@ -55,14 +57,20 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
 }
 
 /// Work on members, done at one CPU level.
-pub struct WorkAtLevel<'a, T, S, M, W> {
+pub struct WorkAtLevel<'a, T, S, M, A, W> {
     scheme: &'a M,
     work: W,
-    fuses: bool,
-    of: PhantomData<fn(T, S)>,
+    of: PhantomData<fn(T, S, A)>,
 }
 
-impl<L, T, S, M, W> KernelAt<L> for WorkAtLevel<'_, T, S, M, W>
+impl<'a, T, S, M, A, W> WorkAtLevel<'a, T, S, M, A, W> {
+    fn new(scheme: &'a M, work: W) -> Self {
+        let of = PhantomData;
+        WorkAtLevel { scheme, work, of }
+    }
+}
+
+impl<L, T, S, M, A, W> KernelAt<L> for WorkAtLevel<'_, T, S, M, A, W>
 where
     L: Level,
     T: Real,
@@ -72,16 +80,20 @@ where
         + PackScheme<T, S, L::Several>
         + PackScheme<T, S, Nf<L::Several>>
         + PackScheme<T, S, W2<L>>
-        + PackScheme<T, S, Nf<W2<L>>>,
+        + PackScheme<T, S, Nf<W2<L>>>
+        + PackScheme<T, S, f64>,
+    A: Rounding,
     W: MemberWork<T, S>,
 {
     type Output = ();
     #[inline(always)]
     fn run(self) {
         // The widths differ only in speed: more registers in lock-step hide more of the latency of a step, until its
-        // numbers do not stay in registers. The conditions are constant, so the compiler emits no code for the other
-        // widths.
-        if const { numbers::<T, S, M>() <= 2 } {
+        // numbers do not stay in registers. Two lanes gain too little for a copy of this code: such a CPU has one
+        // member at a time. The conditions are constant, so the compiler emits no code for the other widths.
+        if const { matches!(L::CPU, Cpu::Portable | Cpu::Sse2) } {
+            self.work.at::<L, f64, M>(self.scheme);
+        } else if const { numbers::<T, S, M>() <= 2 } {
             self.at::<L, L::Wide, Nf<L::Several>>();
         } else if const { numbers::<T, S, M>() <= 4 } {
             self.at::<L, L::Several, Nf<L::Several>>();
@@ -91,13 +103,14 @@ where
     }
 }
 
-impl<T, S, M, W> WorkAtLevel<'_, T, S, M, W>
+impl<T, S, M, A, W> WorkAtLevel<'_, T, S, M, A, W>
 where
     T: Real,
     S: System<T>,
+    A: Rounding,
     W: MemberWork<T, S>,
 {
-    /// Does the work in one of two packs. Levels without fused products have only one arithmetic.
+    /// Does the work in the pack of the rounding. Levels without fused products have only one.
     #[inline(always)]
     fn at<L, Fused, Unfused>(self)
     where
@@ -106,7 +119,7 @@ where
         Unfused: Pack,
         M: PackScheme<T, S, Fused> + PackScheme<T, S, Unfused>,
     {
-        if self.fuses || const { !L::FUSES } {
+        if const { A::FUSES || !L::FUSES } {
             self.work.at::<L, Fused, M>(self.scheme);
         } else {
             self.work.at::<L, Unfused, M>(self.scheme);
@@ -154,30 +167,27 @@ where
     T: Real,
     S: System<T, Prepared: Gather<T>>,
     M: Scheme<T, S>,
-    for<'a> WorkAtLevel<'a, T, S, M, DriveMembers<'a, T, S>>: OnEveryLevel<Output = ()>,
-    for<'a, 'r> WorkAtLevel<'a, T, S, M, DeviateMembers<'a, 'r, T, S>>: OnEveryLevel<Output = ()>,
+    for<'a> WorkAtLevel<'a, T, S, M, Fused, DriveMembers<'a, T, S>>: OnEveryLevel<Output = ()>,
+    for<'a, 'r> WorkAtLevel<'a, T, S, M, Fused, DeviateMembers<'a, 'r, T, S>>:
+        OnEveryLevel<Output = ()>,
+    for<'a> WorkAtLevel<'a, T, S, M, Unfused, DriveMembers<'a, T, S>>: OnEveryLevel<Output = ()>,
+    for<'a, 'r> WorkAtLevel<'a, T, S, M, Unfused, DeviateMembers<'a, 'r, T, S>>:
+        OnEveryLevel<Output = ()>,
 {
-    fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool) {
-        let (scheme, work) = (self, DriveMembers(host));
-        let of = PhantomData::<fn(T, S)>;
-        WorkAtLevel {
-            scheme,
-            work,
-            fuses,
-            of,
+    // The conditions are constant: the other rounding is not compiled.
+    fn drive<A: Rounding>(&self, host: &mut dyn Host<T, S>) {
+        if const { A::FUSES } {
+            WorkAtLevel::<T, S, M, Fused, _>::new(self, DriveMembers(host)).dispatch();
+        } else {
+            WorkAtLevel::<T, S, M, Unfused, _>::new(self, DriveMembers(host)).dispatch();
         }
-        .dispatch();
     }
-    fn deviate(&self, all: &mut Deviations<'_, T, S>, fuses: bool) {
-        let (scheme, work) = (self, DeviateMembers(all));
-        let of = PhantomData::<fn(T, S)>;
-        WorkAtLevel {
-            scheme,
-            work,
-            fuses,
-            of,
+    fn deviate<A: Rounding>(&self, all: &mut Deviations<'_, T, S>) {
+        if const { A::FUSES } {
+            WorkAtLevel::<T, S, M, Fused, _>::new(self, DeviateMembers(all)).dispatch();
+        } else {
+            WorkAtLevel::<T, S, M, Unfused, _>::new(self, DeviateMembers(all)).dispatch();
         }
-        .dispatch();
     }
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
         a.fits(b)
@@ -187,10 +197,8 @@ where
     }
 }
 
-/// A scheme for ensembles of `S`, with its type erased.
+/// What starts need of a scheme for ensembles of `S`, with its type erased.
 pub(crate) trait ErasedScheme<S: System<f64>>: Send + Sync {
-    /// See [`Ensembles::drive`].
-    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool);
     /// See [`Ensembles::fits`].
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
     /// See [`Ensembles::equals`].
@@ -212,9 +220,6 @@ pub(crate) trait ErasedScheme<S: System<f64>>: Send + Sync {
 }
 
 impl<S: System<f64>, M: Ensembles<S>> ErasedScheme<S> for M {
-    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool) {
-        Ensembles::<S>::drive(self, host, fuses);
-    }
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
         Ensembles::<S>::fits(self, a, b)
     }

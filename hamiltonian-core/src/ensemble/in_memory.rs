@@ -6,6 +6,7 @@ use super::Member;
 use super::bound::{Ensembles, ErasedScheme};
 use super::chunk::{Chunk, ChunkHost, ChunkOf, Common, Decision, Finished, end_of, observe};
 use super::guard::guard;
+use super::rounding::{Fused, Rounding, Unfused};
 use super::threads;
 use crate::checkpoint::Memory;
 use crate::error::Error;
@@ -17,6 +18,7 @@ use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
+use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 /// Many members of one system and one scheme, which advance together in the lanes of packs and on threads.
@@ -42,12 +44,15 @@ use core::ops::ControlFlow;
 /// The bits of a member depend on neither the number of threads nor the other members. By default, products and sums
 /// are fused if the CPU has such instructions. With [`reproducible`](Ensemble::reproducible) they are not fused, and a
 /// member has the bits of a single [`Integrator`](crate::Integrator) on every CPU.
-pub struct Ensemble<S: System<f64>, O = ()> {
-    pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
+///
+/// The rounding is a type, so that a program contains the code of the ensembles that it advances, and no other:
+/// `Ensemble<S, M>` fuses, `Ensemble<S, M, (), Unfused>` is reproducible.
+pub struct Ensemble<S: System<f64>, M, O = (), A = Fused> {
+    pub(crate) scheme: Arc<M>,
     pub(crate) chunks: Vec<ChunkOf<S, O>>,
     pub(crate) common: Common<S::Vector>,
     threads: usize,
-    pub(crate) fuses: bool,
+    rounding: PhantomData<A>,
     /// The saved data of observers, until they are attached to a resumed ensemble.
     pub(crate) memory: Memory,
 }
@@ -57,7 +62,7 @@ const LANES: usize = 192;
 /// The largest number of members in a chunk.
 const CHUNK: usize = 10 * LANES;
 
-impl<S: System<f64>> Ensemble<S> {
+impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     /// Creates an ensemble of `count` members. `make` makes the system and the start of each. All members have the step
     /// `step`, which is negative to integrate backwards.
     ///
@@ -65,7 +70,7 @@ impl<S: System<f64>> Ensemble<S> {
     ///
     /// # Errors
     /// [`Error::NoMembers`], [`Error::Step`].
-    pub fn new<M: Ensembles<S>>(
+    pub fn new(
         count: usize,
         mut make: impl FnMut(Member) -> (S, State<S::Vector>),
         scheme: M,
@@ -79,7 +84,7 @@ impl<S: System<f64>> Ensemble<S> {
     ///
     /// # Errors
     /// Those of [`new`](Ensemble::new).
-    pub fn try_new<M: Ensembles<S>>(
+    pub fn try_new(
         count: usize,
         mut make: impl FnMut(Member) -> Result<(S, State<S::Vector>), Error>,
         scheme: M,
@@ -89,7 +94,8 @@ impl<S: System<f64>> Ensemble<S> {
             return Err(Error::NoMembers);
         }
         check_step(step)?;
-        let scheme: Arc<dyn ErasedScheme<S>> = Arc::new(scheme);
+        let of_type = Arc::new(scheme);
+        let scheme: &dyn ErasedScheme<S> = &*of_type;
         let mut common = Common {
             template: None,
             width: 0,
@@ -137,17 +143,17 @@ impl<S: System<f64>> Ensemble<S> {
             chunks.push(chunk);
         }
         Ok(Ensemble {
-            scheme,
+            scheme: of_type,
             chunks,
             common,
             threads: threads::available(),
-            fuses: true,
+            rounding: PhantomData,
             memory: Memory::default(),
         })
     }
 }
 
-impl<S: System<f64>, O> Ensemble<S, O> {
+impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Attaches an observer to each member, made from its index.
     ///
     /// An observer receives the present state at once, and from then on the states of its member as in a single run. An
@@ -171,7 +177,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     pub fn observe<N: Observer<f64, S> + Send>(
         self,
         mut observer: impl FnMut(Member) -> N,
-    ) -> Ensemble<S, N>
+    ) -> Ensemble<S, M, N, A>
     where
         O: Unobserved,
     {
@@ -209,7 +215,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             chunks: chunks.collect(),
             common: self.common,
             threads: self.threads,
-            fuses: self.fuses,
+            rounding: PhantomData,
             memory: Memory::default(),
         };
         let mut memory = self.memory;
@@ -225,7 +231,9 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     }
 }
 
-impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
+impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S> + Send, A: Rounding>
+    Ensemble<S, M, O, A>
+{
     /// Makes `n` steps of every member that has neither failed nor been ended by its observer.
     pub fn advance(&mut self, n: u64) -> &mut Self {
         let target = self.common.steps.saturating_add(n);
@@ -265,7 +273,7 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
     }
 }
 
-impl<S: System<f64>, O> Ensemble<S, O> {
+impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
     /// in a rayon pool gets those of the pool, and no others.
     #[must_use]
@@ -276,9 +284,20 @@ impl<S: System<f64>, O> Ensemble<S, O> {
 
     /// Does not fuse products and sums, so that each member has the bits of its single run on every CPU.
     #[must_use]
-    pub fn reproducible(mut self) -> Self {
-        self.fuses = false;
-        self
+    pub fn reproducible(self) -> Ensemble<S, M, O, Unfused> {
+        Ensemble {
+            scheme: self.scheme,
+            chunks: self.chunks,
+            common: self.common,
+            threads: self.threads,
+            rounding: PhantomData,
+            memory: self.memory,
+        }
+    }
+
+    /// Returns the scheme without its type.
+    pub(super) fn erased(&self) -> &dyn ErasedScheme<S> {
+        &*self.scheme
     }
 
     /// The number of members.
@@ -355,9 +374,9 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 ControlFlow::Continue(())
             },
         };
-        let (scheme, fuses) = (&*self.scheme, self.fuses);
+        let scheme = &*self.scheme;
         threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
-            scheme.drive(host, fuses);
+            Ensembles::<S>::drive::<A>(scheme, host);
         });
         let member = |key: usize, error: Error| Error::Member {
             index: chunk.first + key,
@@ -399,9 +418,9 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                     Err(error) => ControlFlow::Break(Err(error)),
                 },
             };
-            let (scheme, fuses) = (&*self.scheme, self.fuses);
+            let scheme = &*self.scheme;
             threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
-                scheme.drive(host, fuses);
+                Ensembles::<S>::drive::<A>(scheme, host);
             });
             chunk.finished.extend(finished);
         }
@@ -416,7 +435,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     ) where
         O: Observer<f64, S> + Send,
     {
-        let (scheme, common, fuses) = (&*self.scheme, &self.common, self.fuses);
+        let (scheme, common) = (&*self.scheme, &self.common);
         threads::for_each(&mut self.chunks, self.threads, |chunk| {
             let observes = attaches || chunk.observers.iter().any(|one| one.interval() < u64::MAX);
             let mut host = ChunkHost {
@@ -429,29 +448,29 @@ impl<S: System<f64>, O> Ensemble<S, O> {
                 next: 0,
                 receive: &receive,
             };
-            scheme.drive(&mut host, fuses);
+            Ensembles::<S>::drive::<A>(scheme, &mut host);
         });
     }
 }
 
-impl<S: System<f64>, O: Clone> Clone for Ensemble<S, O> {
+impl<S: System<f64>, M, O: Clone, A> Clone for Ensemble<S, M, O, A> {
     fn clone(&self) -> Self {
         Ensemble {
             scheme: Arc::clone(&self.scheme),
             chunks: self.chunks.clone(),
             common: self.common.clone(),
             threads: self.threads,
-            fuses: self.fuses,
+            rounding: PhantomData,
             memory: self.memory.clone(),
         }
     }
 }
 
-impl<S: System<f64>, O> fmt::Debug for Ensemble<S, O> {
+impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> fmt::Debug for Ensemble<S, M, O, A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
             .field("system", &S::NAME)
-            .field("scheme", &self.scheme.describe())
+            .field("scheme", &self.erased().describe())
             .field("members", &self.len())
             .field("step", &self.common.step)
             .field("steps", &self.common.steps)

@@ -7,6 +7,7 @@ use super::bound::Ensembles;
 use super::drive::deviations::{DeviatedMember, Deviations, Indicator};
 use super::guard::guard;
 use super::ordered::in_order;
+use super::rounding::{Fused, Rounding, Unfused};
 use super::threads;
 use super::{MakeMember, Member};
 use crate::error::Error;
@@ -18,6 +19,7 @@ use crate::vector::Vector;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
+use core::marker::PhantomData;
 use core::ops::{ControlFlow, Range};
 use core::sync::atomic::AtomicBool;
 use hamiltonian_lanes::Dual;
@@ -54,7 +56,7 @@ type D = Dual<f64>;
 /// As for an [`Ensemble`](crate::Ensemble), neither the number of threads nor the other members change a bit of a
 /// member. With [`reproducible`](Lyapunov::reproducible), each member has the bits of a single
 /// [`Tangent`](crate::tangents::Tangent) on every CPU.
-pub struct Lyapunov<'a, S: System<f64>, M> {
+pub struct Lyapunov<'a, S: System<f64>, M, A = Fused> {
     count: usize,
     make: MakeMember<'a, S>,
     scheme: M,
@@ -63,7 +65,7 @@ pub struct Lyapunov<'a, S: System<f64>, M> {
     every: u64,
     deviations: usize,
     threads: usize,
-    fuses: bool,
+    rounding: PhantomData<A>,
     cancel: Option<&'a AtomicBool>,
     progress: Option<Box<dyn Fn(usize, usize) + Send + Sync + 'a>>,
 }
@@ -100,12 +102,14 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
             every: 10,
             deviations: 1,
             threads: threads::available(),
-            fuses: true,
+            rounding: PhantomData,
             cancel: None,
             progress: None,
         }
     }
+}
 
+impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Sets the number of steps.
     #[must_use]
     pub fn steps(mut self, n: u64) -> Self {
@@ -140,9 +144,20 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     /// Does not fuse products and sums, so that each member has the bits of its single
     /// [`Tangent`](crate::tangents::Tangent) on every CPU.
     #[must_use]
-    pub fn reproducible(mut self) -> Self {
-        self.fuses = false;
-        self
+    pub fn reproducible(self) -> Lyapunov<'a, S, M, Unfused> {
+        Lyapunov {
+            count: self.count,
+            make: self.make,
+            scheme: self.scheme,
+            step: self.step,
+            steps: self.steps,
+            every: self.every,
+            deviations: self.deviations,
+            threads: self.threads,
+            rounding: PhantomData,
+            cancel: self.cancel,
+            progress: self.progress,
+        }
     }
 
     /// Stops with [`Error::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
@@ -279,7 +294,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
                 Err(error) => errors.push(Some(error)),
             }
         }
-        Ensembles::<S, D>::deviate(&self.scheme, &mut all, self.fuses);
+        Ensembles::<S, D>::deviate::<A>(&self.scheme, &mut all);
         if all.is_cancelled() {
             return None;
         }
@@ -335,7 +350,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     }
 }
 
-impl<S: System<f64>, M: fmt::Debug> fmt::Debug for Lyapunov<'_, S, M> {
+impl<S: System<f64>, M: fmt::Debug, A> fmt::Debug for Lyapunov<'_, S, M, A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Lyapunov")
             .field("system", &S::NAME)

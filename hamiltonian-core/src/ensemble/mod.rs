@@ -9,6 +9,7 @@
 //! - [`host`]: the run of a member, and its owner; [`occupants`]: the members in the lanes of a pack;
 //!   [`block`]: a block of steps;
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
+//! - [`rounding`]: whether products and sums are fused, as a type;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
 //! - [`chunk`], [`in_memory`], [`until`]: members in memory;
 //! - [`sweep`], `sweep::host`, [`record`]: members that are run to their ends and recorded;
@@ -28,6 +29,7 @@ mod marks;
 mod occupants;
 mod ordered;
 mod record;
+mod rounding;
 mod saved;
 #[cfg(feature = "std")]
 mod stored;
@@ -39,6 +41,7 @@ pub use bound::Ensembles;
 pub use in_memory::Ensemble;
 pub use lyapunov::Lyapunov;
 pub use record::{End, Record, Row, Status};
+pub use rounding::{Fused, Rounding, Unfused};
 pub use sweep::Sweep;
 
 use crate::error::Error;

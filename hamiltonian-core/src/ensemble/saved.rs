@@ -8,6 +8,7 @@ use super::bound::Ensembles;
 use super::chunk::Finished;
 use super::hash::Hash;
 use super::in_memory::Ensemble;
+use super::rounding::{Rounding, Unfused};
 use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::{CheckpointError, Error};
 use crate::observe::Observer;
@@ -25,7 +26,7 @@ const ON: u64 = 0;
 const FAILED: u64 = 1;
 const ENDED: u64 = 2;
 
-impl<S: System<f64>, O> Ensemble<S, O> {
+impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Returns the text of the system and the number of members.
     fn formula(&self) -> String {
         let name = S::NAME;
@@ -43,12 +44,12 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     }
 }
 
-impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
+impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O, A> {
     /// Returns a checkpoint of the ensemble and its observers.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
         numbers.number(self.common.step);
-        numbers.count(u64::from(self.fuses));
+        numbers.count(u64::from(A::FUSES));
         let mut observers = Memory::default();
         for chunk in &self.chunks {
             for word in &chunk.words {
@@ -76,7 +77,7 @@ impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
         Checkpoint {
             system: self.formula(),
             parameters: self.members_hash(),
-            scheme: self.scheme.describe(),
+            scheme: self.erased().describe(),
             scalar: core::any::type_name::<f64>().to_owned(),
             counts: [self.common.steps, 0, 0],
             numbers,
@@ -85,7 +86,7 @@ impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
     }
 }
 
-impl<S: System<f64>> Ensemble<S> {
+impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     /// Continues a saved ensemble with the same bits. The same closure must make its members.
     ///
     /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. A member
@@ -110,20 +111,46 @@ impl<S: System<f64>> Ensemble<S> {
     /// # Errors
     /// [`CheckpointError::Other`] for other members, another scheme or another number of them;
     /// [`CheckpointError::Damaged`] for numbers that do not fit; those of [`new`](Ensemble::new).
-    pub fn resume<M: Ensembles<S>>(
+    /// [`CheckpointError::Other`] also if the ensemble was [`reproducible`](Ensemble::reproducible), which
+    /// [`resume_reproducible`](Ensemble::resume_reproducible) continues.
+    pub fn resume(
         count: usize,
         make: impl FnMut(Member) -> (S, State<S::Vector>),
         scheme: M,
         checkpoint: Checkpoint,
     ) -> Result<Self, Error> {
+        let step = checkpoint.numbers.clone().read_number()?;
+        Self::new(count, make, scheme, step)?.restored(checkpoint)
+    }
+
+    /// Does the same as [`resume`](Ensemble::resume) for a [`reproducible`](Ensemble::reproducible) ensemble.
+    ///
+    /// # Errors
+    /// Those of [`resume`](Ensemble::resume); [`CheckpointError::Other`] if the ensemble was not reproducible.
+    pub fn resume_reproducible(
+        count: usize,
+        make: impl FnMut(Member) -> (S, State<S::Vector>),
+        scheme: M,
+        checkpoint: Checkpoint,
+    ) -> Result<Ensemble<S, M, (), Unfused>, Error> {
+        let step = checkpoint.numbers.clone().read_number()?;
+        let swarm = Self::new(count, make, scheme, step)?.reproducible();
+        swarm.restored(checkpoint)
+    }
+}
+
+impl<S: System<f64>, M: Ensembles<S>, A: Rounding> Ensemble<S, M, (), A> {
+    /// The saved members in place of those at their starts.
+    fn restored(self, checkpoint: Checkpoint) -> Result<Self, Error> {
+        let mut swarm = self;
         let mut numbers = checkpoint.numbers;
-        let step = numbers.read_number()?;
-        let fuses = numbers.read_count()? != 0;
-        let mut swarm = Self::new(count, make, scheme, step)?;
+        numbers.read_number()?;
+        let name = |fuses| if fuses { "fused" } else { "unfused" };
+        let saved = name(numbers.read_count()? != 0);
         Checkpoint::same("system", &checkpoint.system, &swarm.formula())?;
         Checkpoint::same("parameter", &checkpoint.parameters, &swarm.members_hash())?;
-        Checkpoint::same("scheme", &checkpoint.scheme, &swarm.scheme.describe())?;
-        swarm.fuses = fuses;
+        Checkpoint::same("scheme", &checkpoint.scheme, &swarm.erased().describe())?;
+        Checkpoint::same("arithmetic", saved, name(A::FUSES))?;
         swarm.common.steps = checkpoint.counts[0];
         for chunk in &mut swarm.chunks {
             for word in &mut chunk.words {

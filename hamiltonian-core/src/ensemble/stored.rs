@@ -4,9 +4,11 @@
 //! that is present was written by the same sweep, from the same members.
 
 use super::Member;
+use super::bound::Ensembles;
 use super::guard::guard;
 use super::hash::{Hash, hash_of};
 use super::record::{Batch, Record, Status};
+use super::rounding::Rounding;
 use super::sweep::{EndPoint, Sweep};
 use crate::error::Error;
 use crate::observe::Observer;
@@ -20,9 +22,11 @@ use core::ops::{ControlFlow, Range};
 use hamiltonian_lanes::Cpu;
 use std::path::Path;
 
-impl<'a, S, O> Sweep<'a, S, O, Record<'a, S, O>>
+impl<'a, S, M, O, A> Sweep<'a, S, M, O, Record<'a, S, O>, A>
 where
     S: System<f64>,
+    M: Ensembles<S>,
+    A: Rounding,
     O: Observer<f64, S>,
 {
     /// Runs the chunks of this shard that are missing in the store at `path`, and writes each when it is done.
@@ -141,14 +145,14 @@ where
             Some(_) => "of each member".into(),
             None => self.step.into(),
         };
-        let arithmetic = if self.fuses { "fused" } else { "unfused" };
+        let arithmetic = if A::FUSES { "fused" } else { "unfused" };
         // Without fused products, all levels give the same bits.
-        let level = match self.fuses {
+        let level = match A::FUSES {
             true => format!("{:?}", Cpu::best()),
             false => "any".to_string(),
         };
         // The name, and the fields of the scheme if they say more.
-        let described = self.scheme.describe();
+        let described = self.erased().describe();
         let mut described: Vec<&str> = described.lines().collect();
         described.dedup();
         let attributes = vec![

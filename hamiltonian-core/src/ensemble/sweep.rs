@@ -8,6 +8,7 @@ mod host;
 use super::bound::{Ensembles, ErasedScheme};
 use super::ordered::in_order;
 use super::record::{Batch, End, Record, Row};
+use super::rounding::{Fused, Rounding, Unfused};
 use super::threads;
 use super::{MakeMember, Member};
 use crate::error::Error;
@@ -20,6 +21,7 @@ use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
 use host::SweepHost;
@@ -64,9 +66,9 @@ pub(crate) enum EndPoint<'a> {
 /// [`reproducible`](Sweep::reproducible), a member has the bits of a single run on every CPU. The part of a step before
 /// the end is computed over `f64` without fused products, in both modes. So are the values of observers, except those
 /// of [`EnergyDrift`](crate::observers::EnergyDrift) and [`Monitors`](crate::observers::Monitors).
-pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
+pub struct Sweep<'a, S: System<f64>, M, O = (), R = (), A = Fused> {
     pub(crate) count: usize,
-    pub(crate) scheme: Arc<dyn ErasedScheme<S>>,
+    pub(crate) scheme: M,
     pub(crate) make: MakeMember<'a, S>,
     pub(crate) step: f64,
     pub(crate) step_each: Option<PerMember<'a>>,
@@ -77,7 +79,7 @@ pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
     chunk: Option<usize>,
     shard: Option<Shard>,
     threads: usize,
-    pub(crate) fuses: bool,
+    rounding: PhantomData<A>,
     cancel: Option<&'a AtomicBool>,
     progress: Option<Box<dyn Fn(usize, usize) + Send + Sync + 'a>>,
 }
@@ -87,10 +89,10 @@ const CHUNK: usize = 4800;
 /// The smallest default number, the lanes of the widest pack.
 const LANES: usize = 80;
 
-impl<'a, S: System<f64>> Sweep<'a, S> {
+impl<'a, S: System<f64>, M: Ensembles<S>> Sweep<'a, S, M> {
     /// Describes a sweep over `count` members with the step `step`, which still needs an end and a record. `make` makes
     /// the system and the start of a member, on any thread.
-    pub fn new<M: Ensembles<S>>(
+    pub fn new(
         count: usize,
         make: impl Fn(Member) -> (S, State<S::Vector>) + Send + Sync + 'a,
         scheme: M,
@@ -101,7 +103,7 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
 
     /// Does the same as [`new`](Sweep::new) with a closure that returns a `Result`. Its error becomes that of the
     /// member.
-    pub fn try_new<M: Ensembles<S>>(
+    pub fn try_new(
         count: usize,
         make: impl Fn(Member) -> Result<(S, State<S::Vector>), Error> + Send + Sync + 'a,
         scheme: M,
@@ -109,7 +111,7 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
     ) -> Self {
         Sweep {
             count,
-            scheme: Arc::new(scheme),
+            scheme,
             make: Box::new(make),
             step,
             step_each: None,
@@ -120,21 +122,21 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
             chunk: None,
             shard: None,
             threads: threads::available(),
-            fuses: true,
+            rounding: PhantomData,
             cancel: None,
             progress: None,
         }
     }
 }
 
-impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
+impl<'a, S: System<f64>, M: Ensembles<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
     /// Attaches an observer to each member, as in a single run. An observer that ends its member ends no other.
     ///
     /// Call `observe` once. For several observers, return a tuple.
     pub fn observe<N: Observer<f64, S>>(
         self,
         observer: impl Fn(Member) -> N + Send + Sync + 'a,
-    ) -> Sweep<'a, S, N>
+    ) -> Sweep<'a, S, M, N, (), A>
     where
         O: Unobserved,
     {
@@ -147,7 +149,7 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self,
         columns: [&str; N],
         record: impl Fn(&End<'_, S, O>) -> [f64; N] + Send + Sync + 'a,
-    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+    ) -> Sweep<'a, S, M, O, Record<'a, S, O>, A> {
         let write = move |end: &End<'_, S, O>, to: &mut Vec<f64>| to.extend(record(end));
         self.recorded(&columns, false, None, Box::new(write))
     }
@@ -162,7 +164,7 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         times: impl IntoIterator<Item = f64>,
         columns: [&str; N],
         record: impl Fn(&End<'_, S, O>) -> [f64; N] + Send + Sync + 'a,
-    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+    ) -> Sweep<'a, S, M, O, Record<'a, S, O>, A> {
         let write = move |end: &End<'_, S, O>, to: &mut Vec<f64>| to.extend(record(end));
         let times = times.into_iter().collect();
         self.recorded(&columns, true, Some(times), Box::new(write))
@@ -174,7 +176,7 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         self,
         columns: [&str; N],
         rows: impl Fn(&End<'_, S, O>) -> I + Send + Sync + 'a,
-    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+    ) -> Sweep<'a, S, M, O, Record<'a, S, O>, A> {
         let write = move |end: &End<'_, S, O>, to: &mut Vec<f64>| {
             to.extend(rows(end).into_iter().flatten());
         };
@@ -187,7 +189,7 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
         several: bool,
         times: Option<Vec<f64>>,
         write: super::record::Write<'a, S, O>,
-    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+    ) -> Sweep<'a, S, M, O, Record<'a, S, O>, A> {
         let record = Record {
             columns: columns.iter().map(|name| String::from(*name)).collect(),
             several,
@@ -199,13 +201,13 @@ impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
     }
 }
 
-impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
+impl<'a, S: System<f64>, M: Ensembles<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     /// Replaces the observer and the record.
     fn with<N, Q>(
         self,
         observer: Arc<dyn Fn(Member) -> N + Send + Sync + 'a>,
         record: Q,
-    ) -> Sweep<'a, S, N, Q> {
+    ) -> Sweep<'a, S, M, N, Q, A> {
         Sweep {
             count: self.count,
             scheme: self.scheme,
@@ -219,7 +221,7 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
             chunk: self.chunk,
             shard: self.shard,
             threads: self.threads,
-            fuses: self.fuses,
+            rounding: PhantomData,
             cancel: self.cancel,
             progress: self.progress,
         }
@@ -286,9 +288,29 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
 
     /// Does not fuse products and sums, so that each member has the bits of its single run on every CPU.
     #[must_use]
-    pub fn reproducible(mut self) -> Self {
-        self.fuses = false;
-        self
+    pub fn reproducible(self) -> Sweep<'a, S, M, O, R, Unfused> {
+        Sweep {
+            count: self.count,
+            scheme: self.scheme,
+            make: self.make,
+            step: self.step,
+            step_each: self.step_each,
+            end: self.end,
+            observer: self.observer,
+            record: self.record,
+            seed: self.seed,
+            chunk: self.chunk,
+            shard: self.shard,
+            threads: self.threads,
+            rounding: PhantomData,
+            cancel: self.cancel,
+            progress: self.progress,
+        }
+    }
+
+    /// Returns the scheme without its type.
+    pub(crate) fn erased(&self) -> &dyn ErasedScheme<S> {
+        &self.scheme
     }
 
     /// Stops the sweep with [`Error::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
@@ -332,9 +354,11 @@ impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
     }
 }
 
-impl<'a, S, O> Sweep<'a, S, O, Record<'a, S, O>>
+impl<'a, S, M, O, A> Sweep<'a, S, M, O, Record<'a, S, O>, A>
 where
     S: System<f64>,
+    M: Ensembles<S>,
+    A: Rounding,
     O: Observer<f64, S>,
 {
     /// Runs the sweep and passes its rows to a closure, one by one in the order of the index, on this thread.
@@ -355,7 +379,7 @@ where
     /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; for the times of
     /// [`record_at`](Sweep::record_at), [`Error::Unreachable`] if one is NaN or infinite, and [`Error::Behind`] if one
     /// comes before the previous one. The error of a member is in its row.
-    pub fn fold<A>(&self, init: A, mut take: impl FnMut(A, &Row<'_>) -> A) -> Result<A, Error> {
+    pub fn fold<U>(&self, init: U, mut take: impl FnMut(U, &Row<'_>) -> U) -> Result<U, Error> {
         self.try_fold(init, |all, row| ControlFlow::Continue(take(all, row)))
     }
 
@@ -364,11 +388,11 @@ where
     ///
     /// # Errors
     /// Those of [`fold`](Sweep::fold).
-    pub fn try_fold<A>(
+    pub fn try_fold<U>(
         &self,
-        init: A,
-        mut take: impl FnMut(A, &Row<'_>) -> ControlFlow<A, A>,
-    ) -> Result<A, Error> {
+        init: U,
+        mut take: impl FnMut(U, &Row<'_>) -> ControlFlow<U, U>,
+    ) -> Result<U, Error> {
         let mut all = Some(init);
         self.each_batch(self.chunks(), false, |batch| {
             for row in batch.rows() {
@@ -480,11 +504,13 @@ where
     }
 }
 
-impl<S: System<f64>, O, R> core::fmt::Debug for Sweep<'_, S, O, R> {
+impl<S: System<f64>, M: Ensembles<S>, O, R, A: Rounding> core::fmt::Debug
+    for Sweep<'_, S, M, O, R, A>
+{
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Sweep")
             .field("system", &S::NAME)
-            .field("scheme", &self.scheme.describe())
+            .field("scheme", &self.erased().describe())
             .field("members", &self.count)
             .field("step", &self.step)
             .field("seed", &self.seed)

@@ -3,15 +3,19 @@
 //! Input: an ensemble and a time. Output: the states of its members at that time. Invariant: only whole steps change
 //! members. A state between two steps is computed on a copy, by a part of a step.
 
+use super::bound::Ensembles;
 use super::chunk::Shared;
 use super::in_memory::Ensemble;
+use super::rounding::Rounding;
 use crate::error::Error;
 use crate::map::Clock;
 use crate::observe::Observer;
 use crate::state::State;
 use crate::system::{System, clock};
 
-impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
+impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S> + Send, A: Rounding>
+    Ensemble<S, M, O, A>
+{
     /// Advances all members to the time `t` by a whole number of steps, as
     /// [`Integrator::advance_to`](crate::Integrator::advance_to) does.
     ///

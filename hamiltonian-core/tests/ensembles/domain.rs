@@ -71,21 +71,23 @@ fn members_that_leave_the_domain_have_the_errors_of_single_runs() {
         }
     }
     // A sweep with an observer in lanes, one with an observer of states, and one in fused arithmetic.
-    let sweep = |fuses: bool| {
-        let sweep = Sweep::new(MEMBERS, falling, StormerVerlet::default(), STEP);
-        let sweep = if fuses { sweep } else { sweep.reproducible() };
-        sweep.steps(STEPS).chunk(100)
+    let sweep = || {
+        Sweep::new(MEMBERS, falling, StormerVerlet::default(), STEP)
+            .steps(STEPS)
+            .chunk(100)
     };
     let take = |mut all: Vec<_>, row: &hamiltonian::Row<'_>| {
         assert_eq!(row.error.is_some(), row.values[0].is_nan());
         all.push((row.status, row.error.map(alone)));
         all
     };
-    let followed = sweep(false)
+    let followed = sweep()
+        .reproducible()
         .observe(|_| every(3, EnergyDrift::new()))
         .record(["drift"], |end| [end.observer.inner.max_relative()]);
     let followed = followed.fold(vec![], take).expect("rows");
-    let watched = sweep(false)
+    let watched = sweep()
+        .reproducible()
         .observe(|_| every(5, Recorder::of(["x"])))
         .record(["least"], |end| {
             [end.observer
@@ -94,7 +96,7 @@ fn members_that_leave_the_domain_have_the_errors_of_single_runs() {
                 .map_or(f64::NAN, |x| x.fold(f64::MAX, f64::min))]
         });
     let watched = watched.fold(vec![], take).expect("rows");
-    let fused = sweep(true).record(["x"], |end| [end.state.q[0]]);
+    let fused = sweep().record(["x"], |end| [end.state.q[0]]);
     let fused = fused.fold(vec![], take).expect("rows");
     for (index, expected) in expected.iter().enumerate() {
         let status = match expected {

@@ -1,13 +1,16 @@
 //! Rows of sweeps with failing members among them, and where a sweep stops: whatever the layout.
 
 use super::*;
+use hamiltonian::{Rounding, Unfused};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The index of each row, its member's end and its bits, its member's error.
 type Rows = Vec<(usize, Status, u64, Vec<u64>, Option<String>)>;
 
-fn with_errors<S: System<f64>>(sweep: &Sweep<'_, S, (), hamiltonian::Record<'_, S, ()>>) -> Rows {
+fn with_errors<S: System<f64>, M: Ensembles<S>, A: Rounding>(
+    sweep: &Sweep<'_, S, M, (), hamiltonian::Record<'_, S, ()>, A>,
+) -> Rows {
     let add = |mut all: Rows, row: &hamiltonian::Row<'_>| {
         let numbers = row.values.iter().chain([&row.time]);
         let bits = numbers.map(|number| number.to_bits()).collect();
@@ -20,48 +23,55 @@ fn with_errors<S: System<f64>>(sweep: &Sweep<'_, S, (), hamiltonian::Record<'_, 
 
 #[test]
 fn failing_members_change_no_bit_whatever_the_layout() {
-    let sweep = |fuses: bool| {
-        let sweep = Sweep::try_new(COUNT, holes, StormerVerlet::default(), 0.01)
-            .until_each(|member| 12.0 + 5.0 * part(COUNT - member.index));
-        let sweep = if fuses { sweep } else { sweep.reproducible() };
+    let sweep = || {
+        Sweep::try_new(COUNT, holes, StormerVerlet::default(), 0.01)
+            .until_each(|member| 12.0 + 5.0 * part(COUNT - member.index))
+    };
+    at_each_level(|cpu| {
+        changes_no_bit(cpu, sweep);
+        changes_no_bit(cpu, || sweep().reproducible());
+    });
+}
+
+fn changes_no_bit<'a, A: Rounding>(
+    cpu: Cpu,
+    sweep: impl Fn() -> Sweep<'a, Hole, StormerVerlet, (), (), A>,
+) {
+    let recorded = |sweep: Sweep<'a, Hole, StormerVerlet, (), (), A>| {
         sweep.record(["t", "q", "p"], |end| {
             [end.state.t, end.state.q[0], end.state.p[0]]
         })
     };
-    at_each_level(|cpu| {
-        for fuses in [false, true] {
-            let all = with_errors(&sweep(fuses).threads(1));
-            assert_eq!(all.len(), COUNT);
-            let mut failed = 0;
-            for (index, status, .., error) in &all {
-                let expected = match index {
-                    11 | 13 => Status::Start,
-                    index if index % 7 == 0 => Status::NotFinite,
-                    _ => Status::Ended,
-                };
-                assert_eq!(*status, expected, "{cpu:?}, member {index}: {error:?}");
-                assert_eq!(error.is_some(), expected != Status::Ended);
-                failed += u32::from(error.is_some());
-            }
-            assert!(failed > 30, "{failed} failed");
-            for chunk in [1, 7, 4096] {
-                for threads in [1, 2] {
-                    let other = with_errors(&sweep(fuses).chunk(chunk).threads(threads));
-                    let layout = format!("{cpu:?}, chunks of {chunk} on {threads} threads");
-                    assert!(all == other, "{layout}: {other:?}");
-                }
-            }
-            for count in [1, 7] {
-                let mut sharded = vec![];
-                for k in 0..count {
-                    let shard = Shard::new(k, count).expect("a shard");
-                    sharded.extend(with_errors(&sweep(fuses).chunk(8).shard(shard)));
-                }
-                sharded.sort_by_key(|row| row.0);
-                assert!(all == sharded, "{cpu:?}, {count} shards: {sharded:?}");
-            }
+    let all = with_errors(&recorded(sweep()).threads(1));
+    assert_eq!(all.len(), COUNT);
+    let mut failed = 0;
+    for (index, status, .., error) in &all {
+        let expected = match index {
+            11 | 13 => Status::Start,
+            index if index % 7 == 0 => Status::NotFinite,
+            _ => Status::Ended,
+        };
+        assert_eq!(*status, expected, "{cpu:?}, member {index}: {error:?}");
+        assert_eq!(error.is_some(), expected != Status::Ended);
+        failed += u32::from(error.is_some());
+    }
+    assert!(failed > 30, "{failed} failed");
+    for chunk in [1, 7, 4096] {
+        for threads in [1, 2] {
+            let other = with_errors(&recorded(sweep()).chunk(chunk).threads(threads));
+            let layout = format!("{cpu:?}, chunks of {chunk} on {threads} threads");
+            assert!(all == other, "{layout}: {other:?}");
         }
-    });
+    }
+    for count in [1, 7] {
+        let mut sharded = vec![];
+        for k in 0..count {
+            let shard = Shard::new(k, count).expect("a shard");
+            sharded.extend(with_errors(&recorded(sweep()).chunk(8).shard(shard)));
+        }
+        sharded.sort_by_key(|row| row.0);
+        assert!(all == sharded, "{cpu:?}, {count} shards: {sharded:?}");
+    }
 }
 
 #[test]
@@ -74,7 +84,14 @@ fn an_early_stop_does_not_depend_on_the_layout() {
             .record(["q"], |end| [end.state.q[0]])
     };
     // The index at which a sum that depends on the order passes a limit, and the sum.
-    let stopped = |sweep: &Sweep<'_, Pendulum, (), hamiltonian::Record<'_, Pendulum, ()>>,
+    let stopped = |sweep: &Sweep<
+        '_,
+        Pendulum,
+        StormerVerlet,
+        (),
+        hamiltonian::Record<'_, Pendulum, ()>,
+        Unfused,
+    >,
                    limit| {
         let mut is_over = false;
         let found = sweep.try_fold((0, 0.0), |(_, sum), row| {

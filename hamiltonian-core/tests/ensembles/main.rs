@@ -160,8 +160,8 @@ fn at_each_level(test: impl Fn(Cpu)) {
 }
 
 /// Each row of a sweep, by bits.
-fn rows<O: Observer<f64, Pendulum>>(
-    sweep: &Sweep<'_, Pendulum, O, hamiltonian::Record<'_, Pendulum, O>>,
+fn rows<M: Ensembles<Pendulum>, O: Observer<f64, Pendulum>, A: hamiltonian::Rounding>(
+    sweep: &Sweep<'_, Pendulum, M, O, hamiltonian::Record<'_, Pendulum, O>, A>,
 ) -> Vec<(usize, Status, u64, Vec<u64>)> {
     let add = |mut all: Vec<_>, row: &hamiltonian::Row<'_>| {
         let values = row.values.iter().map(|value| value.to_bits()).collect();

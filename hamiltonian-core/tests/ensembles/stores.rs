@@ -138,7 +138,14 @@ fn members_that_failed_are_stored_with_the_kind_of_their_failure() {
 /// The sweep of the processes that are killed: slow enough to be caught at work.
 fn killed(
     shard: Shard,
-) -> Sweep<'static, Pendulum, (), hamiltonian::Record<'static, Pendulum, ()>> {
+) -> Sweep<
+    'static,
+    Pendulum,
+    StormerVerlet,
+    (),
+    hamiltonian::Record<'static, Pendulum, ()>,
+    hamiltonian::Unfused,
+> {
     Sweep::new(4_000, pendulum, StormerVerlet::default(), 0.001)
         .steps(2_000)
         .chunk(20)

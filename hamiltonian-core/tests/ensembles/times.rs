@@ -113,6 +113,18 @@ fn a_saved_ensemble_goes_on_with_the_same_bits() {
     };
     let other = Ensemble::resume(COUNT, other, StormerVerlet::default(), saved());
     assert!(other.is_err_and(|error| error.to_string().contains("another parameter")));
+    // Another arithmetic has other bits.
+    let scheme = StormerVerlet::default();
+    let exact = Ensemble::resume_reproducible(COUNT, pendulum, scheme, saved());
+    assert!(exact.is_err_and(|error| error.to_string().contains("another arithmetic")));
+    let mut exact = ensemble().reproducible();
+    exact.advance(70);
+    let half = Checkpoint::from_bytes(&exact.checkpoint().to_bytes()).expect("as it was saved");
+    exact.advance(63);
+    let again = Ensemble::resume_reproducible(COUNT, pendulum, scheme, half);
+    let mut again = again.expect("the same members");
+    again.advance(63);
+    assert!(again.states().eq(exact.states()));
     let fewer = Ensemble::resume(9, pendulum, StormerVerlet::default(), saved());
     assert!(fewer.is_err_and(|error| error.to_string().contains("9 members")));
 }

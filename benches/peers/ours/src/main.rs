@@ -8,7 +8,7 @@ mod problems;
 
 use cpu_time::ThreadTime;
 use hamiltonian::prelude::*;
-use hamiltonian::{Scheme, Vector};
+use hamiltonian::{Rounding, Scheme, Vector};
 use problems::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write;
@@ -408,7 +408,17 @@ fn swing<M: Ensembles<Pendulum>>(
         (Pendulum {}, State::new([q], [p]))
     };
     let swarm = Ensemble::new(PENDULUMS, member, scheme, SWING / steps as f64)?.threads(1);
-    let mut swarm = if fused { swarm } else { swarm.reproducible() };
+    match fused {
+        true => ends_of(swarm, steps),
+        false => ends_of(swarm.reproducible(), steps),
+    }
+}
+
+/// The ends of all members: places, then momenta.
+fn ends_of<M: Ensembles<Pendulum>, A: Rounding>(
+    mut swarm: Ensemble<Pendulum, M, (), A>,
+    steps: u64,
+) -> Result<Vec<f64>, Error> {
     swarm.advance(steps);
     let mut ends = vec![0.0; 2 * PENDULUMS];
     for (k, end) in swarm.states().enumerate() {

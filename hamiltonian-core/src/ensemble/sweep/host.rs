@@ -5,10 +5,12 @@
 
 use super::{EndPoint, Sweep};
 use crate::ensemble::Member;
+use crate::ensemble::bound::Ensembles;
 use crate::ensemble::guard::guard;
 use crate::ensemble::hash::hash_of;
 use crate::ensemble::host::{Host, MemberRun};
 use crate::ensemble::record::{Batch, End, MemberOutcome, Record, Status};
+use crate::ensemble::rounding::Rounding;
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
@@ -39,8 +41,8 @@ struct ActiveMember<O> {
 type EndOrContinue<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
 
 /// The members of a chunk, at their starts, running or ended.
-pub(crate) struct SweepHost<'r, 'a, S: System<f64>, O> {
-    sweep: &'r Sweep<'a, S, O, Record<'a, S, O>>,
+pub(crate) struct SweepHost<'r, 'a, S: System<f64>, M, O, A> {
+    sweep: &'r Sweep<'a, S, M, O, Record<'a, S, O>, A>,
     indices: Range<usize>,
     /// The number of the next member in the chunk.
     next: usize,
@@ -55,9 +57,15 @@ pub(crate) struct SweepHost<'r, 'a, S: System<f64>, O> {
     cancelled: bool,
 }
 
-impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
+impl<'r, 'a, S, M, O, A> SweepHost<'r, 'a, S, M, O, A>
+where
+    S: System<f64>,
+    M: Ensembles<S>,
+    O: Observer<f64, S>,
+    A: Rounding,
+{
     pub(crate) fn new(
-        sweep: &'r Sweep<'a, S, O, Record<'a, S, O>>,
+        sweep: &'r Sweep<'a, S, M, O, Record<'a, S, O>, A>,
         indices: Range<usize>,
         hashes: bool,
     ) -> Self {
@@ -79,7 +87,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
     /// Advances all members to their ends.
     pub(crate) fn batch(mut self) -> Batch {
         let sweep = self.sweep;
-        sweep.scheme.drive(&mut self, sweep.fuses);
+        Ensembles::<S>::drive::<A>(&sweep.scheme, &mut self);
         let missing = |outcome: Option<MemberOutcome>| {
             outcome.unwrap_or(MemberOutcome {
                 status: Status::Missing,
@@ -115,17 +123,17 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         check_step(step)?;
         let prepared = check_start(&system, &start)?;
         if let Some(run) = slot
-            && !sweep.scheme.fits(&run.prepared, &prepared)
+            && !sweep.erased().fits(&run.prepared, &prepared)
         {
             return Err(Error::OtherSizes { system: S::NAME });
         }
         self.words.clear();
-        (sweep.scheme).begin(&prepared, &start, step, &mut self.words)?;
+        (sweep.erased()).begin(&prepared, &start, step, &mut self.words)?;
         let clock = Clock {
             start: start.t,
-            interval: step * duration::<f64>(&sweep.scheme.entry()),
+            interval: step * duration::<f64>(&sweep.erased().entry()),
         };
-        self.varies = sweep.scheme.varies(&prepared, &start, step);
+        self.varies = sweep.erased().varies(&prepared, &start, step);
         let end = match &sweep.end {
             EndPoint::Each(end) => guard(|| end(member))?,
             EndPoint::Until(end) => *end,
@@ -165,7 +173,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
         };
         match slot {
             Some(run) => {
-                run.system_changed |= !sweep.scheme.equals(&run.prepared, &prepared);
+                run.system_changed |= !sweep.erased().equals(&run.prepared, &prepared);
                 run.words.copy_from_slice(&self.words);
                 run.prepared = prepared;
                 run.state = start;
@@ -375,7 +383,13 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> SweepHost<'r, 'a, S, O> {
     }
 }
 
-impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for SweepHost<'_, '_, S, O> {
+impl<S, M, O, A> Host<f64, S> for SweepHost<'_, '_, S, M, O, A>
+where
+    S: System<f64>,
+    M: Ensembles<S>,
+    O: Observer<f64, S>,
+    A: Rounding,
+{
     fn load(&mut self, slot: &mut Option<MemberRun<f64, S>>) -> bool {
         while self.next < self.indices.len() {
             if self.is_cancelled() {

@@ -74,7 +74,8 @@ fn sweeps_record_at_times_and_sections() {
         let mut run =
             Integrator::new(&system, StormerVerlet::default(), start, 0.02).expect("a good start");
         let expected = run.advance_until(time).expect("finite");
-        assert_eq!(row, [index as f64, expected.t, expected.q[0]]);
+        let ended = f64::from(Status::Ended as u8);
+        assert_eq!(row, [index as f64, expected.t, expected.q[0], ended]);
     }
     let section = Sweep::new(40, start, StormerVerlet::default(), 0.02)
         .steps(1000)

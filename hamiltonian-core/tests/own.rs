@@ -108,6 +108,9 @@ impl Listed for TwoStages {
 
 impl<T: Real, S: Split<T>> Scheme<T, S> for TwoStages {
     type Map = ZigzagOf<T, S, S::Pieces, Self>;
+    fn times_of_jumps(&self) -> [f64; 2] {
+        self.times_on(S::JUMPING)
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Zigzag::new(self, &S::PIECES, prepared, step)

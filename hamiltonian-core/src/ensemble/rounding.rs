@@ -4,7 +4,7 @@
 //! rounding of the ensembles that it advances.
 
 /// The rounding of members: [`Fused`] or [`Unfused`].
-pub trait Rounding: sealed::Sealed + Send + Sync + 'static {
+pub trait Rounding: sealed::SealedRounding + Send + Sync + 'static {
     /// True if a product and a sum are rounded together.
     #[doc(hidden)]
     const FUSES: bool;
@@ -27,7 +27,7 @@ impl Rounding for Unfused {
 }
 
 mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::Fused {}
-    impl Sealed for super::Unfused {}
+    pub trait SealedRounding {}
+    impl SealedRounding for super::Fused {}
+    impl SealedRounding for super::Unfused {}
 }

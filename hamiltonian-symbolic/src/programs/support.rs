@@ -10,9 +10,9 @@ use crate::op::Op;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
 
-/// What is known of a node.
+/// The zeros and singularities of a node.
 #[derive(Clone, Copy, Default)]
-struct Facts {
+struct Vanishing {
     /// The condition outside which it is 0.
     support: Option<Node>,
     /// True if it, or a derivative of it, may be infinite or NaN where the state is finite.
@@ -31,7 +31,7 @@ pub fn support(dag: &mut Dag, roots: &mut [Node]) {
     if !order.iter().any(may_vanish) {
         return;
     }
-    let mut known: Map<Node, Facts> = Map::default();
+    let mut known: Map<Node, Vanishing> = Map::default();
     let new = dag.map(order, |dag, node, new| {
         let node = dag.rebuild(node, &|child| new[&child]);
         let image = match dag.kind(node) {
@@ -47,7 +47,7 @@ pub fn support(dag: &mut Dag, roots: &mut [Node]) {
 }
 
 /// The facts of a node and, first, of those below it.
-fn facts(dag: &mut Dag, root: Node, known: &mut Map<Node, Facts>) -> Facts {
+fn facts(dag: &mut Dag, root: Node, known: &mut Map<Node, Vanishing>) -> Vanishing {
     if let Some(facts) = known.get(&root) {
         return *facts;
     }
@@ -60,7 +60,7 @@ fn facts(dag: &mut Dag, root: Node, known: &mut Map<Node, Facts>) -> Facts {
     });
     for node in order {
         if !known.contains_key(&node) {
-            let own = Facts {
+            let own = Vanishing {
                 support: support_of(dag, node, known),
                 is_singular: is_singular(dag, node, known),
             };
@@ -71,7 +71,7 @@ fn facts(dag: &mut Dag, root: Node, known: &mut Map<Node, Facts>) -> Facts {
 }
 
 /// Returns true if a node or a derivative of it may be infinite or NaN at a finite state.
-fn is_singular(dag: &Dag, node: Node, known: &Map<Node, Facts>) -> bool {
+fn is_singular(dag: &Dag, node: Node, known: &Map<Node, Vanishing>) -> bool {
     if !dag.dependence(node).on(Dependence::MOVING) {
         return false;
     }
@@ -103,7 +103,7 @@ fn is_singular(dag: &Dag, node: Node, known: &Map<Node, Facts>) -> bool {
 }
 
 /// The condition outside which a node is 0.
-fn support_of(dag: &mut Dag, node: Node, known: &Map<Node, Facts>) -> Option<Node> {
+fn support_of(dag: &mut Dag, node: Node, known: &Map<Node, Vanishing>) -> Option<Node> {
     let of = |node: &Node| known[node].support;
     match dag.kind(node).clone() {
         Kind::Select(condition, yes, _) if dag.is_zero(yes) => Some(dag.not(condition)),
@@ -159,12 +159,12 @@ fn support_of(dag: &mut Dag, node: Node, known: &Map<Node, Facts>) -> Option<Nod
 }
 
 /// The product, inside the support of its factors where another factor is singular.
-fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Facts>) -> Node {
+fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -> Node {
     let Product {
         coefficient,
         factors,
     } = Product::of(dag, node);
-    let own: Vec<Facts> = factors
+    let own: Vec<Vanishing> = factors
         .iter()
         .map(|(factor, _)| facts(dag, *factor, known))
         .collect();

@@ -120,7 +120,7 @@ fn bases(dag: &mut Dag, roots: &[Node]) -> Vec<(Node, Rational)> {
 
 /// An expression in e, and whether its evaluation as it stands may fail.
 #[derive(Clone, Debug)]
-struct Known {
+struct KnownForm {
     form: Form,
     fails: bool,
 }
@@ -132,7 +132,7 @@ struct Exponential {
     /// w of e = exp(w).
     exponent: Node,
     /// The forms of nodes that contain e.
-    forms: Map<Node, Known>,
+    forms: Map<Node, KnownForm>,
 }
 
 impl Exponential {
@@ -182,8 +182,8 @@ impl Exponential {
     }
 
     /// The form of a node that contains e.
-    fn known(&self, dag: &mut Dag, node: Node, new: &Map<Node, Node>) -> Option<Known> {
-        let safe = |form| Some(Known { form, fails: false });
+    fn known(&self, dag: &mut Dag, node: Node, new: &Map<Node, Node>) -> Option<KnownForm> {
+        let safe = |form| Some(KnownForm { form, fails: false });
         match dag.kind(node).clone() {
             Kind::Call(op @ (Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh), x) => {
                 let n = self.multiple(dag, x[0])?;
@@ -227,7 +227,7 @@ impl Exponential {
                     let largest = own.map(|term| term.growth(up)).max();
                     fails |= form.is_zero() || largest > Some(form.growth(up));
                 }
-                Some(Known { form, fails })
+                Some(KnownForm { form, fails })
             }
             Kind::Product(k, factors)
                 if factors.iter().any(|(n, _)| self.forms.contains_key(n)) =>
@@ -252,7 +252,7 @@ impl Exponential {
                     let grows = growths.iter().any(|both| growth(both) > 0);
                     fails |= grows && growths.iter().any(|both| growth(both) < 0);
                 }
-                Some(Known { form, fails })
+                Some(KnownForm { form, fails })
             }
             _ => None,
         }

@@ -120,7 +120,7 @@ fn total(dag: &mut Dag, terms: &[(Rational, Node)]) -> Node {
 
 /// The values that a new coordinate takes inside its chart.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Values {
+pub(super) enum NumberRange {
     /// Any number.
     All,
     /// Numbers > 0.
@@ -134,7 +134,7 @@ pub(super) struct Formulas {
     old: &'static [&'static str],
     pub(super) new: &'static [&'static str],
     /// The values of each new coordinate.
-    pub(super) values: &'static [Values],
+    pub(super) values: &'static [NumberRange],
     to_old: &'static str,
     to_new: &'static str,
     /// Sine and cosine of each angle, by name.
@@ -146,7 +146,7 @@ pub(super) struct Formulas {
 static POLAR: Formulas = Formulas {
     old: &["x", "y"],
     new: &["r", "phi"],
-    values: &[Values::Positive, Values::All],
+    values: &[NumberRange::Positive, NumberRange::All],
     to_old: "s = sin(phi); c = cos(phi); \
         p_x = p_r*c - p_phi*s/r; p_y = p_r*s + p_phi*c/r; x = r*c; y = r*s",
     to_new: "r = hypot(x, y); phi = atan2(y, x); p_r = (x*p_x + y*p_y)/r; p_phi = x*p_y - y*p_x",
@@ -157,7 +157,11 @@ static POLAR: Formulas = Formulas {
 static SPHERICAL: Formulas = Formulas {
     old: &["x", "y", "z"],
     new: &["r", "theta", "phi"],
-    values: &[Values::Positive, Values::HalfTurn, Values::All],
+    values: &[
+        NumberRange::Positive,
+        NumberRange::HalfTurn,
+        NumberRange::All,
+    ],
     to_old: "s = sin(theta); c = cos(theta); sf = sin(phi); cf = cos(phi); \
         p_x = p_r*s*cf + p_theta*c*cf/r - p_phi*sf/r/s; \
         p_y = p_r*s*sf + p_theta*c*sf/r + p_phi*cf/r/s; \

@@ -6,7 +6,7 @@
 
 use super::NoTransform;
 use super::bodies::SizedBodies;
-use super::charts::{self, Chart, Masses, PhaseNodes, Replaced, Values};
+use super::charts::{self, Chart, Masses, NumberRange, PhaseNodes, Replaced};
 use super::layout::{ChartVariables, GroupLayout, Placement, Slot, coordinate, placements};
 use super::peel::peel;
 use super::reduce::{self, Rules};
@@ -34,7 +34,7 @@ pub struct Transformed {
     /// phase space once. [`Transformed::forward_placed`] reads them there.
     pub places: Vec<Placement>,
     /// The new coordinates that take only some values inside their charts.
-    pub(super) bounded: Vec<(Slot, Values)>,
+    pub(super) bounded: Vec<(Slot, NumberRange)>,
     bodies: Vec<SizedBodies>,
     rules: Rules,
 }

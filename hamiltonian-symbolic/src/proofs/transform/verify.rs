@@ -5,7 +5,7 @@
 //! of the engine, which any point shows.
 
 use super::NoTransform;
-use super::charts::Values;
+use super::charts::NumberRange;
 use super::coordinates::Transformed;
 use super::layout::Slot;
 use crate::algebra::ball::Ball;
@@ -94,11 +94,11 @@ fn check_at(
             let flip = fraction(&mut random) < 0.5;
             let mut bounded = transformed.bounded.iter();
             let values = bounded.find(|(of, _)| side == Side::Q && *of == slot);
-            let value = match values.map_or(Values::All, |(_, values)| *values) {
-                Values::HalfTurn => size,
-                Values::Positive => scale * size,
-                Values::All if flip => -scale * size,
-                Values::All => scale * size,
+            let value = match values.map_or(NumberRange::All, |(_, values)| *values) {
+                NumberRange::HalfTurn => size,
+                NumberRange::Positive => scale * size,
+                NumberRange::All if flip => -scale * size,
+                NumberRange::All => scale * size,
             };
             given.push((node, Ball::exact(value)));
         }

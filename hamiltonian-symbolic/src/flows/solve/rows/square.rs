@@ -16,7 +16,7 @@ use crate::rational::Rational;
 struct Substitution {
     u: &'static str,
     slope: &'static str,
-    motion: Formulas,
+    motion: MotionFormulas,
     /// An expression that is > 0 as long as u₁ is in the chart.
     range: &'static str,
     /// The new x and y.
@@ -24,7 +24,7 @@ struct Substitution {
 }
 
 /// d and what gives the new position: u₁, in the chart 1/x the ratio w = x·u₁.
-struct Formulas {
+struct MotionFormulas {
     /// For F₂ = 0.
     straight: &'static str,
     /// For F₂ > 0 and F > 0. By half of the argument: √(1 + sinh²) of a short time rounds down more often than up, and
@@ -34,7 +34,7 @@ struct Formulas {
     general: [&'static str; 2],
 }
 
-const REGULAR: Formulas = Formulas {
+const REGULAR: MotionFormulas = MotionFormulas {
     straight: "P = y/du; d = 1 + b*P*s; u1 = u + F*P*s*(1 + d)",
     positive: "P = y/du; r = sqrt(2*F*f2); half = sinh(P*r*s/2); C = 1 + 2*half^2; \
                S = 2*half*sqrt(1 + half^2)/r; d = C + Fu*S; u1 = (u + b/f2)*C - b/f2 + 2*F*S",
@@ -45,7 +45,7 @@ const REGULAR: Formulas = Formulas {
 };
 
 /// With G = x²·F and P = −x²y: x·F·P = −x·G·y and F_u·P = −(b·x² + F₂·x)·y.
-const INVERTED: Formulas = Formulas {
+const INVERTED: MotionFormulas = MotionFormulas {
     straight: "d = 1 - b*x^2*y*s; w = 1 - (a*x^3 + b*x^2)*y*s*(1 + d)",
     positive: "G = a*x^2 + b*x + f2/2; r = sqrt(2*G*f2); half = sinh(x*y*r*s/2); C = 1 + 2*half^2; \
                S = 2*half*sqrt(1 + half^2)/r; d = C - (b*x + f2)*S; w = (1 + b*x/f2)*C - b*x/f2 - 2*G*S",

@@ -41,7 +41,7 @@ pub(super) fn is_infinite(dag: &mut Dag, h: Node, node: Node, given: &Given, at:
         elsewhere.nonzero.insert(zero, ());
     }
     let elsewhere = Facts::everywhere(dag, &[h], &elsewhere);
-    let search = Search {
+    let search = WallSearch {
         dag,
         h,
         zeros,
@@ -50,7 +50,7 @@ pub(super) fn is_infinite(dag: &mut Dag, h: Node, node: Node, given: &Given, at:
         elsewhere,
         at,
     };
-    let mut growth: Map<Node, Growth> = Map::default();
+    let mut growth: Map<Node, WallGrowth> = Map::default();
     for x in dag.reachable(&[h]) {
         let found = search.growth(x, &growth);
         growth.insert(x, found);
@@ -76,13 +76,13 @@ impl Order {
 
 /// Bounds of a node as z → 0, and its sign there.
 #[derive(Clone, Debug)]
-struct Growth {
+struct WallGrowth {
     least: Option<Order>,
     most: Option<Order>,
     sign: Sign,
 }
 
-impl Growth {
+impl WallGrowth {
     fn is_infinite(&self) -> bool {
         self.least.as_ref().is_some_and(|n| *n > Order::FINITE)
     }
@@ -109,7 +109,7 @@ fn together(a: Option<Order>, b: Option<Order>) -> Option<Order> {
     Some(a?.max(b?))
 }
 
-struct Search<'a> {
+struct WallSearch<'a> {
     dag: &'a Dag,
     h: Node,
     /// The nodes that are 0 where z is, but for roots and powers.
@@ -122,8 +122,8 @@ struct Search<'a> {
     at: At,
 }
 
-impl Search<'_> {
-    fn growth(&self, x: Node, below: &Map<Node, Growth>) -> Growth {
+impl WallSearch<'_> {
+    fn growth(&self, x: Node, below: &Map<Node, WallGrowth>) -> WallGrowth {
         let dag = self.dag;
         let mut found = self.structural(x, below);
         let regular = self.facts.get(x);
@@ -145,16 +145,16 @@ impl Search<'_> {
     }
 
     /// The bounds that follow from those of the nodes below.
-    fn structural(&self, x: Node, below: &Map<Node, Growth>) -> Growth {
+    fn structural(&self, x: Node, below: &Map<Node, WallGrowth>) -> WallGrowth {
         let dag = self.dag;
-        let nothing = Growth {
+        let nothing = WallGrowth {
             least: None,
             most: None,
             sign: dag.sign(x),
         };
         if self.zeros.contains(&x) {
             let zero = Some(Order(Rational::MINUS_ONE, Rational::ZERO));
-            return Growth {
+            return WallGrowth {
                 least: zero.clone(),
                 most: zero,
                 ..nothing
@@ -172,7 +172,7 @@ impl Search<'_> {
                 }
                 let [least, most] = bounds;
                 let signs = factors.iter().map(|(factor, n)| (below[factor].sign, *n));
-                Growth {
+                WallGrowth {
                     least,
                     most,
                     sign: Sign::of_product(k, signs),
@@ -182,7 +182,7 @@ impl Search<'_> {
             Kind::Reduce(domain, body) => self.sum_over(x, *domain, *body, below, nothing),
             Kind::Select(_, yes, no) => {
                 let (yes, no) = (&below[yes], &below[no]);
-                Growth {
+                WallGrowth {
                     least: yes.least.clone().min(no.least.clone()),
                     most: together(yes.most.clone(), no.most.clone()),
                     sign: yes.sign.or(no.sign),
@@ -198,9 +198,9 @@ impl Search<'_> {
         x: Node,
         c: &Rational,
         terms: &[(Rational, Node)],
-        below: &Map<Node, Growth>,
-    ) -> Growth {
-        let mut each: Vec<(Option<Node>, Growth)> = terms
+        below: &Map<Node, WallGrowth>,
+    ) -> WallGrowth {
+        let mut each: Vec<(Option<Node>, WallGrowth)> = terms
             .iter()
             .map(|(k, term)| {
                 let mut growth = below[term].clone();
@@ -210,7 +210,7 @@ impl Search<'_> {
             .collect();
         if !c.is_zero() {
             let finite = Some(Order::FINITE);
-            let constant = Growth {
+            let constant = WallGrowth {
                 least: finite.clone(),
                 most: finite,
                 sign: Sign::of(c),
@@ -222,7 +222,7 @@ impl Search<'_> {
             .map(|(_, growth)| growth.most.clone())
             .reduce(together)
             .flatten();
-        let mut found = Growth {
+        let mut found = WallGrowth {
             least: None,
             most,
             sign: Sign::UNKNOWN,
@@ -269,9 +269,9 @@ impl Search<'_> {
         x: Node,
         domain: Domain,
         body: Node,
-        below: &Map<Node, Growth>,
-        mut found: Growth,
-    ) -> Growth {
+        below: &Map<Node, WallGrowth>,
+        mut found: WallGrowth,
+    ) -> WallGrowth {
         let dag = self.dag;
         let growth = &below[&body];
         let is_of_place = self.path.contains(&domain);
@@ -308,14 +308,14 @@ impl Search<'_> {
         &self,
         op: Op,
         arguments: &[Node],
-        below: &Map<Node, Growth>,
-        nothing: Growth,
-    ) -> Growth {
+        below: &Map<Node, WallGrowth>,
+        nothing: WallGrowth,
+    ) -> WallGrowth {
         let first = &below[&arguments[0]];
         let tends_to_zero = || first.is_below(&Order::FINITE);
         let logarithm = || {
             let is_known = first.least.is_some() && first.most.is_some();
-            Growth {
+            WallGrowth {
                 least: Some(Order::LOGARITHM),
                 most: is_known.then_some(Order::LOGARITHM),
                 ..nothing.clone()
@@ -323,7 +323,7 @@ impl Search<'_> {
         };
         let raised = |k: &Rational| {
             let [least, most] = first.power(k);
-            Growth {
+            WallGrowth {
                 least,
                 most,
                 ..nothing.clone()
@@ -339,23 +339,23 @@ impl Search<'_> {
             },
             Op::Hypot => {
                 let second = &below[&arguments[1]];
-                Growth {
+                WallGrowth {
                     least: larger(first.least.clone(), second.least.clone()),
                     most: together(first.most.clone(), second.most.clone()),
                     ..nothing
                 }
             }
-            Op::Ln if tends_to_zero() => Growth {
+            Op::Ln if tends_to_zero() => WallGrowth {
                 sign: Sign::NEGATIVE,
                 ..logarithm()
             },
-            Op::Ln | Op::Ln1p | Op::Acosh if first.is_infinite() => Growth {
+            Op::Ln | Op::Ln1p | Op::Acosh if first.is_infinite() => WallGrowth {
                 sign: Sign::POSITIVE,
                 ..logarithm()
             },
             Op::Asinh if first.is_infinite() => logarithm(),
             // |sinh x| ≥ |x|, cosh x ≥ |x|
-            Op::Sinh | Op::Cosh if first.is_infinite() => Growth {
+            Op::Sinh | Op::Cosh if first.is_infinite() => WallGrowth {
                 least: first.least.clone(),
                 ..nothing
             },

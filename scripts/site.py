@@ -25,7 +25,7 @@ SITE = ROOT / "target" / "site"
 TARGET = "wasm32-unknown-unknown"
 # The largest size of a module, and for each page: the frames of the still picture, the largest change of H, and the
 # slider that keys move.
-MODULE = 600_000
+MODULE = 300_000
 NAMES = {
     "double_pendulum": (120, 1e-9, "mass"),
     "henon_heiles": (150, 1e-11, "energy"),

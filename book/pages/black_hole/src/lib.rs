@@ -5,10 +5,11 @@
 //! G = c = M = 1. As H is 0, it may have any factor > 0: with this one, steps are in proportion to r, and short near the
 //! axis.
 
-use hamiltonian::observers::{Event, Events};
+use hamiltonian::View;
 use hamiltonian::prelude::*;
 use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::ControlFlow;
 
 hamiltonian! {
     /// Light round a black hole; L is the angular momentum about its axis, the energy is 1.
@@ -79,9 +80,12 @@ pub extern "C" fn trace(a: f64, inclination: f64, side: u32, first: u32, count: 
     let swarm = Ensemble::new(count as usize, start, Gauss::<2>::default(), STEP);
     let Ok(swarm) = swarm else { return f64::NAN };
     let ends = move |_: Member| {
-        let falls = Event::of("falls", move |state: &StateOf<Light>| state.q[0] - inner);
-        let leaves = Event::of("leaves", move |state: &StateOf<Light>| state.q[0] - outer);
-        Events::new([falls.ending(), leaves.ending()])
+        watch(
+            move |view: &View<'_, f64, Light>| match (inner..outer).contains(&view.state.q[0]) {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            },
+        )
     };
     let mut swarm = swarm.threads(1).observe(ends);
     swarm.advance(STEPS);

@@ -3,7 +3,7 @@
 //! Input: the spin, the inclination of the camera, numbers of pixels. Output: their colours, and the largest
 //! |H| of the rays relative to the sum of its terms; H is 0 along light. Coordinates of Boyer and Lindquist, units with
 //! G = c = M = 1. As H is 0, it may have any factor > 0: with this one, steps are in proportion to r, and short near the
-//! axis.
+//! axis and the horizon.
 
 use hamiltonian::View;
 use hamiltonian::prelude::*;
@@ -16,10 +16,10 @@ hamiltonian! {
     pub struct Light { a = 0.9 }
     let Delta = r^2 - 2*r + a^2;
     let s = sin(theta)^2;
-    let radial = (r^2 + a^2 - a*L)^2/Delta;
-    let rate = 1/(2*r*(s + 0.02));
-    H(r, theta, phi; p_r, p_theta, L) = rate*(s*(Delta*p_r^2 + p_theta^2 - radial) + (L - a*s)^2);
-    monitor size = rate*(s*(Delta*p_r^2 + p_theta^2 + radial) + (L - a*s)^2)
+    let radial = (r^2 + a^2 - a*L)^2;
+    let rate = 1/(2*r^3*(s + 0.02));
+    H(r, theta, phi; p_r, p_theta, L) = rate*(s*(Delta*(Delta*p_r^2 + p_theta^2) - radial) + Delta*(L - a*s)^2);
+    monitor size = rate*(s*(Delta*(Delta*p_r^2 + p_theta^2) + radial) + Delta*(L - a*s)^2)
 }
 
 /// The distance of the camera.

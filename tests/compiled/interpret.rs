@@ -3,12 +3,14 @@
 use super::{At, Outputs};
 use crate::symbolic::PURPOSES;
 use crate::tree::{PAIRS, PARAMETERS, Tree};
+use hamiltonian_language::{lower::lower, read, report::Report};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Parameter, Side};
 use hamiltonian_symbolic::interpret::{Outcome, Point, run};
+use hamiltonian_symbolic::jumps::jumps;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
-use hamiltonian_symbolic::{diff, split, structure};
+use hamiltonian_symbolic::{split, structure};
 
 /// A tree as a program.
 pub struct Interpreted {
@@ -20,20 +22,34 @@ pub struct Interpreted {
 impl Interpreted {
     /// Structure, then the program for all purposes, in the order of the back end.
     pub fn of(tree: &Tree) -> Interpreted {
-        let mut model = tree.model();
+        // The numbers of nodes decide the order of some sums: the model is read as the macro reads it.
+        let mut model = read_as_text(tree).unwrap_or_else(|| tree.model());
         let has_momentum = model
             .hamiltonian
             .is_some_and(|h| model.dag.dependence(h).on(Dependence::P));
         let structure = structure::analyse(&mut model);
         let mut wanted = PURPOSES[..8].to_vec();
         if let Ok(split) = &structure.separable {
-            let split = model.dag.add(&[split.kinetic, split.potential]);
-            if !separates_as_written(&mut model) {
-                model.hamiltonian = Some(split);
+            if !split.as_written {
+                model.hamiltonian = Some(model.dag.add(&[split.kinetic, split.potential]));
             }
             wanted.extend([Purpose::Kick, Purpose::Drift]);
         } else if let Ok(splitting) = split::find(&mut model) {
             model.pieces = splitting.pieces;
+            let mut pieces = model.pieces.iter();
+            let first = pieces.position(|piece| !jumps(&mut model.dag, piece.h));
+            if let Some(first) = first {
+                model.pieces[..=first].rotate_right(1);
+            }
+        }
+        let h = model.h();
+        if jumps(&mut model.dag, h) {
+            let halves = structure.separable.iter();
+            let halves = halves.flat_map(|split| [split.potential, split.kinetic]);
+            let parts = halves.chain(model.pieces.iter().map(|piece| piece.h));
+            for part in parts.collect::<Vec<_>>() {
+                jumps(&mut model.dag, part);
+            }
         }
         wanted.push(Purpose::ParameterGradient);
         wanted.extend((0..model.pieces.len()).map(|at| Purpose::Piece(at as u16)));
@@ -174,13 +190,11 @@ fn point(at: &At, adds: bool) -> Point<f64> {
     point
 }
 
-/// Returns true if ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written.
-fn separates_as_written(model: &mut Model) -> bool {
-    let h = model.hamiltonian.expect("there is an H");
-    let mut is_free = |by: Dependence, of: Dependence| {
-        let adjoints = diff::gradient(&mut model.dag, h, by);
-        let mut values = adjoints.iter().map(|(_, value)| *value);
-        values.all(|value| !model.dag.dependence(value).on(of))
-    };
-    is_free(Dependence::Q, Dependence::P) && is_free(Dependence::P, Dependence::Q)
+/// The model of a tree's text; `None` if the language refuses it, for example without momenta.
+fn read_as_text(tree: &Tree) -> Option<Model> {
+    let text = tree.text();
+    let text = format!("pub struct Read {{ a, b, c }} H(x, y; px, py; t) = {text}");
+    let mut report = Report::default();
+    let (_, checked) = read(text.parse().ok()?, &mut report);
+    Some(lower(&checked?, &mut report)?.model)
 }

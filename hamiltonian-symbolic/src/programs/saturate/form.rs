@@ -7,22 +7,40 @@
 use crate::dag::Node;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
-use crate::sort::Arrange;
 
 /// The longest polynomial that is multiplied out, in terms.
 const LONGEST: usize = 24;
 
-/// Σ coefficient·eⁿ: each power with a coefficient, each pair of power and factors once.
-#[derive(Clone, PartialEq, Debug)]
+/// Σ coefficient·eⁿ: each power with a coefficient, each pair of power and factors once. Factors keep the order of the
+/// source, which equality ignores: nothing may depend on the numbers of nodes.
+#[derive(Clone, Debug)]
 pub(super) struct Polynomial(pub(super) Vec<(i32, Product)>);
+
+/// Returns true if the factors are the same in any order.
+fn have_same_factors(a: &Product, b: &Product) -> bool {
+    let has = |all: &Product, own: &Product| {
+        let mut own = own.factors.iter();
+        own.all(|(base, n)| all.exponent(*base) == *n)
+    };
+    has(a, b) && has(b, a)
+}
+
+impl PartialEq for Polynomial {
+    fn eq(&self, other: &Polynomial) -> bool {
+        let same = |((n, a), (m, b)): (&(i32, Product), &(i32, Product))| {
+            n == m && a.coefficient == b.coefficient && have_same_factors(a, b)
+        };
+        self.0.len() == other.0.len() && self.0.iter().zip(&other.0).all(same)
+    }
+}
 
 impl Polynomial {
     fn of(terms: impl IntoIterator<Item = (i32, Product)>) -> Polynomial {
         let mut all: Vec<(i32, Product)> = Vec::new();
-        for (power, mut product) in terms {
-            product.factors.arrange();
-            let same =
-                |(n, other): &&mut (i32, Product)| *n == power && other.factors == product.factors;
+        for (power, product) in terms {
+            let same = |(n, other): &&mut (i32, Product)| {
+                *n == power && have_same_factors(other, &product)
+            };
             match all.iter_mut().find(same) {
                 Some((_, other)) => {
                     other.coefficient = other.coefficient.add(&product.coefficient);

@@ -80,10 +80,25 @@ fn exponential_argument(kind: &Kind) -> Option<(Node, i64)> {
     }
 }
 
+/// The nodes below the roots in the order of the source, which does not depend on their numbers.
+fn in_source_order(dag: &Dag, roots: &[Node]) -> Vec<Node> {
+    let (mut order, mut met) = (Vec::new(), Map::default());
+    let mut left: Vec<Node> = roots.iter().rev().copied().collect();
+    while let Some(node) = left.pop() {
+        if met.insert(node, ()).is_none() {
+            order.push(node);
+            let children = left.len();
+            dag.for_children(node, |child| left.push(child));
+            left[children..].reverse();
+        }
+    }
+    order
+}
+
 /// The different x of exp(k·x) with the unit of which each k is a whole multiple, none of them high.
 fn bases(dag: &mut Dag, roots: &[Node]) -> Vec<(Node, Rational)> {
     let mut found: Vec<(Node, Vec<Rational>)> = Vec::new();
-    for node in dag.reachable(roots) {
+    for node in in_source_order(dag, roots) {
         let Some((x, power)) = exponential_argument(dag.kind(node)) else {
             continue;
         };

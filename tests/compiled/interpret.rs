@@ -48,7 +48,8 @@ impl Interpreted {
             let halves = halves.flat_map(|split| [split.potential, split.kinetic]);
             let parts = halves.chain(model.pieces.iter().map(|piece| piece.h));
             for part in parts.collect::<Vec<_>>() {
-                jumps(&mut model.dag, part);
+                // The question makes nodes, as it does in the macro.
+                let _ = jumps(&mut model.dag, part);
             }
         }
         wanted.push(Purpose::ParameterGradient);

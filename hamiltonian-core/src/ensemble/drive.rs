@@ -392,7 +392,7 @@ where
 
     /// Returns the lanes whose members are inside the domain of H after a block of steps, and were so at each state at
     /// which the block evaluated H.
-    #[inline(never)]
+    #[inline(always)]
     fn inside<L: Level>(&mut self, made: u64, occupants: &Occupants<T, S>) -> MaskIn<T, P> {
         L::enter_at(WriteRows::<'_, _, T, P> {
             times: &self.times,

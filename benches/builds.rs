@@ -1,4 +1,4 @@
-//! What a release build of a user's program costs: CPU seconds of rustc and the linker, the same in units, and the peak
+//! The cost of a release build of a user's program: CPU seconds of rustc and the linker, the same in units, and the peak
 //! memory.
 //!
 //! Input: the programs of `benches/builds`, one in a file. Output: a line for each, with the library already built. A

@@ -57,7 +57,7 @@ impl Numbers {
     }
 }
 
-/// What the generated runs did.
+/// The outcomes of the generated runs.
 #[derive(Debug, Default)]
 struct Seen {
     inside: u32,

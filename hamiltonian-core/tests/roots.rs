@@ -12,7 +12,7 @@ use hamiltonian_core::{Dual, Scheme};
 
 type Plane = SVector<f64, 2>;
 
-/// What a function does at a time.
+/// The behaviour of a function at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum At {
     /// (t − c)ᵏ.

@@ -197,7 +197,7 @@ where
     }
 }
 
-/// What starts need of a scheme for ensembles of `S`, with its type erased.
+/// The operations of a scheme that starts of ensembles of `S` require, with its type erased.
 pub(crate) trait ErasedScheme<S: System<f64>>: Send + Sync {
     /// See [`Ensembles::fits`].
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;

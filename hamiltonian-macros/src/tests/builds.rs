@@ -104,7 +104,7 @@ fn numbers_that_leave_f64_are_an_error_where_they_are_made() {
     }
 }
 
-/// What leaves the range of `f64` before simplification alone is accepted.
+/// A constant that leaves the range of `f64` only before simplification is accepted.
 #[test]
 fn numbers_that_return_to_f64_are_accepted() {
     for (right, expected) in [

@@ -383,7 +383,7 @@ fn exchanges(dag: &mut Dag, nest: &LoopSum) -> Vec<LoopSum> {
             images.push((deeper, new));
             loops.push(new);
         }
-        // What was to move with the loops has moved.
+        // The values that move with the loops have moved.
         let inside = dag.variables(body);
         let is_left = |old: &Domain| inside.has(*old) && !loops.contains(old);
         if !nest.loops.iter().any(is_left) {

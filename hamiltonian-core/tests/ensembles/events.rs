@@ -188,61 +188,163 @@ hamiltonian! {
     event turn = q*(q - c)
 }
 
-#[test]
-fn zeros_on_steps_are_found_in_lanes() {
-    // With p = ±1 and steps of 1/4, every q is exact. In units of a step, the marks of members lie on steps or between.
-    let passing = |member: Member| {
-        let at = |k: usize| 0.25 * ((member.index * k) % 13) as f64 / 2.0;
+/// A member that passes marks: three of the cubic, in units of a step from its start. Roots that are not after steps
+/// are in steps of their own; two marks may be equal.
+struct Passed {
+    marks: [f64; 3],
+    forward: bool,
+}
+
+/// The number of steps of a member, and their size. With p = ±1, every q is exact.
+const STEPS: u64 = 20;
+const STEP: f64 = 0.25;
+
+impl Passed {
+    fn new(member: Member) -> Self {
+        let mut seed = member.seed;
+        let mut below = |n: u64| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 33) % n
+        };
+        let first = below(STEPS - 3);
+        let steps = [first, first + 1, first + 2 + below(STEPS - first - 2)];
+        let mut marks = steps.map(|step| match below(3) {
+            0 => step as f64 + (1 + below(98)) as f64 / 100.0,
+            _ => step as f64,
+        });
+        match below(4) {
+            0 => marks[1] = marks[0],
+            1 => marks.reverse(),
+            _ => {}
+        }
+        Passed {
+            marks,
+            forward: below(2) == 0,
+        }
+    }
+
+    /// The direction and the place of a mark.
+    fn place(&self, mark: f64) -> f64 {
+        if self.forward {
+            STEP * mark
+        } else {
+            STEP * (STEPS as f64 - mark)
+        }
+    }
+
+    fn member(&self) -> (Passing, StateOf<Passing>) {
+        let [a, b, c] = self.marks.map(|mark| self.place(mark));
         let system = Passing {
-            a: at(1),
-            b: at(3),
-            c: at(5) + 0.01,
+            a,
+            b,
+            c,
             ..Default::default()
         };
-        let p = if member.index.is_multiple_of(2) {
-            1.0
-        } else {
-            -1.0
-        };
-        (system, State::new([if p > 0.0 { 0.0 } else { 2.0 }], [p]))
-    };
+        let p = if self.forward { 1.0 } else { -1.0 };
+        (system, State::new([self.place(0.0)], [p]))
+    }
+
+    /// (q − a)·(q − b)·(q − c) after a number of steps, up to a positive factor.
+    fn cubic(&self, at: f64) -> f64 {
+        let sign = if self.forward { 1.0 } else { -1.0 };
+        self.marks
+            .iter()
+            .fold(sign, |product, mark| product * (at - mark))
+    }
+
+    /// The events of `marks`, `pole` and `turn` in order: the index, the direction, the number of steps until then.
+    fn expected(&self, rising: bool) -> Vec<(usize, bool, f64)> {
+        let [a, b, c] = self.marks;
+        let mut all = Vec::new();
+        for mark in [a, b, c] {
+            let beside = 1e-6;
+            let (before, after) = (self.cubic(mark - beside), self.cubic(mark + beside));
+            let is_seen = all.iter().any(|(_, _, at)| *at == mark);
+            if before * after < 0.0 && !is_seen && (!rising || after > 0.0) {
+                all.push((0, after > 0.0, mark));
+            }
+        }
+        if a != b {
+            // (q − a)/(q − b)
+            all.push((1, a > b, a));
+        }
+        // q·(q − c)
+        all.push((2, self.forward, c));
+        all.retain(|(_, _, at)| *at > 0.0 && *at < STEPS as f64);
+        all
+    }
+}
+
+#[test]
+fn zeros_on_steps_are_found_in_lanes() {
+    const MEMBERS: usize = 330;
     let sought = |member: Member| {
         let marks = Event::named("marks");
+        let is_rising = member.index.is_multiple_of(5);
         Events::new([
-            if member.index.is_multiple_of(5) {
-                marks.rising()
-            } else {
-                marks
-            },
+            if is_rising { marks.rising() } else { marks },
             Event::named("pole"),
             Event::named("turn"),
         ])
     };
     at_each_level(|cpu| {
-        let mut swarm = Ensemble::new(COUNT, passing, StormerVerlet::default(), 0.25)
+        let passing = |member| Passed::new(member).member();
+        let mut swarm = Ensemble::new(MEMBERS, passing, StormerVerlet::default(), STEP)
             .expect("there are members")
             .reproducible()
             .observe(sought);
-        swarm.advance(20);
-        let mut found = 0;
+        swarm.advance(STEPS);
+        let (mut found, mut on_steps, mut missed) = (0, 0, 0);
         for (index, events) in swarm.observers().enumerate() {
             let member = Member::new(index, 0);
-            let (system, start) = passing(member);
-            let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.25)
+            let passed = Passed::new(member);
+            let (system, start) = passed.member();
+            let mut run = Integrator::new(&system, StormerVerlet::default(), start, STEP)
                 .expect("a good start")
                 .observe(sought(member));
-            run.advance(20).expect("finite");
-            let place = format!("{cpu:?}, member {index}");
+            run.advance(STEPS).expect("finite");
+            let place = format!("{cpu:?}, member {index}: {system:?}");
             assert_eq!(events.located(), run.observer().located(), "{place}");
-            // The pole is no root.
-            let pole = events.states("pole");
+            let located = events.located().iter();
+            let mut located: Vec<_> = located
+                .map(|found| (found.event, found.rising, found.state.t / STEP))
+                .collect();
+            let mut expected = passed.expected(index.is_multiple_of(5));
+            let order = |a: &(usize, bool, f64), b: &(usize, bool, f64)| {
+                a.0.cmp(&b.0).then(a.2.total_cmp(&b.2))
+            };
+            located.sort_by(order);
+            expected.sort_by(order);
+            let is_near = |(a, b): (&(usize, bool, f64), &(usize, bool, f64))| {
+                (a.0, a.1) == (b.0, b.1) && (a.2 - b.2).abs() < 1e-9
+            };
             assert!(
-                pole.into_iter()
-                    .all(|state| (state.q[0] - system.a).abs() < 1e-14),
-                "{place}"
+                located.len() == expected.len() && located.iter().zip(&expected).all(is_near),
+                "{place}\n{located:?}\n{expected:?}"
             );
-            found += events.located().len();
+            // Control: signs after steps alone.
+            let signs = (0..=STEPS)
+                .map(|k| passed.cubic(k as f64))
+                .filter(|value| *value != 0.0);
+            let signs: Vec<bool> = signs.map(|value| value > 0.0).collect();
+            let changes = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+            missed += usize::from(
+                changes
+                    != passed
+                        .expected(false)
+                        .iter()
+                        .filter(|event| event.0 == 0)
+                        .count(),
+            );
+            found += expected.len();
+            on_steps += expected
+                .iter()
+                .filter(|(_, _, at)| at.fract() == 0.0)
+                .count();
         }
-        assert!(found > 600, "{found}");
+        assert!(
+            found > 900 && on_steps > 500 && missed > 50,
+            "{found} {on_steps} {missed}"
+        );
     });
 }

@@ -12,6 +12,7 @@ mod observers;
 mod panics;
 mod stores;
 mod sweeps;
+mod switched;
 mod tables;
 mod times;
 
@@ -53,9 +54,12 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// A particle above a soft floor, below which H is not defined.
-    pub struct Floor { g = 0.1, k = 0.01 }
-    H(x; p) = p^2/2 + g*x - k*ln(x)
+    /// A particle above a floor of one of several kinds, below which H is not defined or overflows.
+    pub struct Floor { kind = 0.0, g = 0.1, k = 0.01, big = 1e308 }
+    H(x; p) = p^2/2 + g*x
+        + if kind < 1 { -k*ln(x) } else if kind < 2 { k*sqrt(x)^2 } else if kind < 3 { k*x^2.5 }
+        else if kind < 4 { k*asin(1 - x/8) } else if kind < 5 { k*atanh(1 - x/8) }
+        else { big*if x < 0 { 4 } else { 0.25 } }
 }
 
 /// More than a pack of the widest level, and no multiple of one.

@@ -1,9 +1,11 @@
 //! Tables of sweeps: no row is lost, and the times of records are checked.
 
 use super::*;
+use core::ops::ControlFlow;
+use hamiltonian::View;
 
 /// The members of each sweep.
-const MEMBERS: usize = 11;
+const MEMBERS: usize = 13;
 /// The number of generated sweeps.
 const CASES: u64 = 400;
 
@@ -58,24 +60,57 @@ fn falling(member: Member) -> Result<(Hole, StateOf<Hole>), Error> {
     Ok((Hole::default(), State::new([q], [0.0]).at(late)))
 }
 
-/// The status and the values of each time of a single run; `None` for times that it does not reach.
-fn single(index: usize, times: &[f64], step: f64) -> (Status, Vec<Option<[f64; 2]>>) {
+/// Ends a member at a number of steps.
+struct Until(u64);
+
+impl<S: System<f64>> Observer<f64, S> for Until {
+    fn observe(&mut self, view: &View<'_, f64, S>) -> ControlFlow<()> {
+        match view.step >= self.0 {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}
+
+/// The observer of a member, which ends some members.
+fn until(index: usize) -> Until {
+    Until(if index.is_multiple_of(3) {
+        5 * index as u64
+    } else {
+        u64::MAX
+    })
+}
+
+/// The status and the values of each time of a single run; `None` for times that it does not reach. `ends` is true
+/// if the observer may end it.
+fn single(index: usize, times: &[f64], step: f64, ends: bool) -> (Status, Vec<Option<[f64; 2]>>) {
     let mut values = vec![None; times.len()];
     let begun = falling(Member::new(index, 0)).and_then(|(system, start)| {
         Integrator::new(&system, StormerVerlet::default(), start, step)
     });
-    let Ok(mut run) = begun else {
+    let Ok(run) = begun else {
         return (Status::Start, values);
     };
+    let mut run = run.observe(if ends { until(index) } else { Until(u64::MAX) });
     for (k, (value, t)) in values.iter_mut().zip(times).enumerate() {
+        // The time after the end has the state of the end.
+        let has_ended = run.has_ended();
         match run.advance_until(*t) {
+            Ok(_) if has_ended && k > 0 => return (Status::Stopped, values),
             Ok(state) => *value = Some([state.t, state.q[0]]),
             Err(Error::NotFinite { .. }) => return (Status::NotFinite, values),
             Err(Error::Behind { .. }) if k == 0 => return (Status::Start, values),
             Err(error) => panic!("{error}"),
         }
     }
-    (Status::Ended, values)
+    (
+        if run.has_ended() {
+            Status::Stopped
+        } else {
+            Status::Ended
+        },
+        values,
+    )
 }
 
 #[test]
@@ -83,7 +118,7 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
     let _level = one_level();
     let mut numbers = Numbers(38);
     let mut seen = [0; 5];
-    let (mut partly, mut whole) = (0, 0);
+    let (mut partly, mut whole, mut stopped) = (0, 0, 0);
     for case in 0..CASES {
         let step = if numbers.part() < 0.5 { 0.05 } else { -0.05 };
         let fault = FAULTS[case as usize % FAULTS.len()];
@@ -110,14 +145,24 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
             }
             Fault::Early => times[0] = if step > 0.0 { 0.5 } else { 0.25 },
         }
-        let table = Sweep::try_new(MEMBERS, falling, StormerVerlet::default(), step)
+        let sweep = Sweep::try_new(MEMBERS, falling, StormerVerlet::default(), step)
             .reproducible()
-            .chunk(1 + numbers.below(12))
-            .threads(1 + numbers.below(2))
-            .record_at(times.clone(), ["t", "q"], |end| {
-                [end.state.t, end.state.q[0]]
-            })
-            .collect();
+            .chunk(1 + numbers.below(14))
+            .threads(1 + numbers.below(2));
+        let ends = numbers.below(2) == 0;
+        let table = match ends {
+            true => sweep
+                .observe(|member| until(member.index))
+                .record_at(times.clone(), ["t", "q"], |end| {
+                    [end.state.t, end.state.q[0]]
+                })
+                .collect(),
+            false => sweep
+                .record_at(times.clone(), ["t", "q"], |end| {
+                    [end.state.t, end.state.q[0]]
+                })
+                .collect(),
+        };
         seen[case as usize % FAULTS.len()] += 1;
         let context = format!("case {case}: {fault:?}, step {step}, {times:?}");
         let table = match (fault, table) {
@@ -130,10 +175,11 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
         assert_eq!(table.rows(), MEMBERS * times.len(), "{context}");
         let mut rows = table.iter();
         for index in 0..MEMBERS {
-            let (status, values) = single(index, &times, step);
+            let (status, values) = single(index, &times, step, ends);
             let reached = values.iter().flatten().count();
             partly += u32::from(reached > 0 && reached < values.len());
             whole += u32::from(reached == values.len());
+            stopped += u32::from(status == Status::Stopped);
             for value in values {
                 let row = rows.next().expect("a row for each member and time");
                 let [t, q] = value.unwrap_or([f64::NAN; 2]);
@@ -150,8 +196,8 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
     // The generator makes each kind, and members that reach some, all and none of the times.
     assert!(seen.iter().all(|n| *n >= 60), "{seen:?}");
     assert!(
-        partly > 100 && whole > 500,
-        "{partly} partly, {whole} wholly recorded"
+        partly > 100 && whole > 500 && stopped > 100,
+        "{partly} partly, {whole} wholly recorded, {stopped} ended by observers"
     );
 }
 

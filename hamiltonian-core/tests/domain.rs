@@ -1,6 +1,11 @@
 //! The domain of H: runs that leave it, and where they are found.
+//!
+//! Input: random potentials that end at x = 0, starts, steps, schemes and calls. Output: states and errors. Control: H
+//! without the part that ends, whose states are the same bits, and loops written by hand.
 
-use crate::common::systems::{Formula, Halves, Hand, scalar};
+use crate::common::random::{Random, cases};
+use crate::common::systems::{Formula, Halves, Hand, number, scalar};
+use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::Group;
 use hamiltonian_core::schemes::{
     BlanesMoan4, Gauss, ImplicitMidpoint, RungeKutta4, StormerVerlet, Yoshida4,
@@ -13,47 +18,106 @@ use hamiltonian_core::{
 /// The steps of a block.
 const BLOCK: usize = 1024;
 
-/// H = p²/2 + g·x − k·ln x, or the same with ln |x|, which has the same derivatives and is defined on both sides.
-#[derive(Debug, Clone)]
-struct Wall<const GUARDED: bool> {
-    g: f64,
-    k: f64,
+/// A function f that is not finite at or beyond x = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Edge {
+    /// −ln x, whose derivative has values beyond.
+    Ln,
+    /// (√x)², with the derivative 1.
+    Root,
+    /// x^(5/2), without a derivative beyond.
+    Power,
+    /// asin(1 − x), from 0 to 2, without a derivative beyond.
+    Arc,
+    /// atanh(1 − x), from 0 to 2, whose derivative has values beyond.
+    Area,
+    /// 1/x, which is infinite at a point that steps meet.
+    Pole,
+    /// A step to infinity, with the derivative 0.
+    Overflow,
 }
 
-impl<const GUARDED: bool> Formula<1> for Wall<GUARDED> {
-    const NAME: &'static str = "Wall";
+const EDGES: [Edge; 7] = [
+    Edge::Ln,
+    Edge::Root,
+    Edge::Power,
+    Edge::Arc,
+    Edge::Area,
+    Edge::Pole,
+    Edge::Overflow,
+];
+
+/// H = p²/2 + g·x + k·f(x), or without k·f(x) but with the same derivatives.
+#[derive(Debug, Clone)]
+struct Ending {
+    edge: Edge,
+    g: f64,
+    k: f64,
+    is_guarded: bool,
+}
+
+impl Formula<1> for Ending {
+    const NAME: &'static str = "Ending";
     const GROUPS: &'static [Group] = &[scalar("x", "p", 0)];
     fn energy<T: Real>(&self, _: T, [x]: &[T; 1], [p]: &[T; 1]) -> T {
-        let [g, k, half] = [self.g, self.k, 0.5].map(|c| T::constant(c, 0.0));
-        let size = if GUARDED { *x } else { x.abs() };
-        half * *p * *p + g * *x - k * size.ln()
+        let everywhere = number::<T>(0.5) * *p * *p + number::<T>(self.g) * *x;
+        if self.is_guarded {
+            return everywhere;
+        }
+        let from_one = T::one() - *x;
+        let value = match self.edge {
+            Edge::Ln => -x.ln(),
+            Edge::Root => x.sqrt() * x.sqrt(),
+            Edge::Power => *x * *x * x.sqrt(),
+            Edge::Arc => from_one.asin(),
+            Edge::Area => from_one.atanh(),
+            Edge::Pole => T::one() / *x,
+            Edge::Overflow => {
+                let factor = T::select(x.lt(T::zero()), number(4.0), number(0.25));
+                number::<T>(1e308) * factor
+            }
+        };
+        everywhere + number::<T>(self.k) * value
     }
     fn gradient<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> ([T; 1], [T; 1]) {
         (self.force(t, q), *p)
     }
 }
 
-impl<const GUARDED: bool> Halves<1> for Wall<GUARDED> {
+impl Halves<1> for Ending {
     /// ∂V/∂x
     fn force<T: Real>(&self, _: T, [x]: &[T; 1]) -> [T; 1] {
-        let [g, k] = [self.g, self.k].map(|c| T::constant(c, 0.0));
-        [g - k / *x]
+        let from_one = T::one() - *x;
+        let rest = T::one() - from_one * from_one;
+        let slope = match self.edge {
+            Edge::Ln => -(T::one() / *x),
+            Edge::Root => T::one(),
+            Edge::Power => number::<T>(2.5) * *x * x.sqrt(),
+            Edge::Arc => -(T::one() / rest.sqrt()),
+            Edge::Area => -(T::one() / rest),
+            Edge::Pole => -(T::one() / (*x * *x)),
+            Edge::Overflow => T::zero(),
+        };
+        [number::<T>(self.g) + number::<T>(self.k) * slope]
     }
     fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
         *p
     }
 }
 
-/// A linear congruential generator of numbers from 0 to 1.
-struct Numbers(u64);
-
-impl Numbers {
-    fn part(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+/// f(x) and f′(x) by the standard library.
+fn by_hand(edge: Edge, x: f64) -> [f64; 2] {
+    let from_one = 1.0 - x;
+    let rest = 1.0 - from_one * from_one;
+    match edge {
+        Edge::Ln => [-x.ln(), -(1.0 / x)],
+        Edge::Root => [x.sqrt() * x.sqrt(), 1.0],
+        Edge::Power => [x.powf(2.5), 2.5 * x * x.sqrt()],
+        Edge::Arc => [from_one.asin(), -(1.0 / rest.sqrt())],
+        Edge::Area => [from_one.atanh(), -(1.0 / rest)],
+        Edge::Pole => [1.0 / x, -(1.0 / (x * x))],
+        Edge::Overflow if x < 0.0 => [f64::INFINITY, 0.0],
+        Edge::Overflow => [1.0, 0.0],
     }
 }
 
@@ -61,29 +125,34 @@ impl Numbers {
 #[derive(Debug, Default)]
 struct Seen {
     inside: u32,
-    left: u32,
+    /// For each edge, runs that left the domain with finite numbers, and with others.
+    left: [[u32; 2]; EDGES.len()],
     later: u32,
     returned: u32,
+    by_hand: u32,
 }
 
-/// One generated run: a wall, a start, a step and a number of steps.
+/// One generated run: a potential, a start, a step, and the numbers of steps of its calls.
+#[derive(Debug)]
 struct Case {
+    edge: Edge,
     g: f64,
     k: f64,
-    start: State<hamiltonian_core::private::SVector<f64, 1>>,
+    start: State<SVector<f64, 1>>,
     h: f64,
-    n: usize,
+    calls: Vec<usize>,
 }
 
 impl Case {
     /// A slow fall of many steps, or a fast one that may come back.
-    fn new(numbers: &mut Numbers) -> Self {
-        let is_slow = numbers.part() < 0.4;
+    fn new(edge: Edge, random: &mut Random) -> Self {
+        let is_slow = random.below(5) < 2;
         let mut between = |slow: [f64; 2], fast: [f64; 2]| {
-            let [from, to] = if is_slow { slow } else { fast };
-            from + (to - from) * numbers.part()
+            let [low, high] = if is_slow { slow } else { fast };
+            random.between(low, high)
         };
-        Case {
+        let mut case = Case {
+            edge,
             g: between([0.02, 0.1], [-0.9, 1.1]),
             k: 10_f64.powf(between([-4.0, -2.0], [-4.0, -1.0])),
             start: State::new(
@@ -91,42 +160,127 @@ impl Case {
                 [between([-0.3, 0.2], [-1.2, 0.3])],
             ),
             h: between([0.002, 0.006], [0.01, 0.06]),
-            n: between([1000.0, 3000.0], [1.0, 900.0]) as usize,
+            calls: vec![between([1000.0, 3000.0], [1.0, 900.0]) as usize],
+        };
+        if edge == Edge::Pole {
+            // Without a force, all positions are exact.
+            (case.g, case.k) = (0.0, 1e-320);
+            let binary = |n: u64, below: i32| n as f64 / f64::from(below);
+            let x = binary(1 + random.below(64), 32);
+            let p = -binary(1 + random.below(8), 8);
+            case.start = State::new([x], [p]);
+            case.h = [1.0 / 16.0, 1.0 / 64.0][random.below(2) as usize];
         }
+        while random.below(2) == 0 {
+            let last = case.calls.pop().unwrap_or(0);
+            let first = random.below(last as u64 + 1) as usize;
+            case.calls.extend([first, last - first]);
+        }
+        case
+    }
+
+    fn is_outside(&self, x: f64) -> bool {
+        !(self.k * by_hand(self.edge, x)[0]).is_finite()
+    }
+
+    /// The states after each step of leapfrog, until a number is not finite.
+    fn leapfrog(&self, begins_with_kick: bool, n: usize) -> Vec<[f64; 2]> {
+        let (mut x, mut p) = (self.start.q[0], self.start.p[0]);
+        let force = |x: f64| self.g + self.k * by_hand(self.edge, x)[1];
+        let mut states = Vec::new();
+        for step in 0..n {
+            let (half, joined) = (self.h / 2.0, if step == 0 { self.h / 2.0 } else { self.h });
+            let state = if begins_with_kick {
+                p += -joined * force(x);
+                x += self.h * p;
+                [x, -half * force(x) + p]
+            } else {
+                x += joined * p;
+                p += -self.h * force(x);
+                [half * p + x, p]
+            };
+            if !state.iter().chain(&[x, p]).all(|number| number.is_finite()) {
+                break;
+            }
+            states.push(state);
+        }
+        states
     }
 
     /// Compares a run with one whose H is defined everywhere, which has the same bits.
-    fn check<M>(&self, scheme: M, seen: &mut Seen)
-    where
-        M: Scheme<f64, Hand<Wall<true>, 1>> + Scheme<f64, Hand<Wall<false>, 1>>,
-    {
-        let Case { g, k, h, n, .. } = *self;
-        let (guarded, free) = (Hand(Wall::<true> { g, k }), Hand(Wall::<false> { g, k }));
-        let new = || Integrator::new(&guarded, scheme.clone(), self.start.clone(), h);
-        let path = Integrator::new(&free, scheme.clone(), self.start.clone(), h);
+    fn check<M: Scheme<f64, Hand<Ending, 1>>>(
+        &self,
+        scheme: M,
+        begins_with_kick: Option<bool>,
+        seen: &mut Seen,
+    ) {
+        let Case { edge, g, k, h, .. } = *self;
+        let ending = |is_guarded| {
+            Hand(Ending {
+                edge,
+                g,
+                k,
+                is_guarded,
+            })
+        };
+        let place = format!("{scheme:?} {self:?}");
+        let (guarded, free) = (ending(true), ending(false));
+        let new = || Integrator::new(&free, scheme.clone(), self.start.clone(), h);
+        let path = Integrator::new(&guarded, scheme.clone(), self.start.clone(), h);
         let mut path = path.expect("a good start");
-        let states: Vec<_> = (0..n)
-            .map_while(|_| path.advance(1).ok().cloned())
-            .collect();
-        if states.len() < n {
-            return;
+        let n: usize = self.calls.iter().sum();
+        let mut states: Vec<State<_>> = Vec::new();
+        for _ in 0..n {
+            match path.advance(1) {
+                Ok(state) => states.push(state.clone()),
+                Err(Error::NotFinite { .. }) => break,
+                // An implicit step that is not solved is another error.
+                Err(Error::Solve { .. }) => return,
+                Err(error) => panic!("{place}: {error}"),
+            }
         }
-        let is_outside = |step: usize| states[step - 1].q[0] <= 0.0;
-        // H is evaluated at the ends of blocks.
-        let ends = (BLOCK..n).step_by(BLOCK).chain([n]);
-        let found = ends.clone().find(|end| is_outside(*end));
-        let expected = found.and_then(|end| {
-            let begin = (end - 1) / BLOCK * BLOCK;
-            (begin + 1..=end).find(|step| is_outside(*step))
-        });
+        if let Some(begins_with_kick) = begins_with_kick {
+            let expected = self.leapfrog(begins_with_kick, n);
+            let found: Vec<_> = states
+                .iter()
+                .map(|state| [state.q[0], state.p[0]])
+                .collect();
+            assert_eq!(found, expected, "{place}");
+            seen.by_hand += 1;
+        }
+        // The first step without finite numbers.
+        let broken = states.len() + 1;
+        let is_bad = |step: usize| step >= broken || self.is_outside(states[step - 1].q[0]);
+        // H is evaluated at the ends of blocks, which begin with each call.
+        let mut blocks = Vec::new();
+        let mut begin = 0;
+        for call in &self.calls {
+            let end = begin + call;
+            for from in (begin..end).step_by(BLOCK) {
+                blocks.push((from + 1, end.min(from + BLOCK)));
+            }
+            begin = end;
+        }
+        let expected = blocks
+            .iter()
+            .find(|(_, end)| is_bad(*end))
+            .and_then(|(begin, end)| (*begin..=*end).find(|step| is_bad(*step)));
         let mut run = new().expect("a good start");
-        let result = run.advance(n as u64).cloned();
+        let mut result = Ok(self.start.clone());
+        for call in &self.calls {
+            result = run.advance(*call as u64).cloned();
+            if result.is_err() {
+                break;
+            }
+        }
+        let first = (1..=n).find(|step| is_bad(*step));
         match expected {
             None => {
-                assert_eq!(result.expect("inside at the ends of blocks"), states[n - 1]);
-                match (1..=n).any(is_outside) {
-                    true => seen.returned += 1,
-                    false => seen.inside += 1,
+                let end = result.expect("inside at the ends of blocks");
+                assert_eq!(Some(&end), states.last().or(Some(&self.start)), "{place}");
+                match first {
+                    Some(_) => seen.returned += 1,
+                    None => seen.inside += 1,
                 }
             }
             Some(bad) => {
@@ -136,86 +290,94 @@ impl Case {
                     time,
                     q,
                     p,
-                    piece,
                     ..
                 }) = result
                 else {
-                    panic!("step {bad} is outside: {result:?}");
+                    panic!("step {bad} is outside: {result:?}, {place}");
                 };
-                let state = &states[bad - 1];
-                assert_eq!((step, time), (bad as u64, state.t));
-                assert_eq!((q[0], p[0]), (state.q[0], state.p[0]));
-                assert!(energy.is_some_and(f64::is_nan) && piece.is_none());
+                assert_eq!(step, bad as u64, "{place}");
+                let text = run.advance(1).expect_err("the same step again").to_string();
+                let is_broken = bad == broken;
+                assert_eq!(energy.is_none(), is_broken, "{place}");
+                if !is_broken {
+                    let state = &states[bad - 1];
+                    assert_eq!((time, q[0], p[0]), (state.t, state.q[0], state.p[0]));
+                    assert!(energy.is_some_and(|energy| !energy.is_finite()), "{place}");
+                    assert!(
+                        text.contains("H is ") && text.contains("end the run"),
+                        "{text}"
+                    );
+                }
                 // The run stands at the last good state.
                 assert_eq!(run.steps(), bad as u64 - 1);
-                let before = if bad == 1 {
-                    &self.start
-                } else {
-                    &states[bad - 2]
+                let before = match bad {
+                    1 => &self.start,
+                    _ => &states[bad - 2],
                 };
                 assert_eq!(run.state(), before);
-                let text = run.advance(1).expect_err("the same step again").to_string();
-                assert!(
-                    text.contains("H is NaN") && text.contains("end the run"),
-                    "{text}"
-                );
-                seen.left += 1;
+                let at = EDGES.iter().position(|one| *one == edge).expect("an edge");
+                seen.left[at][usize::from(is_broken)] += 1;
                 seen.later += u32::from(bad > BLOCK);
             }
         }
         // Observers receive no state outside: theirs are ends of blocks.
-        let first = (1..=n).find(|step| is_outside(*step));
         let mut watched = new()
             .expect("a good start")
             .observe((EnergyDrift::new(), Recorder::of(["x"])));
         let result = watched.advance(n as u64).map(|_| ());
-        assert_eq!(result.is_err(), first.is_some());
+        assert_eq!(result.is_err(), first.is_some(), "{place}");
         assert_eq!(watched.steps() as usize, first.map_or(n, |step| step - 1));
         let recorder = &watched.observer().1;
-        assert!(recorder.column("x").expect("a column").all(|x| x > 0.0));
+        assert!(
+            recorder
+                .column("x")
+                .expect("a column")
+                .all(|x| !self.is_outside(x))
+        );
         assert!(watched.observer().0.max_relative().is_finite());
-        // So are parts of steps: a time between the last good state and the first bad one.
-        if let Some(bad) = first {
+        // So are parts of steps: a time between the last good state and the first bad one. The length of a part is
+        // rounded, which moves points next to an edge.
+        if let Some(bad) = first
+            && edge != Edge::Pole
+        {
             let mut run = new().expect("a good start");
-            run.advance(bad as u64 - 1).expect("inside");
+            for _ in 1..bad {
+                run.advance(1).expect("inside");
+            }
             let part = run.state_at(run.state().t + h);
             // An implicit step by itself begins with another iterate, and may not be solved.
-            let is_refused = matches!(
-                part,
-                Err(Error::NotFinite {
-                    energy: Some(_),
-                    ..
-                } | Error::Solve { .. })
-            );
-            assert!(is_refused, "{part:?}");
+            let is_refused = matches!(part, Err(Error::NotFinite { .. } | Error::Solve { .. }));
+            assert!(is_refused, "{part:?} {place}");
         }
     }
 }
 
 #[test]
 fn generated_runs_that_leave_the_domain_of_h_are_errors() {
-    let mut numbers = Numbers(381);
     let mut seen = Seen::default();
-    for case in 0..420 {
-        let run = Case::new(&mut numbers);
-        match case % 6 {
-            0 => run.check(StormerVerlet::default(), &mut seen),
-            1 => run.check(BlanesMoan4, &mut seen),
-            2 => run.check(Yoshida4, &mut seen),
-            3 => run.check(RungeKutta4, &mut seen),
-            4 => run.check(ImplicitMidpoint::default(), &mut seen),
-            _ => run.check(Gauss::<2>::default(), &mut seen),
+    for seed in 0..cases(560, 20_000) {
+        let mut random = Random(seed);
+        let run = Case::new(EDGES[(seed / 8) as usize % EDGES.len()], &mut random);
+        let kick = StormerVerlet::KickDriftKick;
+        match seed % 8 {
+            0 | 1 => run.check(kick, Some(true), &mut seen),
+            2 | 3 => run.check(StormerVerlet::DriftKickDrift, Some(false), &mut seen),
+            4 if run.edge == Edge::Pole => run.check(kick, Some(true), &mut seen),
+            4 => run.check(BlanesMoan4, None, &mut seen),
+            5 => run.check(Yoshida4, None, &mut seen),
+            6 => run.check(RungeKutta4, None, &mut seen),
+            7 if seed.is_multiple_of(3) => run.check(Gauss::<2>::default(), None, &mut seen),
+            _ => run.check(ImplicitMidpoint::default(), None, &mut seen),
         }
     }
     // Runs of each kind: also those that come back, which are not found.
-    let Seen {
-        inside,
-        left,
-        later,
-        returned,
-    } = seen;
+    let left: u32 = seen.left.iter().flatten().sum();
     assert!(
-        inside > 60 && left > 100 && later > 5 && returned > 10,
+        seen.inside > 60 && left > 150 && seen.later > 5 && seen.returned > 10,
+        "{seen:?}"
+    );
+    assert!(
+        seen.by_hand > 250 && seen.left.iter().all(|[finite, broken]| finite + broken > 5),
         "{seen:?}"
     );
 }
@@ -223,7 +385,12 @@ fn generated_runs_that_leave_the_domain_of_h_are_errors() {
 #[test]
 fn the_quoted_run_is_an_error() {
     let quoted = || {
-        let system = Hand(Wall::<true> { g: 1.0, k: 0.01 });
+        let system = Hand(Ending {
+            edge: Edge::Ln,
+            g: 1.0,
+            k: 0.01,
+            is_guarded: false,
+        });
         Integrator::new(
             &system,
             StormerVerlet::default(),

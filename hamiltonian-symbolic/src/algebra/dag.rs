@@ -19,6 +19,7 @@ pub(crate) use sign::Sign;
 pub(crate) use work::work;
 
 use crate::index::{Affine, Domain, Index, LOOPS, Loops, Size};
+use crate::ranges::Ranges;
 use crate::rational::Rational;
 use crate::sort::Arrange;
 use op::Op;
@@ -275,6 +276,8 @@ pub struct Dag {
     known: Map<Kind, Node>,
     ranges: Vec<Range>,
     known_ranges: Map<Range, Domain>,
+    /// Forms over sizes that are not negative, in proofs (see [`Model::with_rooms`](crate::model::Model)).
+    pub(crate) rooms: Vec<Affine>,
     /// True if a loop was requested after [`LOOPS`] others.
     has_too_many_loops: bool,
 }
@@ -512,6 +515,7 @@ impl Dag {
             Kind::Constant(c) => Sign::of(c),
             Kind::Pi => Sign::POSITIVE,
             Kind::Extent(_) | Kind::Count(_) => Sign::NONNEGATIVE,
+            Kind::Variable(d) if self.is_never_negative(&self.range(*d).start) => Sign::NONNEGATIVE,
             Kind::Sum(c, terms) => {
                 let mut sum = Sign::of(c);
                 for (k, node) in terms {

@@ -14,6 +14,7 @@ pub mod loops;
 pub mod model;
 pub mod normal_form;
 pub mod overflow;
+mod present;
 pub mod print;
 pub mod product;
 pub mod ranges;

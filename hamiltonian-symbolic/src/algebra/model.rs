@@ -338,7 +338,7 @@ impl Model {
         groups.flat_map(of_group).collect()
     }
     /// The group of a column; a group that replaces another has its shape.
-    fn group_of(&self, group: u16) -> &Group {
+    pub(super) fn group_of(&self, group: u16) -> &Group {
         &self.groups[usize::from(group % REPLACING)]
     }
     /// The extents of a lattice; none of other arrays.

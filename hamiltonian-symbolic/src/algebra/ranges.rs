@@ -1,7 +1,8 @@
 //! Questions about indices in the loops around them.
 //!
 //! Input: indices and affine forms, and the ranges of loops. Output: statements that hold in every iteration,
-//! whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it.
+//! whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it; in proofs, elements at fixed
+//! indices are there.
 
 use crate::dag::Dag;
 use crate::index::{Affine, Domain, End, Index, Loops};
@@ -146,6 +147,18 @@ impl Ranges for Dag {
     fn bounds(&self, domain: Domain) -> [&Affine; 2] {
         let range = self.range(domain);
         [&range.start, &range.end]
+    }
+
+    fn is_never_negative(&self, form: &Affine) -> bool {
+        let is_at_least = |room: Option<&Affine>| {
+            let rest = match room {
+                Some(room) => form.checked_plus(-1, room),
+                None => Some(form.clone()),
+            };
+            let least = rest.and_then(|rest| self.extreme(&rest, End::Least));
+            least.is_some_and(|least| least.is_never_negative())
+        };
+        is_at_least(None) || self.rooms.iter().any(|room| is_at_least(Some(room)))
     }
 }
 

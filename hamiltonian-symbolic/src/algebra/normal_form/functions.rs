@@ -297,20 +297,29 @@ impl Algebra {
         if sign.as_term().is_some_and(is_positive) {
             return Ok(size);
         }
+        let power = self.power_of_sign(&sign, y)?;
+        self.mul(&size, &power)
+    }
+
+    /// s^y, where s is a product of signs.
+    pub(super) fn power_of_sign(&mut self, sign: &Poly, y: &Poly) -> Result<Poly, Undecided> {
         let whole = y.terms().iter().find(|(monomial, _)| monomial.is_one());
         let (n, d) = whole
             .map_or(Some((0, 1)), |(_, k)| k.to_small())
             .ok_or(Undecided::Numbers)?;
         let whole = n.div_euclid(d);
         let (_, exponent) = self.oriented(y.sub(&Poly::integer(whole)))?;
-        let size = if whole % 2 == 0 {
-            size
-        } else {
-            self.mul(&size, &sign)?
+        let odd = match whole % 2 {
+            0 => Poly::integer(1),
+            _ => sign.clone(),
         };
+        if exponent.is_zero() {
+            return Ok(odd);
+        }
         let square = Some((2, Poly::integer(1)));
-        let power = self.function(Key::Function(Op::Pow, vec![sign, exponent]), square);
-        Ok(size.times(&Monomial::atom(power, 1)))
+        let key = Key::Function(Op::Pow, vec![sign.clone(), exponent]);
+        let power = self.function(key, square);
+        Ok(odd.times(&Monomial::atom(power, 1)))
     }
 
     /// ln x, which is about points at which x > 0.

@@ -18,15 +18,17 @@ mod atoms;
 mod convert;
 mod count;
 mod functions;
+mod merge;
 mod polynomial;
 mod reduce;
 mod symmetry;
+mod telescope;
 
 pub(crate) use atoms::{Algebra, Key, Scope};
 pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_power};
 
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::index::LOOPS;
+use crate::index::{LOOPS, Size};
 use crate::loops::{Sample, SamplePoint, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
@@ -76,6 +78,7 @@ pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof
     if model.dag.is_zero(node) {
         return Proof::Zero;
     }
+    let model = &*model.with_rooms(&[&[node], others].concat());
     // Two points usually decide; the others are for what the normal form does not decide.
     if let Some((point, value)) = witness(model, node, Effort::Glance, others) {
         return Proof::NonZero { point, value };
@@ -187,7 +190,7 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
     if dag.is_zero(node) {
         return Answer::Zero;
     }
-    let mut decide = || {
+    let mut decide = |dag: &mut Dag, node: Node| {
         algebra.count(dag, node)?;
         let poly = algebra.convert(dag, node)?;
         if symmetry::summands_vanish(algebra, &poly)? {
@@ -206,7 +209,13 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
         let poly = symmetry::canonical(algebra, dag, &poly)?;
         symmetry::summands_vanish(algebra, &poly)
     };
-    match decide() {
+    let mut decided = decide(dag, node);
+    if decided == Ok(false)
+        && let Some(node) = telescope::telescoped(dag, node)
+    {
+        decided = decide(dag, node);
+    }
+    match decided {
         Err(undecided) => Answer::Limit(undecided),
         Ok(_) if dag.has_too_many_loops() => Answer::Limit(Undecided::Loops),
         Ok(true) => Answer::Zero,
@@ -239,6 +248,12 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
         trials.push((1..).map(|n| 2 << n).take(count).collect());
         trials.push((1..=count).rev().map(|n| 2 << n).collect());
     }
+    // Elements at fixed indices are there.
+    trials.retain(|sizes| {
+        let size = |size: Size| sizes[usize::from(size.0)];
+        let mut rooms = model.dag.rooms.iter();
+        rooms.all(|room| room.value(&|_| 0, &size) >= 0)
+    });
     trials
 }
 

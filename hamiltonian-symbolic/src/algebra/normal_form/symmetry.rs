@@ -45,7 +45,12 @@ pub(super) fn canonical(
 pub(super) fn summands_vanish(algebra: &mut Algebra, poly: &Poly) -> Result<bool, Undecided> {
     let mut left = vec![poly.clone()];
     while let Some(poly) = left.pop() {
-        let poly = algebra.numerator(&poly)?;
+        let mut poly = algebra.numerator(&poly)?;
+        if !poly.is_zero()
+            && let Some(merged) = algebra.merged(&poly)?
+        {
+            poly = algebra.numerator(&merged)?;
+        }
         if poly.is_zero() {
             continue;
         }

@@ -83,6 +83,7 @@ pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Ver
     if let Some(refused) = shell.and_then(|shell| left(model, shell)) {
         return refused;
     }
+    let model = &*model.with_rooms(&[model.h(), expression]);
     let (verdict, is_on_shell) = judge(model, expression, shell);
     let verdict = crossed(model, expression, verdict, is_on_shell);
     let is_open = matches!(verdict, Verdict::Undecided { .. } | Verdict::Jumps { .. });

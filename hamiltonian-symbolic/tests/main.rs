@@ -3,6 +3,7 @@
 mod balls;
 mod bracket;
 mod common;
+mod conserved;
 mod constants;
 mod crossings;
 mod derivatives;

@@ -16,6 +16,8 @@
 mod differences;
 mod domain;
 mod leaves;
+mod lines;
+mod products;
 
 pub use domain::conditions;
 
@@ -25,6 +27,14 @@ use crate::sort::Arrange;
 use differences::{difference, is_pair};
 pub(crate) use leaves::{have_no_degree_in_common, is_of_own_rows};
 use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
+pub(crate) use lines::are_along_other_lines;
+use products::is_between;
+pub(crate) use products::stem;
+
+/// The function that stands for the step of a sign, smooth and else arbitrary. No function of a definition has this
+/// number, nor one of the three below it, which stand for those of comparisons: their values are between 0 and 1. They
+/// differ, as signs and comparisons do at the step itself.
+pub(crate) const STEP: u16 = u16::MAX;
 
 /// The regularity of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -235,6 +245,7 @@ impl Facts {
                     is_analytic: all.is_analytic,
                     is_continuous: all.is_continuous,
                     is_lipschitz: all.is_lipschitz,
+                    has_no_zero: all.is_continuous && is_between(dag, node),
                     ..Regular::UNKNOWN
                 }
             }
@@ -339,7 +350,8 @@ impl Facts {
         let has_still_zeros = each().all(|term| term.has_no_moving_zero);
         Regular {
             is_projective,
-            has_no_zero: is_nonnegative && (!c.is_zero() || self.have_no_common_zero(dag, &nodes)),
+            has_no_zero: is_nonnegative && (!c.is_zero() || self.have_no_common_zero(dag, &nodes))
+                || all.is_continuous && is_between(dag, node),
             has_no_moving_zero: is_nonnegative && has_still_zeros,
             ..all
         }
@@ -364,37 +376,6 @@ impl Facts {
     /// Returns true if the zeros and poles of two expressions meet in sets that do not count.
     fn meet_rarely(&self, dag: &Dag, a: Node, b: Node) -> bool {
         self.points == Points::Most && have_nothing_in_common(dag, a, b)
-    }
-
-    fn product(&mut self, dag: &Dag, factors: &[(Node, i32)]) -> Regular {
-        let mut each: Vec<(Node, Regular)> = Vec::with_capacity(factors.len());
-        for &(base, n) in factors {
-            let regular = self.get(base);
-            if n < 0 && !regular.has_no_moving_zero {
-                self.note(SingularSet::Zero, base, base);
-            }
-            let power = if n < 0 {
-                regular.recip(self.points)
-            } else {
-                regular
-            };
-            each.push((base, power));
-        }
-        let all = each.iter().fold(Regular::ALL, |all, (_, f)| all.and(*f));
-        // 0·∞ is decided among quotients only. A factor that is 0 for some parameters is so on both
-        // sides of a place.
-        let is_clear = |(a, f): &(Node, Regular), (b, g): &(Node, Regular)| {
-            f.is_continuous
-                || g.has_no_moving_zero
-                || self.points == Points::Most && f.is_meromorphic && g.is_meromorphic
-                || self.meet_rarely(dag, *a, *b)
-        };
-        let is_clear = (0..each.len())
-            .all(|a| (0..each.len()).all(|b| a == b || is_clear(&each[a], &each[b])));
-        Regular {
-            is_projective: all.is_projective && is_clear,
-            ..all
-        }
     }
 
     fn call(&mut self, dag: &Dag, op: Op, x: &[Node]) -> Regular {
@@ -430,6 +411,9 @@ impl Facts {
         // An argument of one sign comes to one end, of which e^x has a finite one.
         let is_decaying = matches!(op, Op::Exp | Op::ExpM1) && dag.sign(x[0]).is_nonpositive();
         let is_closed = match regularity.far {
+            // The infinity that is chosen is chosen on all sides of it.
+            _ if op == Op::Max => self.are_finite_or(x, |x| dag.sign(x).is_nonnegative()),
+            _ if op == Op::Min => self.are_finite_or(x, |x| dag.sign(x).is_nonpositive()),
             Far::Infinite => true,
             Far::Limits | Far::Mixed => dag.is_nonnegative(x[0]) || is_decaying,
             Far::Nothing => false,
@@ -475,6 +459,11 @@ impl Facts {
         }
     }
 
+    fn are_finite_or(&self, nodes: &[Node], is: impl Fn(Node) -> bool) -> bool {
+        let mut nodes = nodes.iter();
+        nodes.all(|node| self.get(*node).is_continuous || is(*node))
+    }
+
     /// Returns true if the root of an expression is a norm: of a sum of squares of what is Lipschitz.
     fn is_norm(&self, dag: &Dag, square: Node) -> bool {
         let is_square = |node: Node| match dag.kind(node) {
@@ -496,7 +485,7 @@ impl Facts {
     }
 
     /// The two coordinates whose difference is 0 at the pole of a node: of 1/|q[i] − q[j]| and its
-    /// powers, ln|q[i] − q[j]|, and multiples of them by factors that do not move.
+    /// powers, ln|q[i] − q[j]|, and multiples of them by continuous factors.
     fn meeting_place(&self, dag: &Dag, node: Node) -> Option<(Node, Node)> {
         let mut found = None;
         let single = [(node, 1)];
@@ -512,6 +501,7 @@ impl Facts {
                 Kind::Call(Op::Ln, x) if n == 1 => difference(dag, x[0]),
                 Kind::Reduce(_, body) if n == 1 => self.meeting_place(dag, *body),
                 _ if n < 0 => difference(dag, factor),
+                _ if self.get(factor).is_continuous => continue,
                 _ => None,
             }?;
             if found.is_some_and(|other| other != place) {

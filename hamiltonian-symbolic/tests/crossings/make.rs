@@ -387,6 +387,17 @@ pub const WRONG: &[Wrong] = &[
         "",
     ),
     (
+        "infinities of one sign move what that of the other does not: x = t, y = 2*t is free",
+        [
+            "x, y; u, v",
+            "",
+            "",
+            "(u^2 + v^2)/2 + 1/x^2 + 1/(x - y)^2 - 8/y^2",
+            "sign(x)",
+        ],
+        "",
+    ),
+    (
         "an infinity times 0: with y = z = 0 the motion is free",
         [
             "x, y, z; u, v, w",

@@ -5,15 +5,11 @@
 //! identity, proven by the normal form.
 
 use crate::dag::{Dag, Dependence, Kind, Node, Partial};
-use crate::facts::{Facts, Given, comparisons};
+use crate::facts::{Facts, Given, STEP, comparisons};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::Op;
 use crate::rational::Rational;
-
-/// The function that stands for the step of a sign; those of the three comparisons have the numbers below it.
-/// They differ, as signs and comparisons do at the step itself. No function of a definition has these numbers.
-pub(super) const STEP: u16 = u16::MAX;
 
 /// The conditions below some roots whose branches agree where they switch.
 pub(super) fn known(dag: &mut Dag, roots: &[Node]) -> Given {
@@ -131,16 +127,14 @@ fn reads(dag: &Dag, root: Node, node: Node) -> bool {
 pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(Node, Vec<Node>)> {
     let dag = &mut model.dag;
     let facts = Facts::of(dag, &[root], given);
+    // A condition around a step is smoothed after it.
     let is_step = |dag: &Dag, node: Node| {
-        let mut is_first = !facts.get(node).is_projective;
+        let may_jump = !facts.get(node).is_projective;
         match dag.kind(node) {
-            Kind::Select(_, yes, no) => {
-                is_first &= facts.get(*yes).and(facts.get(*no)).is_projective;
-            }
-            Kind::Call(Op::Sign, x) => is_first &= facts.get(x[0]).is_projective,
-            _ => return false,
+            Kind::Select(..) => may_jump,
+            Kind::Call(Op::Sign, x) => may_jump && facts.get(x[0]).is_projective,
+            _ => false,
         }
-        is_first
     };
     let mut steps: Vec<Node> = Vec::new();
     let nodes = dag.reachable(&[root]);
@@ -150,10 +144,10 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
                 steps.push(dag.sub(a, b));
             }
             let weight = weight(dag, condition);
-            let (yes, no) = (new[&yes], new[&no]);
-            let difference = dag.sub(yes, no);
-            let chosen = dag.mul(&[weight, difference]);
-            dag.add(&[no, chosen])
+            let other = dag.complement(weight);
+            let yes = dag.mul(&[weight, new[&yes]]);
+            let no = dag.mul(&[other, new[&no]]);
+            dag.add(&[yes, no])
         }
         Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
             steps.push(x[0]);
@@ -166,30 +160,33 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
 }
 
 /// A condition as a number: 1 where it holds and 0 elsewhere, but for the functions in the places of its
-/// comparisons.
+/// comparisons, whose values are between 0 and 1.
 fn weight(dag: &mut Dag, condition: Node) -> Node {
-    let one = dag.integer(1);
     let nodes = dag.reachable(&[condition]);
     let new = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
         Kind::Compare(relation, a, b) => {
             let apart = dag.sub(b, a);
             dag.external(STEP - 1 - relation as u16, Partial::Value, &[apart])
         }
-        Kind::Not(a) => {
-            let a = new[&a];
-            dag.sub(one, a)
-        }
+        Kind::Not(a) => dag.complement(new[&a]),
         Kind::And(a, b) => {
             let (a, b) = (new[&a], new[&b]);
             dag.mul(&[a, b])
         }
         Kind::Or(a, b) => {
-            let (a, b) = (new[&a], new[&b]);
-            let both = dag.mul(&[a, b]);
-            let any = dag.add(&[a, b]);
-            dag.sub(any, both)
+            let neither = [a, b].map(|side| dag.complement(new[&side]));
+            let neither = dag.mul(&neither);
+            dag.complement(neither)
         }
         _ => node,
     });
     new[&condition]
+}
+
+impl Dag {
+    /// 1 − x
+    fn complement(&mut self, x: Node) -> Node {
+        let one = self.integer(1);
+        self.sub(one, x)
+    }
 }

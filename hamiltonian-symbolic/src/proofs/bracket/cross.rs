@@ -9,6 +9,7 @@
 //!   q = 0 under p²/2 + 1/(1 − 1/q)², and on any set where infinities of H cancel or are multiplied by 0;
 //! - functions in Rust are analytic, which the certificate says.
 
+mod instances;
 pub(super) mod orbits;
 mod walls;
 
@@ -485,15 +486,4 @@ fn zero(dag: &mut Dag, locus: Locus) -> Option<Node> {
         | SingularSet::Multiple
         | SingularSet::HalfMultiple => return None,
     })
-}
-
-/// An expression that is 0 where the node is, without roots, absolute values and powers.
-fn stem(dag: &Dag, mut node: Node) -> Node {
-    loop {
-        node = match dag.kind(node) {
-            Kind::Call(Op::Sqrt | Op::Abs | Op::Cbrt, x) => x[0],
-            Kind::Product(_, factors) if factors.len() == 1 && factors[0].1 > 0 => factors[0].0,
-            _ => return node,
-        };
-    }
 }

@@ -5,12 +5,12 @@
 //! an infinity of a conserved H for all parameters.
 
 use super::Claim;
+use super::instances;
 use super::walls::{self, At};
-use crate::bracket::branches::STEP;
 use crate::bracket::certificate::{Place, Reason};
 use crate::bracket::derivative;
 use crate::dag::{Dependence, Kind, Map, Node, Partial, StandIn};
-use crate::facts::{Facts, Given};
+use crate::facts::{Facts, Given, STEP};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::SingularSet;
@@ -57,7 +57,12 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Lear
     }
     // Functions of a constant are constant too, which reveals further sets.
     loop {
-        let facts = Facts::of(&model.dag, &[claim.expression], given);
+        let mut facts = Facts::of(&model.dag, &[claim.expression], given);
+        // On the level of a constant, orbits may come to every point.
+        if !given.constant.is_empty() {
+            let everywhere = Facts::everywhere(&model.dag, &[claim.expression], given);
+            facts.loci.extend(everywhere.loci);
+        }
         let mut found = false;
         for locus in &facts.loci {
             for node in [locus.x, locus.y] {
@@ -168,5 +173,6 @@ fn is_wall(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> bool 
     let facts = Facts::of(&model.dag, &[claim.h], &Given::default());
     claim.is_still
         && facts.get(claim.h).is_projective
-        && walls::is_infinite(&mut model.dag, claim.h, node, given, At::All)
+        && (walls::is_infinite(&mut model.dag, claim.h, node, given, At::All)
+            || instances::is_infinite(model, claim.h, node, given))
 }

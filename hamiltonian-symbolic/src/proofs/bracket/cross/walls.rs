@@ -4,14 +4,15 @@
 //! holds for all parameters and sizes. For each node it rests on two bounds, c·|z|^−least ≤ |x| ≤ C·|z|^−most.
 //!
 //! An infinite term makes a sum infinite only if the others cannot cancel it: they grow more slowly, have its
-//! sign, or move other degrees of freedom. So 1/x² − cos(x)/x² is no wall, though both terms are infinite at
-//! x = 0. A loop counts only if it runs: it is one of the loops that z itself is in, or its range is never
-//! empty. A factor counts only if it is not 0 anywhere: where y² + z² is 0 in (y² + z²)/x², a free particle
-//! crosses x = 0.
+//! sign, or move other degrees of freedom, as 1/(x − y)² and −1/(x + y)² do. So 1/x² − cos(x)/x² is no wall,
+//! though both terms are infinite at x = 0. A loop counts only if it runs: it is one of the loops that z itself is
+//! in, or its range is never empty. A factor counts only if it is not 0 anywhere: where y² + z² is 0 in
+//! (y² + z²)/x², a free particle crosses x = 0.
 
-use super::stem;
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
-use crate::facts::{Facts, Given, have_no_degree_in_common, is_of_own_rows};
+use crate::facts::{
+    Facts, Given, are_along_other_lines, have_no_degree_in_common, is_of_own_rows, stem,
+};
 use crate::index::Domain;
 use crate::op::Op;
 use crate::ranges::Ranges;
@@ -192,7 +193,9 @@ impl WallSearch<'_> {
         }
     }
 
-    /// A sum is at least as large as its terms of one sign, or as one term, if the others grow more slowly.
+    /// A sum is at least as large as its terms of one sign, or as one term, if the others grow more slowly. A term that
+    /// moves other degrees of freedom than all others that do not is infinite alone: a sum of several may move these by
+    /// one term, and cancel in another.
     fn sum(
         &self,
         x: Node,
@@ -234,16 +237,18 @@ impl WallSearch<'_> {
             else {
                 return;
             };
-            let are_less = (0..each.len()).all(|other| {
-                let (term, growth) = &each[other];
-                let is_apart = || {
-                    let [one, other] = [each[largest].0, *term];
-                    let pair = one.zip(other);
-                    x == self.h
-                        && pair.is_some_and(|(a, b)| have_no_degree_in_common(self.dag, a, b))
+            let mut rest = (0..each.len())
+                .filter(|other| !(group.contains(other) || each[*other].1.is_below(&least)))
+                .peekable();
+            let are_less = rest.peek().is_none()
+                || group.len() == 1 && self.is_on_top(x) && {
+                    let rest: Option<Vec<Node>> = rest.map(|other| each[other].0).collect();
+                    each[largest].0.zip(rest).is_some_and(|(one, rest)| {
+                        let is_apart =
+                            |other: &Node| have_no_degree_in_common(self.dag, one, *other);
+                        rest.iter().all(is_apart) || are_along_other_lines(self.dag, one, &rest)
+                    })
                 };
-                group.contains(&other) || growth.is_below(&least) || is_apart()
-            });
             if are_less && found.least.as_ref().is_none_or(|known| least > *known) {
                 found.least = Some(least);
                 found.sign = sign;
@@ -260,6 +265,20 @@ impl WallSearch<'_> {
             consider(vec![at], Sign::UNKNOWN);
         }
         found
+    }
+
+    /// Returns true if a node is H, or the body of a loop that is a term of H and moves other degrees of freedom in each
+    /// iteration: the velocities of one term are then those of H.
+    fn is_on_top(&self, x: Node) -> bool {
+        let terms = match self.dag.kind(self.h) {
+            Kind::Sum(_, terms) => terms.iter().map(|(_, term)| *term).collect(),
+            _ => vec![self.h],
+        };
+        let is_body = |term: Node| match *self.dag.kind(term) {
+            Kind::Reduce(domain, body) => body == x && is_of_own_rows(self.dag, body, domain),
+            _ => false,
+        };
+        x == self.h || terms.into_iter().any(is_body)
     }
 
     /// A loop over a body. Of several iterations that are infinite, all are to have one sign, or to move other
@@ -343,6 +362,30 @@ impl WallSearch<'_> {
                     least: larger(first.least.clone(), second.least.clone()),
                     most: together(first.most.clone(), second.most.clone()),
                     ..nothing
+                }
+            }
+            // max(x, y) ≥ x, min(x, y) ≤ x
+            Op::Min | Op::Max => {
+                let is_on_side = |growth: &WallGrowth| match op {
+                    Op::Max => growth.sign.is_nonnegative(),
+                    _ => growth.sign.is_nonpositive(),
+                };
+                let each = arguments.iter().map(|x| &below[x]);
+                let far = each.clone().filter(|x| x.is_infinite() && is_on_side(x));
+                let far = far.max_by_key(|x| x.least.clone()).cloned();
+                let most = each.map(|x| x.most.clone()).reduce(together).flatten();
+                WallGrowth {
+                    least: far.as_ref().and_then(|x| x.least.clone()),
+                    most,
+                    sign: far.map_or(nothing.sign, |x| x.sign),
+                }
+            }
+            // e^x ≥ x
+            Op::Exp | Op::ExpM1 if first.is_infinite() && first.sign.is_nonnegative() => {
+                WallGrowth {
+                    least: first.least.clone(),
+                    most: None,
+                    sign: Sign::NONNEGATIVE,
                 }
             }
             Op::Ln if tends_to_zero() => WallGrowth {

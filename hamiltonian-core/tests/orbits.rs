@@ -3,9 +3,11 @@
 //! Input: random oscillators whose periods are elliptic integrals, and random restricted problems of three bodies.
 //! Output: orbits and errors. No orbit may be wrong: each is followed anew, by another scheme in shorter steps.
 
+mod others;
+
 use crate::common::random::{Random, cases};
-use crate::common::systems::{Formula, Hand, scalar};
-use core::f64::consts::TAU;
+use crate::common::systems::{Formula, Hand, HenonHeiles, scalar};
+use core::f64::consts::{PI, TAU};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::{Group, Observable, ObservableKind};
@@ -23,24 +25,34 @@ const fn event(name: &'static str) -> Observable {
     }
 }
 
-/// H = p²/2 + a·q²/2 + b·q⁴/4.
+/// One type for two systems, since a search is compiled for each type.
 #[derive(Debug, Clone)]
-struct Duffing {
-    a: f64,
-    b: f64,
+enum Oscillator {
+    /// H = p²/2 + a·q²/2 + b·q⁴/4.
+    Duffing { a: f64, b: f64 },
+    /// H = p²/2 − a·cos q.
+    Pendulum { a: f64 },
 }
 
-impl Formula<1> for Duffing {
-    const NAME: &'static str = "Duffing";
+impl Formula<1> for Oscillator {
+    const NAME: &'static str = "Oscillator";
     const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
     const OBSERVABLES: &'static [Observable] = &[event("turn")];
     fn energy<T: Real>(&self, _: T, [q]: &[T; 1], [p]: &[T; 1]) -> T {
         let square = *q * *q;
-        let (a, b) = (number::<T>(0.5 * self.a), number::<T>(0.25 * self.b));
-        number::<T>(0.5) * *p * *p + a * square + b * square * square
+        let potential = match self {
+            Oscillator::Duffing { a, b } => {
+                square * (number::<T>(0.5 * a) + number::<T>(0.25 * b) * square)
+            }
+            Oscillator::Pendulum { a } => number::<T>(-a) * q.cos(),
+        };
+        number::<T>(0.5) * *p * *p + potential
     }
     fn gradient<T: Real>(&self, _: T, [q]: &[T; 1], [p]: &[T; 1]) -> ([T; 1], [T; 1]) {
-        let force = *q * (number::<T>(self.a) + number::<T>(self.b) * *q * *q);
+        let force = match self {
+            Oscillator::Duffing { a, b } => *q * (number::<T>(*a) + number::<T>(*b) * *q * *q),
+            Oscillator::Pendulum { a } => number::<T>(*a) * q.sin(),
+        };
         ([force], [*p])
     }
     fn observable<T: Real>(&self, _: usize, _: T, _: &[T; 1], p: &[T; 1]) -> T {
@@ -48,11 +60,18 @@ impl Formula<1> for Duffing {
     }
 }
 
-impl Duffing {
-    /// The period of the orbit through (x, 0): 4K(m)/Ω with Ω² = a + b·x², m = b·x²/(2Ω²).
+impl Oscillator {
+    /// The period of the orbit through (x, 0): 4K(m)/Ω with Ω² = a + b·x² and m = b·x²/(2Ω²), or Ω² = a and
+    /// m = sin²(x/2).
     fn period(&self, x: f64) -> f64 {
-        let square = self.a + self.b * x * x;
-        let (mut u, mut v) = (1.0, (1.0 - self.b * x * x / (2.0 * square)).sqrt());
+        let (square, v) = match self {
+            Oscillator::Duffing { a, b } => {
+                let square = a + b * x * x;
+                (square, (1.0 - b * x * x / (2.0 * square)).sqrt())
+            }
+            Oscillator::Pendulum { a } => (*a, (x / 2.0).cos()),
+        };
+        let (mut u, mut v) = (1.0, v);
         for _ in 0..8 {
             (u, v) = ((u + v) / 2.0, (u * v).sqrt());
         }
@@ -68,18 +87,17 @@ fn oscillators_have_the_periods_of_elliptic_integrals() {
         let mut random = Random(seed);
         let a = random.between(0.5, 2.0);
         let b = random.between(-1.0, 1.0);
-        let duffing = Duffing { a, b };
         // Inside the separatrix, if there is one.
-        let x = random.between(0.2, 0.8)
-            * if b < 0.0 {
-                (a / -b).sqrt().min(2.0)
-            } else {
-                2.0
-            };
-        let period = duffing.period(x);
+        let (oscillator, most) = match seed % 5 {
+            0 => (Oscillator::Pendulum { a }, PI),
+            _ if b < 0.0 => (Oscillator::Duffing { a, b }, (a / -b).sqrt().min(2.0)),
+            _ => (Oscillator::Duffing { a, b }, 2.0),
+        };
+        let x = most * random.between(0.2, 0.8);
+        let period = oscillator.period(x);
         let off = |random: &mut Random| x * random.between(-0.2, 0.2);
         let guess = State::new([x + off(&mut random)], [off(&mut random)]);
-        let system = Hand(duffing.clone());
+        let system = Hand(oscillator.clone());
         let energy = System::energy(&system, &guess);
         let is_by_energy = seed.is_multiple_of(2);
         let section = "turn";
@@ -101,7 +119,7 @@ fn oscillators_have_the_periods_of_elliptic_integrals() {
                 let place = format!("seed {seed}: {orbit:?}, {system:?}, {guess:?}, {closing:?}");
                 let (q, p) = (orbit.start.q[0], orbit.start.p[0]);
                 assert!(p.abs() < 1e-11, "{place}");
-                let known = duffing.period(q);
+                let known = oscillator.period(q);
                 assert!(
                     (orbit.period - known).abs() < 1e-5 * known,
                     "{known} {place}"
@@ -136,7 +154,7 @@ fn equilibria_are_refused() {
         let mut random = Random(10_000 + seed);
         let (a, b) = (random.between(0.5, 2.0), random.between(0.2, 1.0));
         let sign = if seed.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let duffing = Duffing { a, b: sign * b };
+        let duffing = Oscillator::Duffing { a, b: sign * b };
         // A hardening oscillator has no period above that of small oscillations, a softening one none below.
         let period = TAU / a.sqrt() * (1.0 + sign * random.between(0.01, 0.2));
         let x = random.between(0.01, 0.3);
@@ -168,22 +186,47 @@ struct Restricted {
     mu: f64,
 }
 
-impl Formula<2> for Restricted {
-    const NAME: &'static str = "Restricted";
+/// One type for three systems, since a search is compiled for each type.
+#[derive(Debug, Clone)]
+enum Planar {
+    Restricted(Restricted),
+    /// H = p²/2 − 1/r.
+    Kepler,
+    HenonHeiles,
+}
+
+impl Formula<2> for Planar {
+    const NAME: &'static str = "Planar";
     const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
     const OBSERVABLES: &'static [Observable] = &[event("axis")];
-    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
-        let (x, y, px, py) = (*x, *y, *px, *py);
-        let (mu, other) = (number::<T>(self.mu), number::<T>(1.0 - self.mu));
+    fn energy<T: Real>(&self, t: T, q: &[T; 2], p: &[T; 2]) -> T {
+        let ([x, y], [px, py]) = (*q, *p);
+        let mu = match self {
+            Planar::Restricted(Restricted { mu }) => mu,
+            Planar::Kepler => {
+                return number::<T>(0.5) * (px * px + py * py) - T::one() / (x * x + y * y).sqrt();
+            }
+            Planar::HenonHeiles => return HenonHeiles.energy(t, q, p),
+        };
+        let (mu, other) = (number::<T>(*mu), number::<T>(1.0 - mu));
         let (first, second) = (x + mu, x - other);
         number::<T>(0.5) * (px * px + py * py) + y * px
             - x * py
             - other / (first * first + y * y).sqrt()
             - mu / (second * second + y * y).sqrt()
     }
-    fn gradient<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> ([T; 2], [T; 2]) {
-        let (x, y, px, py) = (*x, *y, *px, *py);
-        let (mu, other) = (number::<T>(self.mu), number::<T>(1.0 - self.mu));
+    fn gradient<T: Real>(&self, t: T, q: &[T; 2], p: &[T; 2]) -> ([T; 2], [T; 2]) {
+        let ([x, y], [px, py]) = (*q, *p);
+        let mu = match self {
+            Planar::Restricted(Restricted { mu }) => mu,
+            Planar::Kepler => {
+                let square = x * x + y * y;
+                let cubed = square * square.sqrt();
+                return ([x / cubed, y / cubed], *p);
+            }
+            Planar::HenonHeiles => return HenonHeiles.gradient(t, q, p),
+        };
+        let (mu, other) = (number::<T>(*mu), number::<T>(1.0 - mu));
         let (first, second) = (x + mu, x - other);
         let cubed = |dx: T| {
             let square = dx * dx + y * y;
@@ -239,7 +282,7 @@ impl Restricted {
     /// The velocity for which the orbit that begins at (x, 0) crosses the axis at right angles, near a velocity, and
     /// twice the time until then: secants on runs that an event ends.
     fn by_halves(&self, x: f64, near: f64) -> (f64, f64) {
-        let system = Hand(self.clone());
+        let system = Hand(Planar::Restricted(self.clone()));
         let crossing = |p_y: f64| {
             let start = State::new([x, 0.0], [0.0, p_y]);
             let axis = Events::new([Event::named("axis").ending()]);
@@ -270,7 +313,7 @@ fn lyapunov_orbits_of_three_amplitudes_are_found() {
     };
     let point = restricted.point(true);
     assert!((point - 0.836_915_125_772_357).abs() < 1e-12);
-    let system = Hand(restricted.clone());
+    let system = Hand(Planar::Restricted(restricted.clone()));
     for distance in [-1e-4, -1e-3, -1e-2, 1e-4, 1e-3, 1e-2] {
         let (guess, near) = restricted.lyapunov(point, distance);
         let energy = System::energy(&system, &guess);
@@ -319,6 +362,25 @@ fn lyapunov_orbits_of_three_amplitudes_are_found() {
     }
 }
 
+type Place = State<SVector<f64, 2>>;
+
+/// The end of an orbit after its period by another scheme in shorter steps, and its width.
+fn followed(system: &Hand<Planar, 2>, orbit: &PeriodicOrbit<SVector<f64, 2>>) -> (Place, f64) {
+    let fine = 2_000;
+    let step = orbit.period / fine as f64;
+    let scheme = Gauss::<2>::default();
+    let mut run = Integrator::new(system, scheme, orbit.start.clone(), step).expect("finite");
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for _ in 0..40 {
+        let q = run.advance(fine / 40).expect("finite").q;
+        for i in 0..2 {
+            (low[i], high[i]) = (low[i].min(q[i]), high[i].max(q[i]));
+        }
+    }
+    let width = (high[0] - low[0]).hypot(high[1] - low[1]);
+    (run.state().clone(), width)
+}
+
 /// Random masses, both points, amplitudes and guesses: whatever is found is an orbit near the guess.
 #[test]
 fn no_orbit_of_the_restricted_problem_is_wrong() {
@@ -327,7 +389,7 @@ fn no_orbit_of_the_restricted_problem_is_wrong() {
         let mut random = Random(20_000 + seed);
         let mu = 10f64.powf(random.between(-3.0, -0.5));
         let restricted = Restricted { mu };
-        let system = Hand(restricted.clone());
+        let system = Hand(Planar::Restricted(restricted.clone()));
         let is_between = random.below(2) == 0;
         let point = restricted.point(is_between);
         let unit = (point - 1.0 + mu).abs();
@@ -366,22 +428,8 @@ fn no_orbit_of_the_restricted_problem_is_wrong() {
             found += 1;
             by_arcs[kind] += 1;
             let place = format!("seed {seed}, {arcs} arcs: {orbit:?}, {guess:?}, {closing:?}");
-            // Another scheme, shorter steps.
-            let fine = 2_000;
-            let step = orbit.period / fine as f64;
-            let scheme = Gauss::<2>::default();
-            let mut run =
-                Integrator::new(&system, scheme, orbit.start.clone(), step).expect("finite");
-            let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            for _ in 0..40 {
-                let q = run.advance(fine / 40).expect("finite").q;
-                for i in 0..2 {
-                    (low[i], high[i]) = (low[i].min(q[i]), high[i].max(q[i]));
-                }
-            }
-            let width = (high[0] - low[0]).hypot(high[1] - low[1]);
-            let end = run.state();
-            let from = |state: &State<SVector<f64, 2>>| {
+            let (end, width) = followed(&system, &orbit);
+            let from = |state: &Place| {
                 let by = state.q - orbit.start.q;
                 by[0].hypot(by[1])
             };
@@ -391,9 +439,9 @@ fn no_orbit_of_the_restricted_problem_is_wrong() {
                 .iter()
                 .fold(1.0, |most: f64, x| most.max(x.abs()));
             assert!(
-                from(end) < 1e-3 * width + 1e-9 * growth,
+                from(&end) < 1e-3 * width + 1e-9 * growth,
                 "{} {width} {place}",
-                from(end)
+                from(&end)
             );
             assert!(width > 0.5 * distance.abs() * 0.05, "{width} {place}");
             // No further from the guess than half of about its width, seven times the distance.
@@ -418,7 +466,7 @@ fn no_orbit_of_the_restricted_problem_is_wrong() {
 #[test]
 fn symmetries_are_checked_and_far_orbits_refused() {
     let restricted = Restricted { mu: 0.0121 };
-    let system = Hand(restricted.clone());
+    let system = Hand(Planar::Restricted(restricted.clone()));
     let (guess, near) = restricted.lyapunov(restricted.point(true), 1e-3);
     let closing = Closing::OfEnergy {
         near,
@@ -440,7 +488,7 @@ fn symmetries_are_checked_and_far_orbits_refused() {
     );
 
     // An orbit that is further away than is wanted.
-    let duffing = Duffing { a: 1.0, b: 1.0 };
+    let duffing = Oscillator::Duffing { a: 1.0, b: 1.0 };
     let (x, section) = (1.5, "turn");
     let closing = Closing::OfPeriod {
         period: duffing.period(x),

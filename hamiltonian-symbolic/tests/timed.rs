@@ -28,7 +28,7 @@ fn random(numbers: &mut Numbers, depth: u32) -> String {
     if depth == 0 {
         return ["q", "p", "t"][numbers.below(3)].to_owned();
     }
-    let choice = numbers.below(16);
+    let choice = numbers.below(17);
     let a = random(numbers, depth - 1);
     let mut b = || random(numbers, depth - 1);
     match choice {
@@ -44,6 +44,7 @@ fn random(numbers: &mut Numbers, depth: u32) -> String {
         12 => format!("exp({a})"),
         13 => format!("ln({a})"),
         14 => format!("sqrt({a})"),
+        15 => format!("(1e180*floor({a}))"),
         _ => format!("1/({a})"),
     }
 }
@@ -135,6 +136,12 @@ fn growth_is_the_largest_power() {
         ("p^2/2 + sqrt(q)^2", None),
         ("p^2/2 + exp(q)", None),
         ("p^2/2 + 1/q", None),
+        ("p^2/2 + 1e12*floor(q)", Some(2)),
+        ("p^2/2 + 1e300*floor(q)", None),
+        ("p^2/2 + 1/(1e-300 + q^2)^2", None),
+        ("p^2/2 + 1/(2 + q^2)^2", Some(2)),
+        ("p^2/2 + floor(q)/1e-300", None),
+        ("p^2/2 + if q < 0 { 1e200 } else { 0 }", None),
         ("p^2/2 + q^2/(1 + q^2)", Some(2)),
         ("p^2/2 + if q < 0 { q^2 } else { 0 }", Some(2)),
         // The start may not show that a is 0.

@@ -3,12 +3,16 @@
 //! Input: a model with its H. Output: a power n such that H is defined for all finite numbers and no part of it grows
 //! faster than the n-th power of their size. Invariant: an answer holds for all parameters with which H is finite at
 //! one state: expressions of parameters alone are not looked at, unless a condition may keep them from being evaluated.
+//! Numbers in the definition are of moderate size; parameters are taken to be.
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::op::Op;
 
 /// The largest power: values of numbers below 2^75 are then below 2^600.
 const MOST: u32 = 8;
+
+/// The largest size of a number in the definition, 2^50: its powers up to `MOST` are below 2^400.
+const LARGEST: f64 = (1_u64 << 50) as f64;
 
 /// The growth of an expression; `None` if it may not be finite, or grows too fast.
 #[must_use]
@@ -32,6 +36,10 @@ pub fn growth(dag: &Dag, root: Node) -> Option<u32> {
     Some(most)
 }
 
+fn is_moderate(number: f64) -> bool {
+    number.abs() <= LARGEST
+}
+
 fn moves(dag: &Dag, node: Node) -> bool {
     dag.dependence(node).on(Dependence::MOVING)
 }
@@ -50,8 +58,8 @@ fn of(
             .try_fold(0, |most: u32, node| Some(most.max(power(node)?)))
     };
     match dag.kind(node) {
-        Kind::Constant(_)
-        | Kind::Pi
+        Kind::Constant(c) => is_moderate(c.to_f64()).then_some(0),
+        Kind::Pi
         | Kind::Scalar(_)
         | Kind::Coefficient
         | Kind::Variable(_)
@@ -59,13 +67,19 @@ fn of(
         | Kind::Count(_) => Some(0),
         Kind::Time => Some(1),
         Kind::Element(..) => Some(u32::from(moves(dag, node))),
-        Kind::Sum(_, terms) => {
-            (terms.iter()).try_fold(0, |most: u32, (_, term)| Some(most.max(power(term)?)))
-        }
+        Kind::Sum(c, _) if !is_moderate(c.to_f64()) => None,
+        Kind::Sum(_, terms) => terms.iter().try_fold(0, |most: u32, (k, term)| {
+            let power = power(term).filter(|_| is_moderate(k.to_f64()));
+            Some(most.max(power?))
+        }),
+        Kind::Product(k, _) if !is_moderate(k.to_f64()) => None,
         Kind::Product(_, factors) => factors.iter().try_fold(0_u32, |sum, (base, n)| {
             let each = match u32::try_from(*n) {
                 Ok(n) => power(base)?.checked_mul(n)?,
-                Err(_) if matters(*base) => is_away_from_zero(dag, *base).then_some(0)?,
+                Err(_) if matters(*base) => {
+                    let is_bounded = n.unsigned_abs() <= MOST && is_away_from_zero(dag, *base);
+                    is_bounded.then_some(0)?
+                }
                 // H at the start has shown that a divisor of parameters is not 0.
                 Err(_) => 0,
             };
@@ -114,14 +128,13 @@ fn of(
     }
 }
 
-/// Returns true if an expression is at least a positive constant.
+/// Returns true if an expression is at least a positive constant that is not tiny.
 fn is_away_from_zero(dag: &Dag, node: Node) -> bool {
     match dag.kind(node) {
-        Kind::Constant(c) => !c.is_zero(),
+        Kind::Constant(c) => c.to_f64().abs() >= 1.0 / LARGEST,
         Kind::Pi => true,
         Kind::Sum(c, terms) => {
-            let is_positive = !c.is_negative() && !c.is_zero();
-            is_positive
+            c.to_f64() >= 1.0 / LARGEST
                 && (terms.iter()).all(|(k, term)| !k.is_negative() && dag.is_nonnegative(*term))
         }
         Kind::Call(Op::Sqrt, x) => is_away_from_zero(dag, x[0]),

@@ -1,4 +1,4 @@
-//! H(t) with jumps at the ends of steps: each scheme is that of two smooth systems one after the other, or is refused.
+//! H(t) with jumps at the ends of steps: each scheme is that of smooth systems one after the other, or is refused.
 
 use crate::common::systems::{Formula, Halves, Hand, scalar};
 use hamiltonian_core::private::SVector;
@@ -12,23 +12,26 @@ use hamiltonian_core::schemes::{
 };
 use hamiltonian_core::{Error, Integrator, QuadraticKinetic, Real, Scheme, State};
 
-/// H = a(t)·p²/2 + b(t)·(q²/2 + q⁴/4)(1 + cos(t)/4); a jumps if `T`, b if `V`. `SAID` is true if the constants say so.
+/// H = a(t)·p²/2 + b(t)·(q²/2 + q⁴/4)(1 + cos(t)/4); a jumps twice if `T`, b if `V`. `SAID` is true if the constants
+/// say so.
 #[derive(Debug, Clone)]
 struct Switched<const V: bool, const T: bool, const SAID: bool> {
-    /// The time of the jump.
-    at: f64,
-    /// True if the first value holds at that time.
+    /// The times of the jumps.
+    at: [f64; 2],
+    /// True if the earlier value holds at such a time.
     includes: bool,
-    /// a or b before and after.
-    values: [f64; 2],
+    /// a or b before, between and after.
+    values: [f64; 3],
 }
 
 impl<const V: bool, const T: bool, const SAID: bool> Switched<V, T, SAID> {
     fn factor<R: Real>(&self, t: R) -> R {
-        let [at, before, after] =
-            [self.at, self.values[0], self.values[1]].map(|x| R::constant(x, 0.0));
-        let is_before = if self.includes { t.le(at) } else { t.lt(at) };
-        R::select(is_before, before, after)
+        let [before, between, after] = self.values.map(|x| R::constant(x, 0.0));
+        let [first, second] = self.at.map(|at| {
+            let at = R::constant(at, 0.0);
+            if self.includes { t.le(at) } else { t.lt(at) }
+        });
+        R::select(first, before, R::select(second, between, after))
     }
     fn factors<R: Real>(&self, t: R) -> [R; 2] {
         let sways = R::one() + R::constant(0.25, 0.0) * t.cos();
@@ -39,9 +42,9 @@ impl<const V: bool, const T: bool, const SAID: bool> Switched<V, T, SAID> {
             if V { factor * sways } else { sways },
         ]
     }
-    /// The smooth system before the jump, or after it.
-    fn smooth(&self, after: usize) -> Self {
-        let values = [self.values[after]; 2];
+    /// The smooth system before the jumps, between them or after them.
+    fn smooth(&self, part: usize) -> Self {
+        let values = [self.values[part]; 3];
         Switched {
             values,
             ..self.clone()
@@ -91,32 +94,29 @@ impl Numbers {
 
 type System<const V: bool, const T: bool, const SAID: bool> = Hand<Switched<V, T, SAID>, 1>;
 
-/// A generated system with a start, whose jump is at the end of step `jump` of `steps`.
+/// A generated system with a start: the numbers of steps before, between and after the jumps.
 struct Case<const V: bool, const T: bool, const SAID: bool> {
     system: Switched<V, T, SAID>,
     start: State<SVector<f64, 1>>,
     h: f64,
-    jump: u64,
-    steps: u64,
+    counts: [u64; 3],
 }
 
 impl<const V: bool, const T: bool, const SAID: bool> Case<V, T, SAID> {
     fn new(numbers: &mut Numbers) -> Self {
         let h = 0.04 + 0.06 * numbers.part();
         let start = State::new([0.4 + numbers.part()], [numbers.part() - 0.5]).at(numbers.part());
-        let jump = 2 + (6.0 * numbers.part()) as u64;
+        let counts = [2.0, 1.0, 2.0].map(|least| (least + 4.0 * numbers.part()) as u64);
         let system = Switched {
-            at: h.fma(jump as f64, start.t),
+            at: [counts[0], counts[0] + counts[1]].map(|steps| h.fma(steps as f64, start.t)),
             includes: numbers.part() < 0.5,
-            values: [0.5 + numbers.part(), 1.5 + numbers.part()],
+            values: [1.5, 0.5, 1.5].map(|least| least + numbers.part()),
         };
-        let steps = jump + 4;
         Case {
             system,
             start,
             h,
-            jump,
-            steps,
+            counts,
         }
     }
 
@@ -126,8 +126,7 @@ impl<const V: bool, const T: bool, const SAID: bool> Case<V, T, SAID> {
             system: self.system.clone(),
             start: self.start.clone(),
             h: self.h / by as f64,
-            jump: by * self.jump,
-            steps: by * self.steps,
+            counts: self.counts.map(|steps| by * steps),
         }
     }
 
@@ -135,14 +134,15 @@ impl<const V: bool, const T: bool, const SAID: bool> Case<V, T, SAID> {
     fn end<M: Scheme<f64, System<V, T, SAID>>>(&self, scheme: M) -> Result<[f64; 2], Error> {
         let system = Hand(self.system.clone());
         let mut run = Integrator::new(&system, scheme, self.start.clone(), self.h)?;
-        run.advance(self.steps).map(|end| [end.q[0], end.p[0]])
+        run.advance(self.counts.iter().sum())
+            .map(|end| [end.q[0], end.p[0]])
     }
 
-    /// The end of a run of the first smooth system, and of one of the second from there.
-    fn in_two<M: Scheme<f64, System<V, T, SAID>>>(&self, scheme: M) -> [f64; 2] {
+    /// The end of runs of the smooth systems, each from the end of the one before.
+    fn in_parts<M: Scheme<f64, System<V, T, SAID>>>(&self, scheme: M) -> [f64; 2] {
         let mut state = self.start.clone();
-        for (after, steps) in [self.jump, self.steps - self.jump].into_iter().enumerate() {
-            let system = Hand(self.system.smooth(after));
+        for (part, steps) in self.counts.into_iter().enumerate() {
+            let system = Hand(self.system.smooth(part));
             let mut run = Integrator::new(&system, scheme.clone(), state, self.h).expect("smooth");
             state = run.advance(steps).expect("finite").clone();
         }
@@ -158,12 +158,14 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 #[derive(Default)]
 struct Walk {
     cases: u32,
+    /// The cases with errors above rounding, in which the order is measured.
+    measured: u32,
     accepted: Vec<String>,
     refused: Vec<String>,
 }
 
 /// The cases for each scheme.
-const EACH: u64 = 6;
+const EACH: u64 = 18;
 
 impl<const V: bool, const T: bool> Visitor<f64, System<V, T, true>> for Walk {
     fn visit<M: Scheme<f64, System<V, T, true>>>(&mut self, scheme: M) {
@@ -172,31 +174,36 @@ impl<const V: bool, const T: bool> Visitor<f64, System<V, T, true>> for Walk {
         for _ in 0..EACH {
             self.cases += 1;
             let case = Case::<V, T, true>::new(&mut numbers);
-            // The two smooth systems, by the method that every system accepts, with fine steps.
-            let exact = case.finer(8).in_two(Gauss::<4>::default());
-            match case.end(scheme.clone()) {
+            // The smooth systems, by the method that every system accepts, with fine steps.
+            let exact = case.finer(8).in_parts(Gauss::<4>::default());
+            let end = match case.end(scheme.clone()) {
                 Err(Error::Jumps { .. }) => {
                     self.refused.push(name.clone());
                     continue;
                 }
                 Err(error) => panic!("{name}: {error}"),
-                Ok(_) => self.accepted.push(name.clone()),
-            }
+                Ok(end) => end,
+            };
+            self.accepted.push(name.clone());
+            // What is carried from step to step, such as a start of an iteration, may change the last digits.
+            let off = distance(end, case.in_parts(scheme.clone()));
+            assert!(off < 1e-11, "{name}: {off}");
             let errors = [1, 2, 4, 8].map(|by| {
                 let end = case.finer(by).end(scheme.clone()).expect("accepted");
                 distance(end, exact)
             });
-            // Errors near rounding have no slope.
-            let above = errors.iter().filter(|error| **error > 2e-12).count();
-            if above > 1 {
-                let halvings = (above - 1) as f64;
-                let slope = (errors[0] / errors[above - 1]).log2() / halvings;
-                assert!(
-                    slope > f64::from(order) - 0.6,
-                    "{name}: {slope}, {errors:?}"
-                );
-            } else {
-                assert!(errors[3] < 1e-11, "{name}: {errors:?}");
+            // Errors near rounding have no slope. The finest pair above it has that of the order.
+            let above = |pair: &&[f64]| pair[1] > 2e-11;
+            match errors.windows(2).filter(above).last() {
+                Some(pair) => {
+                    let slope = (pair[0] / pair[1]).log2();
+                    assert!(
+                        (slope - f64::from(order)).abs() < 0.15,
+                        "{name}: {slope}, {errors:?}"
+                    );
+                    self.measured += 1;
+                }
+                None => assert!(errors[3] < 2e-11, "{name}: {errors:?}"),
             }
         }
     }
@@ -226,7 +233,7 @@ fn every_scheme_keeps_its_order_or_is_refused() {
     visit_energy::<f64, DriftJumps>(&mut walk);
     visit_doubled::<f64, DriftJumps>(&mut walk);
     visit_compensated::<f64, DriftJumps>(&mut walk);
-    let cases = walk.cases;
+    let (cases, measured) = (walk.cases, walk.measured);
     let [accepted, refused] = walk.names();
     let is_in = |names: &[String], name: &str| names.iter().any(|one| one.starts_with(name));
     for name in [
@@ -260,7 +267,7 @@ fn every_scheme_keeps_its_order_or_is_refused() {
     visit_nystrom::<f64, KickJumps>(&mut walk);
     visit_quadratic::<f64, KickJumps>(&mut walk);
     visit_compensated::<f64, KickJumps>(&mut walk);
-    let all = cases + walk.cases;
+    let (all, measured) = (cases + walk.cases, measured + walk.measured);
     let [accepted, refused] = walk.names();
     for name in [
         "StormerVerlet (kick",
@@ -276,18 +283,18 @@ fn every_scheme_keeps_its_order_or_is_refused() {
     for name in ["Srkn6b", "SymplecticEuler", "Compensated"] {
         assert!(is_in(&refused, name), "{name}: {refused:?}");
     }
-    assert!(all >= 300, "{all} cases");
+    assert!(all >= 900 && measured >= 300, "{all} cases, {measured}");
 }
 
-/// A scheme on a system whose V jumps is that of two smooth systems, to rounding.
-fn is_in_two<M>(scheme: M, numbers: &mut Numbers)
+/// A scheme on a system whose V jumps is that of smooth systems, to rounding.
+fn is_in_parts<M>(scheme: M, numbers: &mut Numbers)
 where
     M: Scheme<f64, System<true, false, true>>,
 {
     for _ in 0..20 {
         let case = Case::<true, false, true>::new(numbers);
         let end = case.end(scheme.clone()).expect("accepted");
-        let off = distance(end, case.in_two(scheme.clone()));
+        let off = distance(end, case.in_parts(scheme.clone()));
         assert!(off < 1e-12, "{scheme:?}: {off}");
     }
 }
@@ -295,16 +302,16 @@ where
 #[test]
 fn a_jump_at_the_end_of_a_step_ends_one_smooth_run_and_begins_another() {
     let mut numbers = Numbers(381);
-    is_in_two(StormerVerlet::KickDriftKick, &mut numbers);
-    is_in_two(StormerVerlet::DriftKickDrift, &mut numbers);
-    is_in_two(ImplicitMidpoint::default(), &mut numbers);
-    is_in_two(Suzuki4.of(StormerVerlet::default()), &mut numbers);
-    is_in_two(KahanLi6.of(ImplicitMidpoint::default()), &mut numbers);
-    is_in_two(
+    is_in_parts(StormerVerlet::KickDriftKick, &mut numbers);
+    is_in_parts(StormerVerlet::DriftKickDrift, &mut numbers);
+    is_in_parts(ImplicitMidpoint::default(), &mut numbers);
+    is_in_parts(Suzuki4.of(StormerVerlet::default()), &mut numbers);
+    is_in_parts(KahanLi6.of(ImplicitMidpoint::default()), &mut numbers);
+    is_in_parts(
         Composition::yoshida(ImplicitMidpoint::default()),
         &mut numbers,
     );
-    is_in_two(Adjoint(StormerVerlet::default()), &mut numbers);
+    is_in_parts(Adjoint(StormerVerlet::default()), &mut numbers);
 }
 
 #[test]
@@ -328,13 +335,13 @@ fn schemes_that_evaluate_jumps_at_the_ends_of_steps_are_refused() {
         let off = [
             distance(
                 case.end(StormerVerlet::default()).unwrap(),
-                case.in_two(StormerVerlet::default()),
+                case.in_parts(StormerVerlet::default()),
             ),
-            distance(case.end(RungeKutta4).unwrap(), case.in_two(RungeKutta4)),
-            distance(case.end(Srkn6b).unwrap(), case.in_two(Srkn6b)),
+            distance(case.end(RungeKutta4).unwrap(), case.in_parts(RungeKutta4)),
+            distance(case.end(Srkn6b).unwrap(), case.in_parts(Srkn6b)),
             distance(
                 case.end(Compensated(Strang)).unwrap(),
-                case.in_two(Compensated(Strang)),
+                case.in_parts(Compensated(Strang)),
             ),
         ];
         for (worst, off) in worst.iter_mut().zip(off) {

@@ -19,6 +19,7 @@ mod limits;
 mod loops;
 mod maps;
 mod mathml;
+mod mixtures;
 mod nests;
 mod normal_form;
 mod operations;

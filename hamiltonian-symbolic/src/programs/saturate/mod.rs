@@ -1,38 +1,108 @@
 //! Quotients of exponentials in forms that do not overflow.
 //!
-//! Input: roots, derivatives among them. Output: the same functions. A product whose factors grow and vanish with one
-//! exponential, such as exp(x)/(1 + exp(x))², and a sum whose leading terms cancel as it grows, such as 1 − tanh(x)², are
-//! written in E = exp(−|x|) ≤ 1, here E/(1 + E)² and 4E²/(1 + E²)². Invariant: what cannot fail is left as it is; a choice
-//! is made by 0 < x alone, so that derivatives over dual numbers are those of the branch taken.
+//! Input: roots, derivatives among them. Output: the same functions. A product of which one factor grows and another
+//! vanishes, such as exp(x)/(1 + exp(x))² or exp(x)·exp(−x²), and a sum whose leading terms cancel as it grows, such as
+//! 1 − tanh(x)², are written in exponentials that do not overflow before the whole does. Invariant: what cannot fail is
+//! left as it is; a choice is made by 0 < x alone, so that derivatives over dual numbers are those of the branch taken.
 //!
-//! One exponential e = exp(w) is treated after the other, all else in coefficients. For x > 0 a polynomial is
-//! E^−d·(c₀·E^d + … + c_d), otherwise c₀ + … + c_d·E^d: the powers of E before these are added up and cancel.
+//! `form` multiplies out, `emit` writes the result. Different exponentials are independent variables there.
 
+mod emit;
 mod form;
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::op::Op;
 use crate::product::Product;
 use crate::rational::Rational;
-use form::{Form, Polynomial};
+use form::{Direction, Form};
 
 /// The highest power of e that a function has.
 const HIGHEST: i32 = 8;
+
+/// The most exponentials whose directions are combined.
+const FEW: usize = 4;
 
 /// The size of arguments up to which nothing overflows, and no digits are lost by cancellation.
 const SMALL: f64 = 2.0;
 
 /// Rewrites the expressions the roots stand for.
 pub(crate) fn saturate(dag: &mut Dag, roots: &mut [Node]) {
-    for (base, unit) in bases(dag, roots) {
-        let exponent = dag.scale(&unit, base);
-        let mut exponential = Exponential {
-            base,
-            unit,
-            exponent,
-            forms: Map::default(),
-        };
-        exponential.rewrite(dag, roots);
+    rewrite(dag, roots, Exponentials::image);
+}
+
+/// Writes roots and powers of positive sums that may overflow or vanish before the power does as exponentials of
+/// logarithms, and 2^x as one where it stands in such a sum or in a divisor. Before differentiation: the derivatives of
+/// these are quotients of the sums.
+pub(crate) fn powers_as_exponentials(dag: &mut Dag, roots: &mut [Node]) {
+    let is_power = |kind: &Kind| matches!(kind, Kind::Call(Op::Sqrt | Op::Cbrt | Op::Pow, _));
+    if dag.has(roots, is_power) {
+        let inner = powers_in_sums(dag, roots);
+        if !inner.is_empty() {
+            for root in roots.iter_mut() {
+                *root = dag.substitute(*root, |dag, node| {
+                    let is_inner = inner.contains(&node);
+                    let (x, _) = exponential_argument(dag, node).filter(|_| is_inner)?;
+                    Some(dag.call(Op::Exp, &[x]))
+                });
+            }
+        }
+        rewrite(dag, roots, Exponentials::power);
+    }
+}
+
+/// The powers such as 2^x in divisors, and in sums of which a logarithm or a power is taken; and the same elsewhere.
+fn powers_in_sums(dag: &Dag, roots: &[Node]) -> Vec<Node> {
+    let order = dag.reachable(roots);
+    let mut left: Vec<Node> = Vec::new();
+    for &node in &order {
+        match dag.kind(node) {
+            Kind::Product(_, factors) => {
+                left.extend(factors.iter().filter(|(_, n)| *n < 0).map(|(x, _)| *x));
+            }
+            Kind::Call(Op::Ln | Op::Ln1p | Op::Sqrt | Op::Cbrt | Op::Pow, x) => left.push(x[0]),
+            _ => {}
+        }
+    }
+    let (mut met, mut bases) = (Map::default(), Vec::new());
+    while let Some(node) = left.pop() {
+        if met.insert(node, ()).is_some() {
+            continue;
+        }
+        match dag.kind(node) {
+            Kind::Sum(..) | Kind::Product(..) => dag.for_children(node, |child| left.push(child)),
+            Kind::Call(Op::Pow, x) => bases.push(x[0]),
+            _ => {}
+        }
+    }
+    let is_own =
+        |node: &Node| matches!(dag.kind(*node), Kind::Call(Op::Pow, x) if bases.contains(&x[0]));
+    order.into_iter().filter(is_own).collect()
+}
+
+fn rewrite(
+    dag: &mut Dag,
+    roots: &mut [Node],
+    image: fn(&Exponentials, &mut Dag, Node, &Map<Node, Node>) -> Option<Node>,
+) {
+    let mut exponentials = Exponentials {
+        all: bases(dag, roots),
+        forms: Map::default(),
+    };
+    if exponentials.all.is_empty() {
+        return;
+    }
+    let order = dag.reachable(roots);
+    let new = dag.map(order, |dag, node, new| {
+        if let Some(known) = exponentials.known(dag, node, new) {
+            exponentials.forms.insert(node, known);
+        }
+        match image(&exponentials, dag, node, new) {
+            Some(image) => image,
+            None => dag.rebuild(node, &|child| new[&child]),
+        }
+    });
+    for root in roots {
+        *root = new[root];
     }
 }
 
@@ -72,10 +142,20 @@ fn bound(dag: &Dag, node: Node) -> f64 {
 }
 
 /// The argument of a function of exponentials, and the least power of exp(argument) in it.
-fn exponential_argument(kind: &Kind) -> Option<(Node, i64)> {
-    match kind {
-        Kind::Call(Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh, x) => Some((x[0], 1)),
-        Kind::Call(Op::Tanh, x) => Some((x[0], 2)),
+fn exponential_argument(dag: &mut Dag, node: Node) -> Option<(Node, i64)> {
+    match *dag.kind(node) {
+        Kind::Call(Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh, ref x) => Some((x[0], 1)),
+        Kind::Call(Op::Tanh, ref x) => Some((x[0], 2)),
+        Kind::Call(Op::Pow, ref x) => {
+            let (base, power) = (x[0], x[1]);
+            let sign = dag.sign(base);
+            let is_exponential = dag.is_number(base) && !dag.is_number(power);
+            if !is_exponential || !sign.is_nonnegative() || sign.may_be_zero() {
+                return None;
+            }
+            let logarithm = dag.call(Op::Ln, &[base]);
+            Some((dag.mul(&[power, logarithm]), 1))
+        }
         _ => None,
     }
 }
@@ -95,11 +175,23 @@ fn in_source_order(dag: &Dag, roots: &[Node]) -> Vec<Node> {
     order
 }
 
-/// The different x of exp(k·x) with the unit of which each k is a whole multiple, none of them high.
-fn bases(dag: &mut Dag, roots: &[Node]) -> Vec<(Node, Rational)> {
+/// The different exponentials e = exp(unit·base), of which all others are whole powers, none of them high.
+fn bases(dag: &mut Dag, roots: &[Node]) -> Vec<Exponential> {
+    let may_be_one = |kind: &Kind| {
+        matches!(
+            kind,
+            Kind::Call(
+                Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh | Op::Tanh | Op::Pow,
+                _
+            )
+        )
+    };
+    if !dag.has(roots, may_be_one) {
+        return Vec::new();
+    }
     let mut found: Vec<(Node, Vec<Rational>)> = Vec::new();
     for node in in_source_order(dag, roots) {
-        let Some((x, power)) = exponential_argument(dag.kind(node)) else {
+        let Some((x, power)) = exponential_argument(dag, node) else {
             continue;
         };
         if bound(dag, x) <= SMALL {
@@ -127,89 +219,162 @@ fn bases(dag: &mut Dag, roots: &[Node]) -> Vec<(Node, Rational)> {
             .all(|n| n.abs() / divisor <= i64::from(HIGHEST));
         is_low.then(|| Rational::new(divisor, denominator))
     };
-    let units = found.into_iter();
-    units
-        .filter_map(|(base, all)| Some((base, unit(&all)?)))
-        .collect()
+    let mut all = Vec::new();
+    for (base, multiples) in found {
+        if let Some(unit) = unit(&multiples) {
+            let exponent = dag.scale(&unit, base);
+            let sign = dag.sign(exponent);
+            let mut directions = Vec::new();
+            if !sign.is_nonpositive() {
+                directions.push(1);
+            }
+            if !sign.is_nonnegative() {
+                directions.push(-1);
+            }
+            all.push(Exponential {
+                base,
+                unit,
+                directions,
+            });
+        }
+    }
+    all
 }
 
-/// An expression in e, and whether its evaluation as it stands may fail.
-#[derive(Clone, Debug)]
-struct KnownForm {
-    form: Form,
-    fails: bool,
-}
-
-/// One exponential.
+/// exp(unit·base)
 struct Exponential {
     base: Node,
     unit: Rational,
-    /// w of e = exp(w).
-    exponent: Node,
-    /// The forms of nodes that contain e.
+    /// Where it can go: 1 for ∞, −1 for 0.
+    directions: Vec<i32>,
+}
+
+/// An expression in exponentials.
+#[derive(Clone, Debug)]
+struct KnownForm {
+    form: Form,
+    /// The form to emit, if the evaluation of the expression as it stands may fail.
+    instead: Option<Form>,
+}
+
+/// The exponentials with the forms of nodes that contain them.
+struct Exponentials {
+    all: Vec<Exponential>,
     forms: Map<Node, KnownForm>,
 }
 
-impl Exponential {
-    fn rewrite(&mut self, dag: &mut Dag, roots: &mut [Node]) {
-        let order = dag.reachable(roots);
-        let new = dag.map(order, |dag, node, new| {
-            let known = self.known(dag, node, new);
-            let image = match &known {
-                Some(known) if known.fails => self.emitted(dag, &known.form),
-                _ => match self.logarithm(dag, node) {
-                    Some(image) => image,
-                    None => dag.rebuild(node, &|child| new[&child]),
-                },
-            };
-            if let Some(known) = known {
-                self.forms.insert(node, known);
-            }
-            image
-        });
-        for root in roots {
-            *root = new[root];
+impl Exponentials {
+    /// The node in a form that does not fail.
+    fn image(&self, dag: &mut Dag, node: Node, new: &Map<Node, Node>) -> Option<Node> {
+        let known = self.forms.get(&node);
+        match known.and_then(|known| known.instead.as_ref()) {
+            Some(form) => Some(self.emitted(dag, form, new)),
+            None => self.logarithm(dag, node, new),
         }
     }
 
-    /// n of exp(x) = eⁿ.
-    fn multiple(&self, dag: &mut Dag, x: Node) -> Option<i32> {
-        let (k, base) = argument(dag, x);
-        if base != self.base {
+    /// A power of a positive sum as an exponential. Numbers are left: out of range, they are refused.
+    fn power(&self, dag: &mut Dag, node: Node, new: &Map<Node, Node>) -> Option<Node> {
+        let (sum, power) = match *dag.kind(node) {
+            Kind::Call(Op::Sqrt, ref x) => (x[0], dag.constant(Rational::new(1, 2))),
+            Kind::Call(Op::Cbrt, ref x) => (x[0], dag.constant(Rational::new(1, 3))),
+            Kind::Call(Op::Pow, ref x) => (x[0], new[&x[1]]),
+            _ => return None,
+        };
+        if dag.is_number(node) {
             return None;
         }
-        let (n, d) = k.mul(&self.unit.recip()?).to_small()?;
-        // The unit of tanh is that of exp(2x).
-        (d == 1).then(|| i32::try_from(n).ok()).flatten()
+        let form = &self.forms.get(&sum)?.form;
+        if !self.may_leave_range(dag, form) || !is_positive(dag, form) {
+            return None;
+        }
+        let logarithm = dag.call(Op::Ln, &[new[&sum]]);
+        let exponent = dag.mul(&[power, logarithm]);
+        Some(dag.call(Op::Exp, &[exponent]))
     }
 
-    /// The directions in which e can go: to ∞ and to 0.
-    fn directions(&self, dag: &Dag) -> Vec<bool> {
-        let sign = dag.sign(self.exponent);
-        let mut all = Vec::new();
-        if !sign.is_nonpositive() {
-            all.push(true);
+    /// Directions of exponentials: each alone, all together, and of a few all combinations.
+    fn directions(&self, dag: &Dag, mut exponentials: Vec<usize>) -> Vec<Direction> {
+        exponentials.sort_unstable();
+        exponentials.dedup();
+        let own = |at: usize| self.all[at].directions.iter().map(move |sign| (at, *sign));
+        let mut all: Vec<Direction> = Vec::new();
+        if exponentials.len() <= FEW {
+            for &at in &exponentials {
+                let before = all.len();
+                for direction in own(at) {
+                    for shorter in 0..before {
+                        let mut longer = all[shorter].clone();
+                        longer.push(direction);
+                        all.push(longer);
+                    }
+                    all.push(vec![direction]);
+                }
+            }
+            all.retain(|direction| self.is_possible(dag, direction, &exponentials));
+            return all;
         }
-        if !sign.is_nonnegative() {
-            all.push(false);
+        for sign in [1, -1] {
+            let each = exponentials.iter().flat_map(|at| own(*at));
+            let same: Direction = each.filter(|(_, other)| *other == sign).collect();
+            all.extend(same.iter().map(|direction| vec![*direction]));
+            all.push(same);
         }
         all
     }
 
-    /// The form of a node that contains e.
+    /// Returns false if exp(exp(x)) were to grow where exp(x), which is among the exponentials, does not.
+    fn is_possible(&self, dag: &Dag, direction: &Direction, exponentials: &[usize]) -> bool {
+        direction.iter().all(|(at, _)| {
+            let base = self.all[*at].base;
+            match (dag.kind(base), self.forms.get(&base)) {
+                (Kind::Call(Op::Exp, _), Some(KnownForm { form, .. })) => {
+                    let mut inner = form.exponentials().into_iter();
+                    let is_among = inner.all(|at| exponentials.contains(&at));
+                    !is_among || form.growth(direction) > 0
+                }
+                _ => true,
+            }
+        })
+    }
+
+    /// Returns true if a form grows or vanishes somewhere.
+    fn may_leave_range(&self, dag: &Dag, form: &Form) -> bool {
+        let mut directions = self.directions(dag, form.exponentials()).into_iter();
+        directions.any(|direction| form.growth(&direction) != 0)
+    }
+
+    /// exp(x) as a power of one of the exponentials.
+    fn exponential(&self, dag: &mut Dag, x: Node) -> Option<(usize, i32)> {
+        let (k, base) = argument(dag, x);
+        let at = self.all.iter().position(|own| own.base == base)?;
+        let (n, d) = k.mul(&self.all[at].unit.recip()?).to_small()?;
+        // The unit of tanh is that of exp(2x).
+        let n = (d == 1).then(|| i32::try_from(n).ok()).flatten()?;
+        Some((at, n))
+    }
+
+    /// The form of a node that contains exponentials.
     fn known(&self, dag: &mut Dag, node: Node, new: &Map<Node, Node>) -> Option<KnownForm> {
-        let safe = |form| Some(KnownForm { form, fails: false });
+        let safe = |form| {
+            Some(KnownForm {
+                form,
+                instead: None,
+            })
+        };
         match dag.kind(node).clone() {
-            Kind::Call(op @ (Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh), x) => {
-                let n = self.multiple(dag, x[0])?;
+            Kind::Call(op @ (Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh | Op::Pow), _) => {
+                let (x, _) = exponential_argument(dag, node)?;
+                let (at, n) = self.exponential(dag, x)?;
                 let half = Rational::new(1, 2);
                 let scaled = |k: Rational, n| Form {
                     monomial: Product::constant(k),
-                    ..Form::exponential(n)
+                    ..Form::exponential(at, n)
                 };
+                let e = scaled(Rational::ONE, n);
                 let terms = match op {
-                    Op::Exp => vec![Form::exponential(n)],
-                    Op::ExpM1 => vec![Form::exponential(n), Form::number(Rational::MINUS_ONE)],
+                    Op::Exp | Op::Pow => vec![e],
+                    Op::ExpM1 => vec![e, Form::number(Rational::MINUS_ONE)],
                     Op::Sinh => vec![scaled(half.clone(), n), scaled(half.neg(), -n)],
                     _ => vec![scaled(half.clone(), n), scaled(half, -n)],
                 };
@@ -217,8 +382,8 @@ impl Exponential {
             }
             Kind::Call(Op::Tanh, x) => {
                 let twice = dag.scale(&Rational::integer(2), x[0]);
-                let n = self.multiple(dag, twice)?;
-                let (e, one) = (Form::exponential(n), Form::number(Rational::ONE));
+                let (at, n) = self.exponential(dag, twice)?;
+                let (e, one) = (Form::exponential(at, n), Form::number(Rational::ONE));
                 let less = Form::number(Rational::MINUS_ONE);
                 let (above, below) = (Form::sum(&[e.clone(), less])?, Form::sum(&[e, one])?);
                 safe(above.times(&below.pow(-1)?)?)
@@ -229,7 +394,7 @@ impl Exponential {
                 for (k, term) in &terms {
                     let form = match self.forms.get(term) {
                         Some(known) => {
-                            fails |= known.fails;
+                            fails |= known.instead.is_some();
                             known.form.clone()
                         }
                         None => Form::atom(new[term]),
@@ -237,227 +402,91 @@ impl Exponential {
                     all.push(form.times(&Form::number(k.clone()))?);
                 }
                 let form = Form::sum(&all)?;
-                for up in self.directions(dag) {
+                let exponentials = all.iter().flat_map(Form::exponentials).collect();
+                for direction in self.directions(dag, exponentials) {
                     let own = all.iter().filter(|term| !term.is_zero());
-                    let largest = own.map(|term| term.growth(up)).max();
-                    fails |= form.is_zero() || largest > Some(form.growth(up));
+                    let largest = own.map(|term| term.growth(&direction)).max();
+                    fails |= form.is_zero() || largest > Some(form.growth(&direction));
                 }
-                Some(KnownForm { form, fails })
+                let instead = fails.then(|| form.clone());
+                Some(KnownForm { form, instead })
             }
             Kind::Product(k, factors)
                 if factors.iter().any(|(n, _)| self.forms.contains_key(n)) =>
             {
-                let mut fails = false;
-                let mut form = Form::number(k);
-                let mut growths = Vec::new();
+                let mut form = Form::number(k.clone());
+                let mut powers = Vec::new();
                 for &(factor, n) in &factors {
-                    let power = match self.forms.get(&factor) {
-                        Some(known) => {
-                            fails |= known.fails;
-                            growths
-                                .push((known.form.growth(true) * n, known.form.growth(false) * n));
-                            known.form.pow(n)?
-                        }
-                        None => Form::of(Product::power(new[&factor], n)),
+                    let (power, fails) = match self.forms.get(&factor) {
+                        Some(known) => (known.form.pow(n)?, known.instead.is_some()),
+                        None => (Form::of(Product::power(new[&factor], n)), false),
                     };
                     form = form.times(&power)?;
+                    powers.push((power, fails));
                 }
-                for up in self.directions(dag) {
-                    let growth = |both: &(i32, i32)| if up { both.0 } else { both.1 };
-                    let grows = growths.iter().any(|both| growth(both) > 0);
-                    fails |= grows && growths.iter().any(|both| growth(both) < 0);
+                let taken = self.factors_that_fail(dag, &powers);
+                let mut instead = None;
+                if taken.contains(&true) {
+                    let mut all = Form::number(k);
+                    for (at, (power, _)) in powers.iter().enumerate() {
+                        let (factor, n) = factors[at];
+                        all = match taken[at] {
+                            true => all.times(power)?,
+                            false => all.times(&Form::of(Product::power(new[&factor], n)))?,
+                        };
+                    }
+                    instead = Some(all);
                 }
-                Some(KnownForm { form, fails })
+                Some(KnownForm { form, instead })
             }
             _ => None,
         }
     }
 
-    /// min(w, −w), w as the smaller where both are 0.
-    fn fall(&self, dag: &mut Dag) -> Node {
-        let w = self.exponent;
-        let minus = dag.neg(w);
-        match (dag.is_nonnegative(w), dag.is_nonnegative(minus)) {
-            (true, _) => minus,
-            (_, true) => w,
-            _ => dag.call(Op::Min, &[w, minus]),
-        }
-    }
-    /// `up` where e > 1, `down` elsewhere.
-    fn choose(&self, dag: &mut Dag, up: Node, down: Node) -> Node {
-        match self.directions(dag).as_slice() {
-            [true] => up,
-            [false] => down,
-            _ => {
-                let zero = dag.integer(0);
-                let grows = dag.less(zero, self.exponent);
-                dag.select(grows, up, down)
+    /// The factors of a product that are written anew: those that fail, those that grow where others vanish, and
+    /// others of the same exponentials.
+    fn factors_that_fail(&self, dag: &Dag, factors: &[(Form, bool)]) -> Vec<bool> {
+        let all = 0..factors.len();
+        let mut taken: Vec<bool> = factors.iter().map(|(_, fails)| *fails).collect();
+        let exponentials = factors.iter().flat_map(|(form, _)| form.exponentials());
+        for direction in self.directions(dag, exponentials.collect()) {
+            let growths = factors.iter().map(|(form, _)| form.growth(&direction));
+            let growths: Vec<i32> = growths.collect();
+            if growths.iter().any(|n| *n > 0) && growths.iter().any(|n| *n < 0) {
+                for at in all.clone().filter(|at| growths[*at] != 0) {
+                    taken[at] = true;
+                }
             }
         }
-    }
-    /// exp(−n·|w|)
-    fn powered(&self, dag: &mut Dag, n: i32) -> Node {
-        let fall = self.fall(dag);
-        let toward = if n < 0 { dag.neg(fall) } else { fall };
-        let e = dag.call(Op::Exp, &[toward]);
-        dag.powi(e, n.abs())
-    }
-
-    /// A form in E.
-    fn emitted(&self, dag: &mut Dag, form: &Form) -> Node {
-        if form.is_zero() {
-            return dag.integer(0);
+        if !taken.contains(&true) {
+            return taken;
         }
-        let mut factors = form.monomial.factors.clone();
-        let (up, down) = (-form.growth(true), form.power);
-        let same = match self.directions(dag).as_slice() {
-            [true] => Some(up),
-            [false] => Some(down),
-            _ => (up == down).then_some(up),
-        };
-        if let Some(n) = same {
-            let power = self.powered(dag, n);
-            factors.push((power, 1));
-        } else if up == -down {
-            let toward = dag.scale(&Rational::integer(i64::from(down.signum())), self.exponent);
-            let e = dag.call(Op::Exp, &[toward]);
-            factors.push((e, down.abs()));
-        } else {
-            // What both have in common, with the same sign.
-            let common = match (up < 0, down < 0) {
-                (false, false) => up.min(down),
-                (true, true) => up.max(down),
-                _ => 0,
+        loop {
+            let own = all.clone().filter(|at| taken[*at]);
+            let own: Vec<usize> = own.flat_map(|at| factors[at].0.exponentials()).collect();
+            let shares = |at: &usize| {
+                let mut exponentials = factors[*at].0.exponentials().into_iter();
+                !taken[*at] && exponentials.any(|own_one| own.contains(&own_one))
             };
-            let shared = self.powered(dag, common);
-            let (up, down) = (
-                self.powered(dag, up - common),
-                self.powered(dag, down - common),
-            );
-            let rest = self.choose(dag, up, down);
-            factors.extend([(shared, 1), (rest, 1)]);
-        }
-        for (polynomial, n) in &form.factors {
-            let value = match polynomial.is_one_less() {
-                true => self.one_less(dag, *n),
-                false => self.polynomial(dag, polynomial),
-            };
-            factors.push((value, *n));
-        }
-        dag.product(&form.monomial.coefficient, &factors)
-    }
-
-    /// 1 − e times e^-1 where that is above 1, of which the n-th power is made.
-    fn one_less(&self, dag: &mut Dag, n: i32) -> Node {
-        let fall = self.fall(dag);
-        let less = dag.call(Op::ExpM1, &[fall]);
-        let minus = dag.neg(less);
-        match n % 2 {
-            0 => less,
-            _ => self.choose(dag, less, minus),
-        }
-    }
-
-    /// A polynomial divided by its highest power of e where that is above 1.
-    fn polynomial(&self, dag: &mut Dag, polynomial: &Polynomial) -> Node {
-        let coefficients = coefficients(dag, polynomial);
-        let fall = self.fall(dag);
-        let e = dag.call(Op::Exp, &[fall]);
-        let down = horner(dag, e, &coefficients);
-        let reversed: Vec<Node> = coefficients.iter().rev().copied().collect();
-        let up = match reversed == coefficients {
-            true => down,
-            false => horner(dag, e, &reversed),
-        };
-        self.choose(dag, up, down)
-    }
-
-    /// The logarithm of 1 + eⁿ and other sums of positive terms, whose argument may overflow or vanish.
-    fn logarithm(&self, dag: &mut Dag, node: Node) -> Option<Node> {
-        let &Kind::Call(op @ (Op::Ln | Op::Ln1p), ref x) = dag.kind(node) else {
-            return None;
-        };
-        let known = self.forms.get(&x[0])?;
-        let form = match op {
-            Op::Ln => known.form.clone(),
-            _ => Form::sum(&[known.form.clone(), Form::number(Rational::ONE)])?,
-        };
-        let changes = self
-            .directions(dag)
-            .into_iter()
-            .any(|up| form.growth(up) != 0);
-        let is_positive = |dag: &Dag, product: &Product| {
-            let node = product.factors.iter();
-            let signs = node.map(|(node, n)| (dag.sign(*node), *n));
-            let sign = crate::dag::Sign::of_product(&product.coefficient, signs);
-            sign.is_nonnegative() && !sign.may_be_zero()
-        };
-        let [(polynomial, 1)] = form.factors.as_slice() else {
-            return None;
-        };
-        let terms = || polynomial.0.iter().map(|(_, product)| product);
-        if !changes
-            || !is_positive(dag, &form.monomial)
-            || !terms().all(|product| is_positive(dag, product))
-        {
-            return None;
-        }
-        let one = dag.integer(1);
-        let value = self.polynomial(dag, polynomial);
-        let both = coefficients(dag, polynomial);
-        let is_near_one = both.first() == Some(&one) && both.last() == Some(&one);
-        let near = match is_near_one {
-            true => {
-                let less = dag.integer(-1);
-                let rest = dag.add(&[value, less]);
-                dag.call(Op::Ln1p, &[rest])
+            match all.clone().find(shares) {
+                Some(at) => taken[at] = true,
+                None => return taken,
             }
-            false => dag.call(Op::Ln, &[value]),
-        };
-        let times = |dag: &mut Dag, n: i32| {
-            let k = Rational::integer(i64::from(n));
-            dag.scale(&k, self.exponent)
-        };
-        let (up, down) = (times(dag, form.growth(true)), times(dag, form.power));
-        let far = self.choose(dag, up, down);
-        let content = form.monomial.node(dag);
-        let content = dag.call(Op::Ln, &[content]);
-        Some(dag.add(&[far, near, content]))
+        }
     }
 }
 
-/// The coefficients of e⁰, e¹, …
-fn coefficients(dag: &mut Dag, polynomial: &Polynomial) -> Vec<Node> {
-    let all = 0..=polynomial.degree();
-    let coefficient = |power: i32| {
-        let own = polynomial.0.iter().filter(|(n, _)| *n == power);
-        let terms: Vec<(Rational, Node)> =
-            own.map(|(_, product)| product.clone().split(dag)).collect();
-        dag.linear(&Rational::ZERO, &terms)
+/// Returns true if a form is a product of sums of positive terms.
+fn is_positive(dag: &Dag, form: &Form) -> bool {
+    let is_positive = |product: &Product| {
+        let factors = product.factors.iter();
+        let signs = factors.map(|(node, n)| (dag.sign(*node), *n));
+        let sign = crate::dag::Sign::of_product(&product.coefficient, signs);
+        sign.is_nonnegative() && !sign.may_be_zero()
     };
-    all.map(coefficient).collect()
-}
-
-/// Σ coefficient·eⁿ
-fn horner(dag: &mut Dag, e: Node, coefficients: &[Node]) -> Node {
-    let mut value = dag.integer(0);
-    let mut gap = 0;
-    for &coefficient in coefficients.iter().rev() {
-        if dag.is_zero(coefficient) {
-            gap += 1;
-            continue;
-        }
-        value = match dag.is_zero(value) {
-            true => coefficient,
-            false => {
-                let product = dag.product(&Rational::ONE, &[(value, 1), (e, gap)]);
-                dag.add(&[coefficient, product])
-            }
-        };
-        gap = 1;
-    }
-    if gap > 1 {
-        value = dag.product(&Rational::ONE, &[(value, 1), (e, gap - 1)]);
-    }
-    value
+    let mut terms = form
+        .factors
+        .iter()
+        .flat_map(|(polynomial, _)| &polynomial.0);
+    is_positive(&form.monomial) && terms.all(|(_, product)| is_positive(product))
 }

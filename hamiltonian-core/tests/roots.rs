@@ -388,3 +388,130 @@ fn product_of_differences<M: Scheme<f64, Hand<HenonHeiles, 2>>>(
     );
     found.len()
 }
+
+/// A run that an event ends goes on, is saved and resumed anywhere, and finds the roots of a run that does not.
+#[test]
+fn ended_and_saved_runs_find_the_same_roots() {
+    let (mut ended, mut on_steps) = (0, 0);
+    for seed in 0..cases(400, 20_000) {
+        let mut random = Random(2_000_000 + seed);
+        let steps = 3 + random.below(8) as u32;
+        let size = [0.25, 0.1, 1.0 / 3.0][seed as usize % 3];
+        let step = if random.below(2) == 0 { size } else { -size };
+        let product = Product::random(&mut random, steps, |k| k * step);
+        // After an end, roots in the rest of the same step are located in the next one.
+        let steps = steps + 1;
+        let expected = product.roots(f64::from(steps) * step);
+        let ends_after = 1 + random.below(3);
+        let is_restarted = random.below(2) == 0;
+        let events = || {
+            let product = product.clone();
+            let event = Event::of("f", move |state: &State<Plane>| product.value(state.t));
+            Events::new([event.ending_after(ends_after)])
+        };
+        let start = State::new([0.1, -0.25], [0.42, 0.1]);
+        let (system, scheme) = (Hand(HenonHeiles), StormerVerlet::default());
+        let run = Integrator::new(&system, scheme, start, step).expect("a good start");
+        let mut run = run.observe(events());
+        let mut ends = Vec::new();
+        loop {
+            let left = u64::from(steps) - run.steps();
+            if left == 0 && !run.has_ended() {
+                break;
+            }
+            run.advance(1 + random.below(left.max(1))).expect("finite");
+            if run.has_ended() {
+                ends.push(run.time());
+                run.go_on();
+            }
+            if is_restarted {
+                let saved = run.checkpoint();
+                let again = Integrator::resume(&system, scheme, saved).expect("the same run");
+                run = again.observe(events());
+            }
+        }
+        let located = run.observer().located().iter();
+        let located: Vec<_> = located.map(|found| (found.state.t, found.rising)).collect();
+        let place =
+            format!("seed {seed}, step {step}: {product:?}\n{located:?}\n{expected:?}\n{ends:?}");
+        assert!(agree(&located, &expected), "{place}");
+        let end = expected.get(ends_after as usize - 1);
+        assert!(ends.len() == usize::from(end.is_some()), "{place}");
+        if let (Some((t, _)), Some(found)) = (end, ends.first()) {
+            assert!((t - found).abs() < 1e-9, "{place}");
+            ended += 1;
+            on_steps += usize::from((t / step - (t / step).round()).abs() < 1e-9);
+        }
+    }
+    assert!(ended > 150 && on_steps > 80, "{ended} {on_steps}");
+}
+
+/// Multiples of a period, many of them after steps, of functions that grow and of functions that jump back.
+#[test]
+fn multiples_of_periods_are_found_on_steps_and_between() {
+    let (mut found, mut on_steps, mut missed) = (0, 0, 0);
+    for seed in 0..cases(400, 20_000) {
+        let mut random = Random(3_000_000 + seed);
+        let step = if random.below(2) == 0 { 0.25 } else { -0.25 };
+        // All values after steps are exact. In a step the function changes by less than half a period.
+        let slope =
+            (1 + random.below(15)) as f64 / 4.0 * if random.below(2) == 0 { 1.0 } else { -1.0 };
+        let period = 2.0 + random.below(5) as f64 / 4.0;
+        let offset = match random.below(2) {
+            0 => random.below(16) as f64 / 16.0,
+            _ => random.between(0.0, period),
+        };
+        let is_wrapped = random.below(2) == 0;
+        let function = move |t: f64| {
+            let value = slope * t - offset;
+            match is_wrapped {
+                true => value - period * (value / period).round(),
+                false => value,
+            }
+        };
+        let direction = random.below(3);
+        let event = move || {
+            let event =
+                Event::of("f", move |state: &State<Plane>| function(state.t)).modulo(period);
+            match direction {
+                1 => event.rising(),
+                2 => event.falling(),
+                _ => event,
+            }
+        };
+        let rises = slope * step > 0.0;
+        let steps = 24;
+        let last = f64::from(steps) * step;
+        let mut expected: Vec<(f64, bool)> = (-40..=40)
+            .map(|k| ((offset + period * f64::from(k)) / slope, rises))
+            .filter(|(t, _)| t * step > 0.0 && t.abs() < last.abs())
+            .filter(|_| direction == 0 || rises == (direction == 1))
+            .collect();
+        expected.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        let start = State::new([0.1, -0.25], [0.42, 0.1]);
+        let run = Integrator::new(&Hand(HenonHeiles), StormerVerlet::default(), start, step);
+        let mut run = run.expect("a good start").observe(Events::new([event()]));
+        run.advance(steps as u64).expect("finite");
+        let located = run.observer().located().iter();
+        let located: Vec<_> = located.map(|found| (found.state.t, found.rising)).collect();
+        assert!(
+            agree(&located, &expected),
+            "seed {seed}: {slope}*t - {offset}, modulo {period}, step {step}, {is_wrapped}\n{located:?}\n{expected:?}"
+        );
+        found += expected.len();
+        on_steps += expected
+            .iter()
+            .filter(|(t, _)| (t / step).fract() == 0.0)
+            .count();
+        // Control: signs of the function as it is.
+        let signs: Vec<bool> = (0..=steps)
+            .map(|k| function(f64::from(k) * step) > 0.0)
+            .collect();
+        let changes = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        missed += usize::from(changes != expected.len());
+    }
+    assert!(
+        found > 900 && on_steps > 60 && missed > 100,
+        "{found} {on_steps} {missed}"
+    );
+}

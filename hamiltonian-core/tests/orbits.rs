@@ -5,6 +5,7 @@
 
 mod others;
 
+use crate::common::difference;
 use crate::common::random::{Random, cases};
 use crate::common::systems::{Formula, Hand, HenonHeiles, scalar};
 use core::f64::consts::{PI, TAU};
@@ -32,26 +33,32 @@ enum Oscillator {
     Duffing { a: f64, b: f64 },
     /// H = p²/2 − a·cos q.
     Pendulum { a: f64 },
+    /// H = p²/2 + k·q²/2 − a·q·cos t.
+    Driven { a: f64, k: f64 },
 }
 
 impl Formula<1> for Oscillator {
     const NAME: &'static str = "Oscillator";
     const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
     const OBSERVABLES: &'static [Observable] = &[event("turn")];
-    fn energy<T: Real>(&self, _: T, [q]: &[T; 1], [p]: &[T; 1]) -> T {
+    fn energy<T: Real>(&self, t: T, [q]: &[T; 1], [p]: &[T; 1]) -> T {
         let square = *q * *q;
         let potential = match self {
             Oscillator::Duffing { a, b } => {
                 square * (number::<T>(0.5 * a) + number::<T>(0.25 * b) * square)
             }
             Oscillator::Pendulum { a } => number::<T>(-a) * q.cos(),
+            Oscillator::Driven { a, k } => {
+                number::<T>(0.5 * k) * square - number::<T>(*a) * *q * t.cos()
+            }
         };
         number::<T>(0.5) * *p * *p + potential
     }
-    fn gradient<T: Real>(&self, _: T, [q]: &[T; 1], [p]: &[T; 1]) -> ([T; 1], [T; 1]) {
+    fn gradient<T: Real>(&self, t: T, [q]: &[T; 1], [p]: &[T; 1]) -> ([T; 1], [T; 1]) {
         let force = match self {
             Oscillator::Duffing { a, b } => *q * (number::<T>(*a) + number::<T>(*b) * *q * *q),
             Oscillator::Pendulum { a } => number::<T>(*a) * q.sin(),
+            Oscillator::Driven { a, k } => number::<T>(*k) * *q - number::<T>(*a) * t.cos(),
         };
         ([force], [*p])
     }
@@ -70,6 +77,7 @@ impl Oscillator {
                 (square, (1.0 - b * x * x / (2.0 * square)).sqrt())
             }
             Oscillator::Pendulum { a } => (*a, (x / 2.0).cos()),
+            Oscillator::Driven { .. } => (1.0, 1.0),
         };
         let (mut u, mut v) = (1.0, v);
         for _ in 0..8 {
@@ -77,6 +85,52 @@ impl Oscillator {
         }
         TAU / (u * square.sqrt())
     }
+}
+
+/// The one orbit of a driven oscillator that has the period of its force is q = a·cos t/(k − 1).
+#[test]
+fn driven_oscillators_follow_their_force() {
+    let (mut found, mut refused) = (0, 0);
+    for seed in 0..cases(300, 10_000) {
+        let mut random = Random(40_000 + seed);
+        let periods = 1 + random.below(2);
+        // Between resonances.
+        let k = (random.below(4) as f64 + random.between(0.1, 0.9)).powi(2)
+            / (periods * periods) as f64;
+        let a = random.between(0.1, 2.0);
+        let begin = random.between(-4.0, 4.0);
+        let state = |by: [f64; 2]| {
+            let size = a / (k - 1.0);
+            let (q, p) = (size * begin.cos(), -size * begin.sin());
+            State::new([q + by[0] * size], [p + by[1] * size]).at(begin)
+        };
+        let off = [(); 2].map(|()| random.between(-1.5, 1.5));
+        let closing = Closing::Driven {
+            period: TAU * periods as f64,
+        };
+        let search = OrbitSearch::new(closing, 60 * periods);
+        let system = Hand(Oscillator::Driven { a, k });
+        let place = format!("seed {seed}: {system:?}, {off:?}, {closing:?}");
+        match search.find(&system, Gauss::<3>::default(), state(off)) {
+            Ok(orbit) => {
+                found += 1;
+                let known = state([0.0; 2]);
+                let by = difference(&orbit.start, &known);
+                assert!(
+                    by < 1e-4 * (1.0 + (a / (k - 1.0)).abs()),
+                    "{by} {place}: {orbit:?}"
+                );
+                assert!(orbit.start.t == begin, "{place}");
+            }
+            // Further from the guess than half of its width.
+            Err(Error::FarOrbit { widths, .. }) => {
+                refused += 1;
+                assert!(widths > 0.5, "{place}");
+            }
+            Err(error) => panic!("{place}: {error}"),
+        }
+    }
+    assert!(found > 150 && refused > 10, "{found} {refused}");
 }
 
 /// The start of an orbit has its period, from guesses that are off by up to a fifth.

@@ -100,6 +100,8 @@ fn single(index: usize, times: &[f64], step: f64, ends: bool) -> (Status, Vec<Op
             Ok(state) => *value = Some([state.t, state.q[0]]),
             Err(Error::NotFinite { .. }) => return (Status::NotFinite, values),
             Err(Error::Behind { .. }) if k == 0 => return (Status::Start, values),
+            // The first time is the start, and the member runs in the other direction.
+            Err(Error::Behind { .. }) => return (Status::Failed, values),
             Err(error) => panic!("{error}"),
         }
     }
@@ -118,7 +120,7 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
     let _level = one_level();
     let mut numbers = Numbers(38);
     let mut seen = [0; 5];
-    let (mut partly, mut whole, mut stopped) = (0, 0, 0);
+    let (mut partly, mut whole, mut stopped, mut against) = (0, 0, 0, 0);
     for case in 0..CASES {
         let step = if numbers.part() < 0.5 { 0.05 } else { -0.05 };
         let fault = FAULTS[case as usize % FAULTS.len()];
@@ -145,10 +147,20 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
             }
             Fault::Early => times[0] = if step > 0.0 { 0.5 } else { 0.25 },
         }
-        let sweep = Sweep::try_new(MEMBERS, falling, StormerVerlet::default(), step)
+        let mut sweep = Sweep::try_new(MEMBERS, falling, StormerVerlet::default(), step)
             .reproducible()
             .chunk(1 + numbers.below(14))
             .threads(1 + numbers.below(2));
+        // Steps of their own, of some members in the other direction; any order of times may then be meant.
+        let is_own = !matches!(fault, Fault::Order | Fault::Direction) && numbers.below(3) == 0;
+        let step_of = move |index: usize| match index % 4 {
+            _ if !is_own => step,
+            1 => -step,
+            _ => step * (0.6 + 0.1 * (index % 9) as f64),
+        };
+        if is_own {
+            sweep = sweep.step_each(move |member| step_of(member.index));
+        }
         let ends = numbers.below(2) == 0;
         let table = match ends {
             true => sweep
@@ -175,11 +187,12 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
         assert_eq!(table.rows(), MEMBERS * times.len(), "{context}");
         let mut rows = table.iter();
         for index in 0..MEMBERS {
-            let (status, values) = single(index, &times, step, ends);
+            let (status, values) = single(index, &times, step_of(index), ends);
             let reached = values.iter().flatten().count();
             partly += u32::from(reached > 0 && reached < values.len());
             whole += u32::from(reached == values.len());
             stopped += u32::from(status == Status::Stopped);
+            against += u32::from(step_of(index) * step < 0.0);
             for value in values {
                 let row = rows.next().expect("a row for each member and time");
                 let [t, q] = value.unwrap_or([f64::NAN; 2]);
@@ -196,8 +209,8 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
     // The generator makes each kind, and members that reach some, all and none of the times.
     assert!(seen.iter().all(|n| *n >= 60), "{seen:?}");
     assert!(
-        partly > 100 && whole > 500 && stopped > 100,
-        "{partly} partly, {whole} wholly recorded, {stopped} ended by observers"
+        partly > 100 && whole > 500 && stopped > 100 && against > 100,
+        "{partly} partly, {whole} wholly recorded, {stopped} ended by observers, {against} against the times"
     );
 }
 

@@ -10,8 +10,8 @@ use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 
-/// Factors that vanish unless 1 < x (or, of the last, unless 1 < x for one i of the sum).
-const VANISHING: [&str; 9] = [
+/// Factors that vanish unless 1 < x.
+const VANISHING: [&str; 11] = [
     "if x > 1 { 1 } else { 0 }",
     "if x <= 1 { 0 } else { x }",
     "if !(x > 1) { 0 } else { if y > -9 { y } else { x } }",
@@ -21,10 +21,12 @@ const VANISHING: [&str; 9] = [
     "(1 + sign(x - 1))",
     "((if x > 1 { y } else { 0 }) + (if x > 2 { x } else { 0 }))",
     "(if x > 1 { x } else { 0 })*(if x > 0.5 { y } else { 0 })",
+    "sum(i in 0..3) { if x > 1 + i { x + i*y } else { 0 } }",
+    "sum(i in 0..3) { max(x - 1 - i, 0)^2*y }^2",
 ];
 
 /// Factors that are singular, or have a singular derivative, at x = 0 or where x < 0.
-const SINGULAR: [&str; 9] = [
+const SINGULAR: [&str; 11] = [
     "(sqrt(x^2) - k)^2*sqrt(x^2 + z^2)",
     "sqrt(x^2 + z^2)",
     "(sqrt(x^2 + z^2) - k)^2",
@@ -34,6 +36,8 @@ const SINGULAR: [&str; 9] = [
     "x^k",
     "hypot(x, z)",
     "exp(-1000*x)",
+    "sqrt(sum(i in 0..3) { x^2 + i*z^2 })",
+    "sum(i in 1..3) { ln(i*x)*i }",
 ];
 
 fn program(h: &str) -> Program {

@@ -6,6 +6,7 @@
 //! finite with all derivatives is left as it is, since 0 times these is 0.
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
+use crate::index::Domain;
 use crate::op::Op;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
@@ -199,7 +200,7 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
         let Kind::Reduce(domain, body) = *dag.kind(factor) else {
             continue;
         };
-        if n != 1 || facts(dag, body, known).support.is_none() || !is_other_singular(at) {
+        if n < 1 || facts(dag, body, known).support.is_none() || !is_other_singular(at) {
             continue;
         }
         let singular = |k: usize| k != at && is_singular[k];
@@ -211,8 +212,8 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
             }
         }
         let nodes: Vec<Node> = inside.iter().skip(1).map(|(node, _)| *node).collect();
-        if dag.has_loops(&nodes) {
-            continue;
+        if n > 1 || dag.has_loops(&nodes) {
+            return where_terms_count(dag, (domain, body), node, known);
         }
         let product = dag.product(&Rational::ONE, &inside);
         let product = within_support(dag, product, known);
@@ -220,6 +221,23 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
         return dag.product(&coefficient, &outside);
     }
     node
+}
+
+/// The product with a sum over a loop, where one of its terms does not vanish: for factors with loops of their own, and powers.
+fn where_terms_count(
+    dag: &mut Dag,
+    (domain, body): (Domain, Node),
+    product: Node,
+    known: &mut Map<Node, Vanishing>,
+) -> Node {
+    let Some(support) = facts(dag, body, known).support else {
+        return product;
+    };
+    let (zero, one) = (dag.integer(0), dag.integer(1));
+    let counted = dag.select(support, one, zero);
+    let count = dag.reduce(domain, counted);
+    let condition = dag.less(zero, count);
+    dag.select(condition, product, zero)
 }
 
 /// The branch of a choice between an expression and 0: where the product counts it is taken.

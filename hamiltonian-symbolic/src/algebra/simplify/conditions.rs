@@ -55,6 +55,14 @@ impl Dag {
     }
     /// `yes` where the condition holds, `no` elsewhere.
     pub fn select(&mut self, condition: Node, yes: Node, no: Node) -> Node {
+        let yes = match *self.kind(yes) {
+            Kind::Select(inner, yes, _) if inner == condition => yes,
+            _ => yes,
+        };
+        let no = match *self.kind(no) {
+            Kind::Select(inner, _, no) if inner == condition => no,
+            _ => no,
+        };
         if yes == no {
             return yes;
         }

@@ -3,6 +3,7 @@
 //! Input: random potentials that end at x = 0, starts, steps, schemes and calls. Output: states and errors. Control: H
 //! without the part that ends, whose states are the same bits, and loops written by hand.
 
+use crate::common::four::Four;
 use crate::common::random::{Random, cases};
 use crate::common::systems::{Formula, Halves, Hand, number, scalar};
 use hamiltonian_core::private::SVector;
@@ -132,13 +133,15 @@ struct Seen {
     by_hand: u32,
 }
 
+type Start = State<SVector<f64, 1>>;
+
 /// One generated run: a potential, a start, a step, and the numbers of steps of its calls.
 #[derive(Debug)]
 struct Case {
     edge: Edge,
     g: f64,
     k: f64,
-    start: State<SVector<f64, 1>>,
+    start: Start,
     h: f64,
     calls: Vec<usize>,
 }
@@ -179,13 +182,37 @@ impl Case {
         case
     }
 
+    fn ending(&self, is_guarded: bool) -> Ending {
+        let Case { edge, g, k, .. } = *self;
+        Ending {
+            edge,
+            g,
+            k,
+            is_guarded,
+        }
+    }
+
+    /// The first and the last step of each block. H is evaluated at the ends of blocks, which begin with each call.
+    fn blocks(&self) -> Vec<(usize, usize)> {
+        let mut blocks = Vec::new();
+        let mut begin = 0;
+        for call in &self.calls {
+            let end = begin + call;
+            for from in (begin..end).step_by(BLOCK) {
+                blocks.push((from + 1, end.min(from + BLOCK)));
+            }
+            begin = end;
+        }
+        blocks
+    }
+
     fn is_outside(&self, x: f64) -> bool {
         !(self.k * by_hand(self.edge, x)[0]).is_finite()
     }
 
     /// The states after each step of leapfrog, until a number is not finite.
-    fn leapfrog(&self, begins_with_kick: bool, n: usize) -> Vec<[f64; 2]> {
-        let (mut x, mut p) = (self.start.q[0], self.start.p[0]);
+    fn leapfrog(&self, start: &Start, begins_with_kick: bool, n: usize) -> Vec<[f64; 2]> {
+        let (mut x, mut p) = (start.q[0], start.p[0]);
         let force = |x: f64| self.g + self.k * by_hand(self.edge, x)[1];
         let mut states = Vec::new();
         for step in 0..n {
@@ -214,17 +241,9 @@ impl Case {
         begins_with_kick: Option<bool>,
         seen: &mut Seen,
     ) {
-        let Case { edge, g, k, h, .. } = *self;
-        let ending = |is_guarded| {
-            Hand(Ending {
-                edge,
-                g,
-                k,
-                is_guarded,
-            })
-        };
+        let Case { edge, h, .. } = *self;
         let place = format!("{scheme:?} {self:?}");
-        let (guarded, free) = (ending(true), ending(false));
+        let (guarded, free) = (Hand(self.ending(true)), Hand(self.ending(false)));
         let new = || Integrator::new(&free, scheme.clone(), self.start.clone(), h);
         let path = Integrator::new(&guarded, scheme.clone(), self.start.clone(), h);
         let mut path = path.expect("a good start");
@@ -240,7 +259,7 @@ impl Case {
             }
         }
         if let Some(begins_with_kick) = begins_with_kick {
-            let expected = self.leapfrog(begins_with_kick, n);
+            let expected = self.leapfrog(&self.start, begins_with_kick, n);
             let found: Vec<_> = states
                 .iter()
                 .map(|state| [state.q[0], state.p[0]])
@@ -251,16 +270,7 @@ impl Case {
         // The first step without finite numbers.
         let broken = states.len() + 1;
         let is_bad = |step: usize| step >= broken || self.is_outside(states[step - 1].q[0]);
-        // H is evaluated at the ends of blocks, which begin with each call.
-        let mut blocks = Vec::new();
-        let mut begin = 0;
-        for call in &self.calls {
-            let end = begin + call;
-            for from in (begin..end).step_by(BLOCK) {
-                blocks.push((from + 1, end.min(from + BLOCK)));
-            }
-            begin = end;
-        }
+        let blocks = self.blocks();
         let expected = blocks
             .iter()
             .find(|(_, end)| is_bad(*end))
@@ -379,6 +389,78 @@ fn generated_runs_that_leave_the_domain_of_h_are_errors() {
     assert!(
         seen.by_hand > 250 && seen.left.iter().all(|[finite, broken]| finite + broken > 5),
         "{seen:?}"
+    );
+}
+
+/// Four starts in the lanes of one run: the error names the first lane that is bad in the first bad step.
+#[test]
+fn the_first_lane_that_leaves_the_domain_is_named() {
+    let (mut left, mut inside, mut lanes) = (0, 0, [0; 4]);
+    for seed in 0..cases(350, 10_000) {
+        let mut random = Random(1_000_000 + seed);
+        let edge = EDGES[seed as usize % EDGES.len()];
+        let case = Case::new(edge, &mut random);
+        let starts = [(); 4].map(|()| Case::new(edge, &mut random).start);
+        let n: usize = case.calls.iter().sum();
+        let paths = starts.each_ref().map(|start| case.leapfrog(start, true, n));
+        let is_broken = |lane: usize, step: usize| step > paths[lane].len();
+        let is_outside = |lane: usize, step: usize| {
+            !is_broken(lane, step) && case.is_outside(paths[lane][step - 1][0])
+        };
+        let first = |step: usize| {
+            let broken = (0..4).find(|lane| is_broken(*lane, step));
+            broken.or_else(|| (0..4).find(|lane| is_outside(*lane, step)))
+        };
+        let blocks = case.blocks();
+        let expected = blocks
+            .iter()
+            .find(|(_, end)| first(*end).is_some())
+            .and_then(|(begin, end)| (*begin..=*end).find_map(|step| Some((step, first(step)?))));
+        let packed = |of: &dyn Fn(usize) -> f64| Four([0, 1, 2, 3].map(of));
+        let start = State {
+            t: Four([0.0; 4]),
+            q: SVector::from([packed(&|lane| starts[lane].q[0])]),
+            p: SVector::from([packed(&|lane| starts[lane].p[0])]),
+        };
+        let system = Hand(case.ending(false));
+        let scheme = StormerVerlet::default();
+        let mut run =
+            Integrator::new(&system, scheme, start, Four([case.h; 4])).expect("a good start");
+        let result = case
+            .calls
+            .iter()
+            .try_for_each(|call| run.advance(*call as u64).map(|_| ()));
+        let made = match (expected, result) {
+            (None, Ok(())) => {
+                inside += 1;
+                n
+            }
+            (
+                Some((bad, lane)),
+                Err(Error::NotFinite {
+                    step,
+                    lane: named,
+                    energy,
+                    ..
+                }),
+            ) => {
+                assert_eq!((step, named), (bad as u64, Some(lane as u32)), "{case:?}");
+                assert_eq!(energy.is_none(), is_broken(lane, bad), "{case:?}");
+                left += 1;
+                lanes[lane] += 1;
+                bad - 1
+            }
+            (expected, result) => panic!("{expected:?}, {result:?}, {case:?}"),
+        };
+        for (lane, path) in paths.iter().enumerate() {
+            let begin = [starts[lane].q[0], starts[lane].p[0]];
+            let state = if made == 0 { begin } else { path[made - 1] };
+            assert_eq!([run.state().q[0].0[lane], run.state().p[0].0[lane]], state);
+        }
+    }
+    assert!(
+        left > 100 && inside > 30 && lanes.iter().all(|n| *n > 10),
+        "{left} {inside} {lanes:?}"
     );
 }
 

@@ -6,6 +6,7 @@
 
 use crate::set::{MEMBERS, Member, Set};
 use crate::sort::Arrange;
+use num_integer::Integer;
 
 /// A loop: a range in the context of an enclosing loop. Its number also names its variable.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -271,6 +272,14 @@ impl Affine {
     fn factors_of_sizes(&self) -> impl Iterator<Item = i64> {
         let products = self.products.iter().map(|(_, factor)| *factor);
         self.sizes.iter().map(|(_, factor)| *factor).chain(products)
+    }
+    /// Returns true if a number divides all factors and not the constant, so that the form is never 0: 2·i − 2·j − 1.
+    #[must_use]
+    pub fn is_never_divisible(&self) -> bool {
+        let of_loops = self.loops.iter().map(|(_, factor)| *factor);
+        let factors = of_loops.chain(self.factors_of_sizes());
+        let common = factors.fold(0_i64, |common, factor| common.gcd(&factor));
+        common != 0 && self.constant % common != 0
     }
     /// The loop variables as a bit set.
     #[must_use]

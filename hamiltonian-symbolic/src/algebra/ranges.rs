@@ -82,6 +82,9 @@ pub trait Ranges {
                 {
                     return Some(Vec::new());
                 }
+                if difference.is_never_divisible() {
+                    return Some(Vec::new());
+                }
                 let may_vary = difference.loops.is_empty() && difference.has_sizes();
                 return may_vary.then(|| vec![[difference, zero]]);
             }

@@ -6,6 +6,7 @@
 use super::atoms::{Algebra, Key, Scope};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
 use crate::dag::{Dag, Kind, Map, Node, Relation};
+use crate::index::Domain;
 use crate::op::Op;
 use crate::rational::Rational;
 use std::rc::Rc;
@@ -84,21 +85,7 @@ impl Algebra {
             Kind::Reduce(domain, body) => {
                 let body = self.of(*body);
                 let body = self.canonical(&body)?;
-                let mut sum = Sum::default();
-                for (monomial, k) in body.terms() {
-                    let (inside, outside): (Vec<_>, Vec<_>) = monomial
-                        .0
-                        .iter()
-                        .partition(|(atom, _)| self.entry(*atom).variables.has(*domain));
-                    let inside = Monomial(inside);
-                    if let Some(total) = self.power_sum(dag, *domain, &inside)? {
-                        sum.add(&total.times(&Monomial(outside)), k);
-                        continue;
-                    }
-                    let looped = self.sum(dag, *domain, inside);
-                    sum.add_term(Monomial(outside).mul(&Monomial::atom(looped, 1)), k.clone());
-                }
-                sum.finish(&self.budget)?
+                self.summed(dag, *domain, &body)?
             }
             Kind::Compare(relation, a, b) => {
                 let (a, b) = (self.of(*a), self.of(*b));
@@ -132,6 +119,30 @@ impl Algebra {
                 no.add(&chosen)
             }
         })
+    }
+
+    /// The sum of a polynomial over a loop: of each term, with the factors that do not depend on its variable outside.
+    pub(super) fn summed(
+        &mut self,
+        dag: &Dag,
+        domain: Domain,
+        body: &Poly,
+    ) -> Result<Poly, Undecided> {
+        let mut sum = Sum::default();
+        for (monomial, k) in body.terms() {
+            let (inside, outside): (Vec<_>, Vec<_>) = monomial
+                .0
+                .iter()
+                .partition(|(atom, _)| self.entry(*atom).variables.has(domain));
+            let inside = Monomial(inside);
+            if let Some(total) = self.power_sum(dag, domain, &inside)? {
+                sum.add(&total.times(&Monomial(outside)), k);
+                continue;
+            }
+            let looped = self.sum(dag, domain, inside);
+            sum.add_term(Monomial(outside).mul(&Monomial::atom(looped, 1)), k.clone());
+        }
+        sum.finish(&self.budget)
     }
 
     /// A polynomial as a node.

@@ -21,29 +21,35 @@ impl Algebra {
             let (Kind::Reduce(domain, _) | Kind::Count(domain)) = *dag.kind(node) else {
                 continue;
             };
-            if self.runs.contains_key(&domain) {
-                continue;
-            }
-            let range = dag.range(domain).clone();
-            let length = range.end.checked_plus(-1, &range.start);
-            let is_exact = length.is_some_and(|length| dag.is_never_negative(&length));
-            let ends = match is_exact {
-                true => {
-                    let ends = [&range.start, &range.end].map(|end| dag.affine(end));
-                    let [start, end] = ends.map(|end| self.convert(dag, end));
-                    Some([start?, end?])
-                }
-                false => None,
-            };
-            let count = match &ends {
-                Some([start, end]) => end.sub(start),
-                None => {
-                    let count = dag.count(domain);
-                    Poly::atom(self.leaf(dag, count), 1)
-                }
-            };
-            self.runs.insert(domain, Runs { count, ends });
+            self.count_loop(dag, domain)?;
         }
+        Ok(())
+    }
+
+    /// Takes note of how often a loop runs.
+    pub(super) fn count_loop(&mut self, dag: &mut Dag, domain: Domain) -> Result<(), Undecided> {
+        if self.runs.contains_key(&domain) {
+            return Ok(());
+        }
+        let range = dag.range(domain).clone();
+        let length = range.end.checked_plus(-1, &range.start);
+        let is_exact = length.is_some_and(|length| dag.is_never_negative(&length));
+        let ends = match is_exact {
+            true => {
+                let ends = [&range.start, &range.end].map(|end| dag.affine(end));
+                let [start, end] = ends.map(|end| self.convert(dag, end));
+                Some([start?, end?])
+            }
+            false => None,
+        };
+        let count = match &ends {
+            Some([start, end]) => end.sub(start),
+            None => {
+                let count = dag.count(domain);
+                Poly::atom(self.leaf(dag, count), 1)
+            }
+        };
+        self.runs.insert(domain, Runs { count, ends });
         Ok(())
     }
 

@@ -113,16 +113,12 @@ fn first_form(algebra: &mut Algebra, dag: &mut Dag, atom: Atom) -> Result<Poly, 
     let Some((loops, monomial, k)) = best else {
         return Ok(Poly::atom(atom, 1));
     };
-    let mut sum = monomial;
+    let mut sum = Poly::term(k, monomial);
     for &domain in loops.iter().rev() {
-        let (inside, outside): (Vec<_>, Vec<_>) = sum
-            .0
-            .iter()
-            .partition(|(atom, _)| algebra.entry(*atom).variables.has(domain));
-        let looped = algebra.sum(dag, domain, Monomial(inside));
-        sum = Monomial(outside).mul(&Monomial::atom(looped, 1));
+        algebra.count_loop(dag, domain)?;
+        sum = algebra.summed(dag, domain, &sum)?;
     }
-    Ok(Poly::term(k, sum))
+    Ok(sum)
 }
 
 /// The loops of a sum of a sum; `None` where sums are multiplied inside, or stand inside

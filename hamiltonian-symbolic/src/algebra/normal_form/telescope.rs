@@ -1,7 +1,7 @@
 //! Sums over parts of a range as differences of sums from 0 on: Σ over 1..n of f(i) is Σ over 0..n less f(0).
 //!
 //! Input: an expression. Output: one with the same values in which the range of each sum is `0..form`, with a form
-//! without a number, and the first element of its body has the index i. Invariant: an identity of sums over all
+//! without a number, and the first element of its body has the index i; loops of a few iterations are written out. Invariant: an identity of sums over all
 //! sequences f, so that values at indices outside an array, which cancel, do not matter. Assumes that a range has its
 //! first value below its end or at it, for all sizes.
 
@@ -15,6 +15,13 @@ const MOST: i64 = 4;
 
 /// The expression with sums over whole ranges; `None` if it has them already.
 pub(super) fn telescoped(dag: &mut Dag, root: Node) -> Option<Node> {
+    /// Terms that are split off a loop may have loops inside, over parts of their ranges.
+    const DEPTH: usize = 3;
+    let image = (0..DEPTH).fold(root, |image, _| once(dag, image));
+    (image != root).then_some(image)
+}
+
+fn once(dag: &mut Dag, root: Node) -> Node {
     let nodes = dag.reachable(&[root]);
     let new: Map<Node, Node> = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
         Kind::Reduce(domain, body) => {
@@ -39,41 +46,55 @@ pub(super) fn telescoped(dag: &mut Dag, root: Node) -> Option<Node> {
         }
         _ => dag.rebuild(node, &|child| new[&child]),
     });
-    (new[&root] != root).then(|| new[&root])
+    new[&root]
 }
 
 /// A sum as one over a whole range and single terms.
 fn whole(dag: &mut Dag, domain: Domain, body: Node) -> Option<Node> {
     let range = dag.range(domain).clone();
     let length = range.end.checked_plus(-1, &range.start)?;
+    if let (Some(count @ ..=MOST), Some(first)) = (length.as_constant(), range.start.as_constant())
+    {
+        let mut terms = Vec::new();
+        for index in first..first + count.max(0) {
+            let term = dag.replace(body, domain, &Affine::constant(index));
+            terms.push((Rational::ONE, term));
+        }
+        return Some(dag.linear(&Rational::ZERO, &terms));
+    }
     let by = offset(dag, domain, body);
-    let first = range.start.as_constant()?.checked_add(by)?;
-    let end = range.end.plus(1, &Affine::constant(by));
-    let last = end.constant;
-    let form = end.checked_plus(-1, &Affine::constant(last))?;
-    let is_long = first.abs().max(last.abs()) > MOST;
-    let is_whole = first == 0 && last == 0 && by == 0;
-    if is_whole || is_long || form.as_constant().is_some() {
+    // Both ends, as forms without a number and the numbers.
+    let [start, end] = [&range.start, &range.end].map(|bound| {
+        let number = bound.constant;
+        let form = bound.checked_plus(-1, &Affine::constant(number));
+        form.zip(number.checked_add(by))
+    });
+    let (start, end) = (start?, end?);
+    let is_whole = start.0.as_constant().is_some() && start.1 == 0 && end.1 == 0 && by == 0;
+    let is_long = start.1.abs().max(end.1.abs()) > MOST;
+    let is_nested = !start.0.loops.is_empty();
+    if is_whole || is_long || is_nested || end.0.as_constant().is_some() {
         return None;
     }
-    if !(dag.is_never_negative(&length) && dag.is_never_negative(&form)) {
+    let forms = [&length, &start.0, &end.0];
+    if !forms.iter().all(|form| dag.is_never_negative(form)) {
         return None;
     }
     let at = |dag: &mut Dag, index: &Affine| {
         let index = index.plus(-1, &Affine::constant(by));
         dag.replace(body, domain, &index)
     };
-    let all = dag.domain(range.parent, Affine::constant(0), form.clone());
-    let inside = at(dag, &Affine::variable(all));
-    let mut terms = vec![(Rational::ONE, dag.reduce(all, inside))];
-    // F(form + last) − F(first), where F(m) is the sum over 0..m.
-    for (start, from, sign) in [
-        (form, last, Rational::ONE),
-        (Affine::constant(0), first, Rational::MINUS_ONE),
-    ] {
-        let sign = if from < 0 { sign.neg() } else { sign };
-        for k in from.min(0)..from.max(0) {
-            let term = at(dag, &start.plus(1, &Affine::constant(k)));
+    // F(end) − F(start), where F(m) is the sum over 0..m.
+    let mut terms = Vec::new();
+    for ((form, number), sign) in [(end, Rational::ONE), (start, Rational::MINUS_ONE)] {
+        if form.as_constant().is_none() {
+            let all = dag.domain(range.parent, Affine::constant(0), form.clone());
+            let inside = at(dag, &Affine::variable(all));
+            terms.push((sign.clone(), dag.reduce(all, inside)));
+        }
+        let sign = if number < 0 { sign.neg() } else { sign };
+        for k in number.min(0)..number.max(0) {
+            let term = at(dag, &form.plus(1, &Affine::constant(k)));
             terms.push((sign.clone(), term));
         }
     }

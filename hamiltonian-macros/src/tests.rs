@@ -8,6 +8,7 @@ mod emitted;
 mod lengths;
 mod limits;
 mod nests;
+mod pieces;
 mod precedence;
 mod stencils;
 mod stub;

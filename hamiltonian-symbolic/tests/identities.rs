@@ -150,6 +150,10 @@ const PARTS: &[&str] = &[
     "sum(i in 0..n, j in 1..n) { A[i][j]*q[i] } + sum(i in 0..n) { A[i][0]*q[i] } + m[0] = m[0] + sum(i in 0..n, j in 0..n) { A[i][j]*q[i] }",
     "sum(i in 1..n) { 1 } + q[0]*a = n - 1 + q[0]*a + x - x",
     "sum(i in 1..n) { b } + q[0]*a = b*(n - 1) + a*q[0]",
+    "sum(i in 0..n) { q[i] } + sum(i in n..2*n) { q[i] } = sum(i in 0..2*n) { q[i] }",
+    "sum(i in n..n + k) { q[i] } + sum(i in 0..n) { q[i] } = sum(i in 0..n + k) { q[i] }",
+    "sum(i in 0..n, j in i + 1..n) { q[j]^2 } = sum(i in 0..n) { i*q[i]^2 }",
+    "sum(i in 0..n) { sum(j in 0..i) { (q[i] - q[j])^3 } - sum(j in i + 1..n) { (q[j] - q[i])^3 } } = 0",
 ];
 
 #[test]
@@ -248,6 +252,8 @@ const FALSE: &[&str] = &[
     // Parts of a range, and an array that may be empty.
     "q[0] + sum(i in 1..n) { p[i] } = sum(i in 0..n) { p[i] }",
     "q[1] + sum(i in 1..n) { q[i] } = sum(i in 0..n) { q[i] }",
+    "sum(i in 0..k) { q[i] } + sum(i in k..n) { q[i] } = sum(i in 0..n) { q[i] }",
+    "sum(i in 0..n, j in i + 1..n) { q[j]^2 } = sum(i in 0..n) { (i + 1)*q[i]^2 }",
     "q[0] + sum(i in 2..n) { q[i] } = sum(i in 0..n) { q[i] }",
     "sum(i in 0..n - 1) { q[i] } + q[0] = sum(i in 0..n) { q[i] }",
     "sum(i in 1..n - 1) { q[i]^2 } + q[0]^2 + q[n - 1]^2 = sum(i in 0..n) { q[i]^2 }",

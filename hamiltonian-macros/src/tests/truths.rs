@@ -36,11 +36,14 @@ fn cases(text: &str) -> impl Iterator<Item = (&str, &str)> {
 
 #[test]
 fn true_statements_are_proven() {
+    let mut refused = Vec::new();
     for (source, definition) in cases(include_str!("truths/true.txt")) {
         let (errors, count) = judged(definition);
-        assert!(count > 0, "{source}: there is no statement");
-        assert!(errors.is_empty(), "{source}: {errors:#?}");
+        if count == 0 || !errors.is_empty() {
+            refused.push(format!("{source}: {errors:#?} of {count} statements"));
+        }
     }
+    assert!(refused.is_empty(), "{}", refused.join("\n"));
 }
 
 /// What is listed as undecided is so: a rule that proves it takes it off the list.
@@ -56,13 +59,16 @@ fn undecided_statements_are_listed() {
 
 #[test]
 fn false_statements_are_not_proven() {
+    let mut accepted = Vec::new();
     for (fault, definition) in cases(include_str!("truths/false.txt")) {
         let (errors, count) = judged(definition);
         let is_verdict = |error: &&String| error.contains("conserved") || error.contains("shell");
         let verdicts = errors.iter().filter(is_verdict).count();
-        assert_eq!(verdicts, count, "{fault}: {errors:#?}");
-        assert!(count > 0, "{fault}: there is no statement");
+        if count == 0 || verdicts != count {
+            accepted.push(format!("{fault}: {errors:#?} of {count} statements"));
+        }
     }
+    assert!(accepted.is_empty(), "{}", accepted.join("\n"));
 }
 
 /// Definitions of each class of faults: 100, with `HAMILTONIAN_HEAVY=1` 400.

@@ -33,8 +33,9 @@ pub(crate) use products::stem;
 
 /// The function that stands for the step of a sign, smooth and else arbitrary. No function of a definition has this
 /// number, nor one of the three below it, which stand for those of comparisons: their values are between 0 and 1. They
-/// differ, as signs and comparisons do at the step itself.
+/// differ, as signs and comparisons do at the step itself. Those from [`ROUNDED`] down stand for functions that round.
 pub(crate) const STEP: u16 = u16::MAX;
+pub(crate) const ROUNDED: u16 = STEP - 4;
 
 /// The regularity of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -345,6 +346,7 @@ impl Facts {
         let is_projective =
             all.is_projective && (infinite.len() <= 1 || positive || negative || are_apart());
         let nodes: Vec<Node> = terms.iter().map(|(_, term)| *term).collect();
+        let is_projective = is_projective || self.is_quotient_in_one(dag, nodes.iter().copied());
         let is_nonnegative = dag.is_nonnegative(node);
         // Terms ≥ 0 are 0 together only; those that are 0 for some parameters are so everywhere.
         let has_still_zeros = each().all(|term| term.has_no_moving_zero);
@@ -500,8 +502,16 @@ impl Facts {
             let place = match dag.kind(factor) {
                 Kind::Call(Op::Ln, x) if n == 1 => difference(dag, x[0]),
                 Kind::Reduce(_, body) if n == 1 => self.meeting_place(dag, *body),
+                _ if n > 0 && self.get(factor).is_continuous => continue,
+                Kind::Sum(_, terms) if n == 1 => {
+                    let infinite = terms
+                        .iter()
+                        .filter(|(_, term)| !self.get(*term).is_continuous);
+                    let mut places = infinite.map(|(_, term)| self.meeting_place(dag, *term));
+                    let first = places.next().flatten();
+                    first.filter(|_| places.all(|place| place == first))
+                }
                 _ if n < 0 => difference(dag, factor),
-                _ if self.get(factor).is_continuous => continue,
                 _ => None,
             }?;
             if found.is_some_and(|other| other != place) {

@@ -5,7 +5,7 @@
 //! identity, proven by the normal form.
 
 use crate::dag::{Dag, Dependence, Kind, Node, Partial};
-use crate::facts::{Facts, Given, STEP, comparisons};
+use crate::facts::{Facts, Given, ROUNDED, STEP, comparisons};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::Op;
@@ -132,7 +132,10 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
         let may_jump = !facts.get(node).is_projective;
         match dag.kind(node) {
             Kind::Select(..) => may_jump,
-            Kind::Call(Op::Sign, x) => may_jump && facts.get(x[0]).is_projective,
+            Kind::Call(op, x) => {
+                let is_smooth = x.iter().all(|x| facts.get(*x).is_projective);
+                may_jump && is_smooth && (*op == Op::Sign || rounding(*op).is_some())
+            }
             _ => false,
         }
     };
@@ -143,7 +146,7 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
             for (a, b) in comparisons(dag, condition) {
                 steps.push(dag.sub(a, b));
             }
-            let weight = weight(dag, condition);
+            let weight = weight(dag, condition, &|side| new[&side]);
             let other = dag.complement(weight);
             let yes = dag.mul(&[weight, new[&yes]]);
             let no = dag.mul(&[other, new[&no]]);
@@ -154,18 +157,42 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
             let x = new[&x[0]];
             dag.external(STEP, Partial::Value, &[x])
         }
+        Kind::Call(op, ref x) if is_step(dag, node) => {
+            let (x, images) = (x.clone(), x.iter().map(|x| new[x]).collect::<Vec<_>>());
+            steps.push(edge(dag, op, &x));
+            let function = ROUNDED - rounding(op).unwrap_or(0);
+            dag.external(function, Partial::Value, &images)
+        }
         _ => dag.rebuild(node, &|child| new[&child]),
     });
     (!steps.is_empty()).then(|| (new[&root], steps))
 }
 
+/// The number of a function that rounds among these.
+fn rounding(op: Op) -> Option<u16> {
+    let all = [Op::Floor, Op::Round, Op::Modulo, Op::Remainder];
+    all.iter().position(|of| *of == op).map(|at| at as u16)
+}
+
+/// An expression that is 0 exactly where a function that rounds jumps.
+fn edge(dag: &mut Dag, op: Op, x: &[Node]) -> Node {
+    let turns = match *x {
+        [x, y] => dag.div(x, y),
+        _ => x[0],
+    };
+    let pi = dag.pi();
+    let angle = dag.mul(&[pi, turns]);
+    let is_whole = matches!(op, Op::Floor | Op::Modulo);
+    dag.call(if is_whole { Op::Sin } else { Op::Cos }, &[angle])
+}
+
 /// A condition as a number: 1 where it holds and 0 elsewhere, but for the functions in the places of its
-/// comparisons, whose values are between 0 and 1.
-fn weight(dag: &mut Dag, condition: Node) -> Node {
+/// comparisons, whose values are between 0 and 1; with the images of the sides.
+fn weight(dag: &mut Dag, condition: Node, image: &dyn Fn(Node) -> Node) -> Node {
     let nodes = dag.reachable(&[condition]);
     let new = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
         Kind::Compare(relation, a, b) => {
-            let apart = dag.sub(b, a);
+            let apart = dag.sub(image(b), image(a));
             dag.external(STEP - 1 - relation as u16, Partial::Value, &[apart])
         }
         Kind::Not(a) => dag.complement(new[&a]),

@@ -38,7 +38,8 @@ impl Facts {
                 || self.is_one_power(dag, *a, *b)
         };
         let is_clear = (0..each.len())
-            .all(|a| (0..each.len()).all(|b| a == b || is_clear(&each[a], &each[b])));
+            .all(|a| (0..each.len()).all(|b| a == b || is_clear(&each[a], &each[b])))
+            || self.is_quotient_in_one(dag, factors.iter().map(|(factor, _)| *factor));
         Regular {
             is_projective: all.is_projective && is_clear,
             ..all
@@ -57,6 +58,59 @@ impl Facts {
             (Some(x), None) => x == b,
             (None, Some(y)) => a == y,
             (None, None) => false,
+        }
+    }
+
+    /// Returns true if expressions are quotients of analytic functions of one continuous s ≥ 0, such as (b − |x|)/|x|:
+    /// sums and products of them have one limit as s tends to a zero of a divisor.
+    pub(super) fn is_quotient_in_one(
+        &self,
+        dag: &Dag,
+        parts: impl Iterator<Item = Node> + Clone,
+    ) -> bool {
+        let is_distance = |s: &Node| {
+            matches!(dag.kind(*s), Kind::Call(Op::Abs | Op::Sqrt | Op::Hypot, _))
+                && self.get(*s).is_continuous
+        };
+        let below = |node: Node| -> Vec<Node> {
+            match dag.kind(node) {
+                Kind::Product(_, factors) => factors.iter().map(|(factor, _)| *factor).collect(),
+                _ => vec![node],
+            }
+        };
+        let distance = parts.clone().flat_map(below).find(is_distance);
+        distance.is_some_and(|s| parts.clone().all(|part| self.is_quotient_in(dag, part, s)))
+    }
+
+    /// Returns true if an expression is a quotient of analytic functions of another one.
+    fn is_quotient_in(&self, dag: &Dag, node: Node, s: Node) -> bool {
+        let is_quotient = |node: &Node| self.is_quotient_in(dag, *node, s);
+        match dag.kind(node) {
+            Kind::Sum(_, terms) => terms.iter().all(|(_, term)| is_quotient(term)),
+            Kind::Product(_, factors) => factors.iter().all(|(factor, _)| is_quotient(factor)),
+            _ => self.is_analytic_in(dag, node, s),
+        }
+    }
+
+    /// Returns true if an expression is an analytic function of another one.
+    fn is_analytic_in(&self, dag: &Dag, node: Node, s: Node) -> bool {
+        let is_analytic = |node: &Node| self.is_analytic_in(dag, *node, s);
+        if node == s || self.get(node).is_still {
+            return true;
+        }
+        match dag.kind(node) {
+            Kind::Sum(_, terms) => terms.iter().all(|(_, term)| is_analytic(term)),
+            Kind::Product(_, factors) => {
+                let mut factors = factors.iter();
+                factors.all(|(factor, n)| *n > 0 && is_analytic(factor))
+            }
+            Kind::Call(op, x) => {
+                let regularity = op.row().regularity;
+                let is_finite = regularity.is_entire && regularity.pole.is_none();
+                is_finite && x.iter().all(is_analytic)
+            }
+            Kind::External(_, _, x) => x.iter().all(is_analytic),
+            _ => false,
         }
     }
 

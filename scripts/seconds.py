@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The seconds of the longest builds and of each test binary.
+"""The seconds of what takes longest in each build, and of each test binary.
 
 Input: the folder that `cargo --timings` writes to, and the output of `cargo test`. Output: a table.
 
@@ -24,8 +24,8 @@ def ran(log):
     for line in log.splitlines():
         if start := re.match(r"\s+(?:Running (.*) \(|Doc-tests (\S+))", line):
             name = start[1] or f"examples of {start[2]}"
-            number = re.search(r"deps/(\w+)-", line)
-            name += f" of {number[1]}" if number else ""
+            place = re.search(r"(\w+)/deps/(\w+)-", line)
+            name += f" of {place[2]}, {place[1]}" if place else ""
         elif end := re.match(r"test result: .* (\d+) passed.* finished in ([\d.]+)s", line):
             if int(end[1]):
                 found.append((float(end[2]), name))
@@ -34,11 +34,11 @@ def ran(log):
 
 def main():
     timings, log = map(pathlib.Path, sys.argv[1:])
-    pages = sorted(timings.glob("cargo-timing-*.html"), key=lambda page: page.stat().st_mtime)
-    units = built(pages[-1].read_text(encoding="utf-8")) if pages else []
-    print(f"{sum(seconds for seconds, _ in units):7.1f} s all builds")
-    for seconds, name in sorted(units, reverse=True)[:15]:
-        print(f"{seconds:7.1f} s to build {name}")
+    for page in sorted(timings.glob("cargo-timing-*.html"), key=lambda page: page.stat().st_mtime):
+        units = built(page.read_text(encoding="utf-8"))
+        print(f"{sum(seconds for seconds, _ in units):7.1f} s all of a build")
+        for seconds, name in sorted(units, reverse=True)[:12]:
+            print(f"{seconds:7.1f} s to build {name}")
     for seconds, name in ran(log.read_text(encoding="utf-8")):
         print(f"{seconds:7.1f} s to run {name}")
 

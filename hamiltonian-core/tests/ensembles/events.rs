@@ -34,6 +34,7 @@ fn sought(member: Member) -> Events<hamiltonian::private::SVector<f64, 1>> {
 }
 
 #[test]
+#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn events_of_members_are_those_of_single_runs() {
     at_each_level(|cpu| {
         // Long steps: functions come near 0 and turn within two of them. Closing pieces move momenta, or
@@ -94,6 +95,7 @@ fn closing_pieces_and_observables_are_of_the_halves_they_name() {
 }
 
 #[test]
+#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn neighbours_of_events_change_no_bit() {
     let sweep = || {
         Sweep::new(COUNT, swinging, BlanesMoan4, 0.05)

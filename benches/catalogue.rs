@@ -88,8 +88,8 @@ struct Bench {
 impl Bench {
     fn time<S, M>(&mut self, make: fn(Member) -> (S, StateOf<S>), scheme: M)
     where
-        S: System<f64>,
-        M: Ensembles<S>,
+        S: System,
+        M: Scheme<S>,
     {
         let name = scheme.entry().to_string();
         self.seen.push(name.clone());

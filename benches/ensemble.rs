@@ -17,9 +17,10 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{
-    Ensembles, Scheme, System, Vector,
+    Scheme, System, Vector,
     schemes::author::{Carried, Clock, Map, Scratch, Step},
 };
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch_at_most};
@@ -54,9 +55,9 @@ fn starts() -> States {
 #[inline(always)]
 fn steps<T: Pack>(system: &Pendulum, states: &mut States, n: u64) {
     let h = T::constant(STEP, 0.0);
-    let prepared = <Pendulum as System<T>>::prepare(system);
+    let prepared = <Pendulum as System>::prepare::<T>(system);
     let scheme = StormerVerlet::default();
-    let map = Scheme::<T, Pendulum>::prepare(&scheme, &prepared, Step::of(h));
+    let map = Scheme::<Pendulum>::prepare(&scheme, &prepared, Step::of(h));
     let clock = Clock {
         start: T::zero(),
         interval: h,
@@ -64,7 +65,7 @@ fn steps<T: Pack>(system: &Pendulum, states: &mut States, n: u64) {
     let lanes = T::LANES as usize;
     for (some_q, some_p) in states.q.chunks_mut(lanes).zip(states.p.chunks_mut(lanes)) {
         let start = State::over([T::load(some_q, 0.0)], [T::load(some_p, 0.0)]);
-        let mut carried = Scheme::<T, Pendulum>::start(&scheme, &prepared, &start, h);
+        let mut carried = Scheme::<Pendulum>::start(&scheme, &prepared, &start, h);
         // The scratch of a splitting is nothing.
         #[allow(clippy::let_unit_value)]
         let mut work = Scratch::like(&carried);
@@ -262,15 +263,22 @@ fn main() {
 #[derive(Debug, Clone, PartialEq)]
 struct Swing;
 
-impl<V: Vector> Density<V> for Swing {
+impl<S: System> Density<S> for Swing {
     #[inline(always)]
-    fn rate(&self, _: V::Scalar, q: &V, _: &V, dq: &V, _: &V) -> V::Scalar {
-        V::Scalar::constant(0.1, 0.0) * q.part(0)[0] * dq.part(0)[0]
+    fn rate<T: Real>(
+        &self,
+        _: T,
+        q: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+        dq: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+    ) -> T {
+        T::constant(0.1, 0.0) * q.part(0)[0] * dq.part(0)[0]
     }
 }
 
 /// Prints how many times a scalar run members of an ensemble are on one thread of this CPU.
-fn members<M: Ensembles<Pendulum>>(scheme: M) {
+fn members<M: Scheme<Pendulum>>(scheme: M) {
     const STEP: f64 = 0.1;
     const STEPS: u64 = 20;
     let entry = scheme.entry();

@@ -344,9 +344,9 @@ const ALL: &[Workload] = &[
 /// Two threads against one, for a system.
 fn share<S>(name: &str, system: &S, steps: u64)
 where
-    S: System<f64>,
-    StormerVerlet: Scheme<f64, S, Map: Sync>,
-    <<StormerVerlet as Scheme<f64, S>>::Map as Map>::Work: Send,
+    S: System,
+    StormerVerlet: Scheme<S, Map<f64>: Sync>,
+    <<StormerVerlet as Scheme<S>>::Map<f64> as Map>::Work: Send,
 {
     let mut start = State {
         q: system.zeros(),

@@ -51,9 +51,9 @@ impl Kernel for Steps<'_> {
     #[inline(always)]
     fn run<L: Level>(self) {
         let h = L::Wide::constant(STEP, 0.0);
-        let prepared = <Pendulum as System<L::Wide>>::prepare(self.system);
+        let prepared = <Pendulum as System>::prepare::<L::Wide>(self.system);
         let scheme = StormerVerlet::default();
-        let map = Scheme::<L::Wide, Pendulum>::prepare(&scheme, &prepared, Step::of(h));
+        let map = Scheme::<Pendulum>::prepare(&scheme, &prepared, Step::of(h));
         let clock = Clock {
             start: L::Wide::zero(),
             interval: h,
@@ -61,7 +61,7 @@ impl Kernel for Steps<'_> {
         let lanes = L::Wide::LANES as usize;
         for (some_q, some_p) in self.q.chunks_mut(lanes).zip(self.p.chunks_mut(lanes)) {
             let start = State::over([L::Wide::load(some_q, 0.0)], [L::Wide::load(some_p, 0.0)]);
-            let mut carried = Scheme::<L::Wide, Pendulum>::start(&scheme, &prepared, &start, h);
+            let mut carried = Scheme::<Pendulum>::start(&scheme, &prepared, &start, h);
             // The scratch of a splitting is nothing.
             #[allow(clippy::let_unit_value)]
             let mut work = Scratch::like(&carried);

@@ -5,6 +5,7 @@
 //! with the distance of the end points. Times are the least of several, alternating, in one process;
 //! nothing is asserted but that a run without lanes has the same bits.
 
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{Run, Scheme, Vector};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
@@ -102,12 +103,12 @@ fn compare<Y, M>(
     name: &str,
     system: &Y,
     scheme: M,
-    start: &State<Y::Vector>,
+    start: &State<VectorOf<Y>>,
     h: f64,
     former: Former<Y>,
 ) where
-    Y: System<f64>,
-    M: Scheme<f64, Y>,
+    Y: System,
+    M: Scheme<Y>,
 {
     let entry = scheme.entry();
     let (once, _) = timed(|| former(system, start, h, 2000));
@@ -295,7 +296,7 @@ fn in_another_time() {
 }
 
 /// Measures [`Gauss`] with one stage against [`ImplicitMidpoint`].
-fn one_stage<Y: System<f64>>(name: &str, system: &Y, start: State<Y::Vector>, h: f64) {
+fn one_stage<Y: System>(name: &str, system: &Y, start: State<VectorOf<Y>>, h: f64) {
     const STEPS: u64 = 200_000;
     let mut least = [f64::INFINITY; 2];
     for _ in 0..ROUNDS {
@@ -315,10 +316,10 @@ fn one_stage<Y: System<f64>>(name: &str, system: &Y, start: State<Y::Vector>, h:
 }
 
 /// The time of the steps of one run.
-fn time_of_steps<Y: System<f64>, M: Scheme<f64, Y>>(
+fn time_of_steps<Y: System, M: Scheme<Y>>(
     system: &Y,
     scheme: M,
-    start: &State<Y::Vector>,
+    start: &State<VectorOf<Y>>,
     h: f64,
     steps: u64,
 ) -> f64 {

@@ -11,6 +11,7 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::VectorOf;
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::{
@@ -78,18 +79,18 @@ struct Row {
 }
 
 /// A system with its start, the length of the runs, and their results.
-struct Problem<'a, S: System<f64>> {
+struct Problem<'a, S: System> {
     name: &'static str,
     system: &'a S,
-    start: State<S::Vector>,
+    start: State<VectorOf<S>>,
     end: f64,
     rows: Vec<Row>,
     failure: Option<Error>,
 }
 
-impl<S: System<f64> + Unforced> Problem<'_, S> {
+impl<S: System + Unforced> Problem<'_, S> {
     /// Runs one scheme to the end; a run that stops being finite ends there.
-    fn measure<M: Scheme<f64, S>>(&self, scheme: M) -> Result<Row, Error> {
+    fn measure<M: Scheme<S>>(&self, scheme: M) -> Result<Row, Error> {
         let entry = scheme.entry();
         let energy = self.system.energy(&self.start);
         let mut curve = Vec::new();
@@ -156,8 +157,8 @@ impl<S: System<f64> + Unforced> Problem<'_, S> {
     }
 }
 
-impl<S: System<f64> + Unforced> Visitor<f64, S> for Problem<'_, S> {
-    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+impl<S: System + Unforced> Visitor<S> for Problem<'_, S> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         match self.measure(scheme) {
             Ok(row) => self.rows.push(row),
             Err(error) => self.failure = Some(error),
@@ -166,10 +167,10 @@ impl<S: System<f64> + Unforced> Visitor<f64, S> for Problem<'_, S> {
 }
 
 /// A problem for any scheme.
-fn problem<'a, S: System<f64>>(
+fn problem<'a, S: System>(
     name: &'static str,
     system: &'a S,
-    start: State<S::Vector>,
+    start: State<VectorOf<S>>,
     end: f64,
 ) -> Problem<'a, S> {
     Problem {
@@ -183,7 +184,7 @@ fn problem<'a, S: System<f64>>(
 }
 
 /// All schemes of the catalogue on a separable system.
-fn all_on<S: Separable<f64> + Unforced>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
+fn all_on<S: Separable + Unforced>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
     visit_unforced(&mut problem);
     visit_any(&mut problem);
     visit_separable(&mut problem);
@@ -191,9 +192,7 @@ fn all_on<S: Separable<f64> + Unforced>(mut problem: Problem<'_, S>) -> Result<V
 }
 
 /// The schemes that need no structure, and those by exact flows of pieces.
-fn split_on<S: Split<f64> + Exact + Unforced>(
-    mut problem: Problem<'_, S>,
-) -> Result<Vec<Row>, Error> {
+fn split_on<S: Split + Exact + Unforced>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
     visit_unforced(&mut problem);
     visit_any(&mut problem);
     visit_split(&mut problem);
@@ -204,9 +203,9 @@ fn split_on<S: Split<f64> + Exact + Unforced>(
 
 /// The run that the paper was after: its schemes part from the orbit, the others stay, and those by
 /// exact flows need neither copies nor iterations.
-fn far<S: Split<f64> + Exact + Unforced + Display>(
+fn far<S: Split + Exact + Unforced + Display>(
     system: &S,
-    start: State<S::Vector>,
+    start: State<VectorOf<S>>,
     checks: &mut Checks,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let energy = system.energy(&start);

@@ -11,6 +11,7 @@
 //! machine; the program checks that each error of H decreases with the order of its scheme.
 
 use checks::Checks;
+use hamiltonian::VectorOf;
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::{Exact, Scheme, Split, Unforced, hamiltonian};
@@ -67,12 +68,12 @@ hamiltonian! {
 const GOALS: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 
 /// Runs to one time from one start, and how far their ends are from the exact one.
-struct Race<'a, S: System<f64>> {
+struct Race<'a, S: System> {
     name: &'a str,
     system: &'a S,
-    start: State<S::Vector>,
+    start: State<VectorOf<S>>,
     end: f64,
-    exact: State<S::Vector>,
+    exact: State<VectorOf<S>>,
     /// Steps of the first run of a scheme with one stage.
     steps: u64,
     entries: Vec<Entered>,
@@ -127,9 +128,9 @@ impl Entered {
     }
 }
 
-impl<'a, S: System<f64>> Race<'a, S> {
+impl<'a, S: System> Race<'a, S> {
     /// A run of so many steps: the least time of five, and its errors, computed outside that time.
-    fn run<M: Scheme<f64, S>>(&self, scheme: &M, steps: u64) -> Result<Ran, Error> {
+    fn run<M: Scheme<S>>(&self, scheme: &M, steps: u64) -> Result<Ran, Error> {
         let h = self.end / steps as f64;
         let begin = || Integrator::new(self.system, scheme.clone(), self.start.clone(), h);
         let mut run = begin()?.observe(EnergyDrift::new());
@@ -152,7 +153,7 @@ impl<'a, S: System<f64>> Race<'a, S> {
     }
 
     /// One scheme, its steps halved until its errors are rounding or a run takes too long.
-    fn enter<M: Scheme<f64, S>>(&mut self, kind: &'static str, scheme: M, stages: u64) {
+    fn enter<M: Scheme<S>>(&mut self, kind: &'static str, scheme: M, stages: u64) {
         let entry = scheme.entry();
         let name = match entry.name {
             name @ ("Semiexplicit" | "Gauss") => format!("{name}, {}", entry.variant),
@@ -182,7 +183,7 @@ impl<'a, S: System<f64>> Race<'a, S> {
     /// Exact flows of pieces and the schemes for any H, order by order.
     fn enter_all(&mut self)
     where
-        S: Split<f64> + Exact + Unforced,
+        S: Split + Exact + Unforced,
     {
         let flows = "exact flows";
         self.enter(flows, Strang, 1);
@@ -254,7 +255,7 @@ impl<'a, S: System<f64>> Race<'a, S> {
 }
 
 /// Prints what a step of Strang's splitting takes and how far it lets H move.
-fn step<S: Split<f64>>(system: &S, start: &State<S::Vector>, h: f64) -> Result<(), Error> {
+fn step<S: Split>(system: &S, start: &State<VectorOf<S>>, h: f64) -> Result<(), Error> {
     let (steps, mut least) = (100_000, f64::INFINITY);
     for _ in 0..5 {
         let mut run = Integrator::new(system, Strang, start.clone(), h)?;

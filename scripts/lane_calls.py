@@ -23,12 +23,12 @@ import sys
 
 # The names below are paths, as `names` makes them of symbols.
 # What is compiled with the instructions of a level; the function around it is a jump.
-ENTRY = re.compile(r"level::dispatch::(\w+)::(?:enter|enter_at)::inside$")
+ENTRY = re.compile(r"level::dispatch::(\w+)::enter::inside$")
 PACKED = re.compile(r"v?(add|sub|mul|div|sqrt|f(n?)m(add|sub)\d{3})pd$")
 # Levels that every x86-64 has.
 LEAST = {"portable", "sse2"}
 # Rare arguments, and functions that enter the level themselves.
-COLD = re.compile(r"::replace\w*$|::(?:rare|out_of_line)::entry$|dispatch::\w+::(?:enter|enter_at)$")
+COLD = re.compile(r"::replace\w*$|::(?:rare|out_of_line)::entry$|dispatch::\w+::enter$")
 # The functions of a level for rare arguments.
 RARE = re.compile(r"Register>?::rare::entry$")
 # What runs once for a chunk of members, or where one of them fails, and may call them.

@@ -105,7 +105,7 @@ fn components_of_angular_momentum() {
     for n in [1, 2, 3, 7] {
         let masses: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * i as f64).collect();
         let bodies = Bodies::new(n, masses).unwrap();
-        let (mut q, mut p) = (System::<f64>::zeros(&bodies), System::<f64>::zeros(&bodies));
+        let (mut q, mut p) = (System::zeros::<f64>(&bodies), System::zeros::<f64>(&bodies));
         for i in 0..n {
             for c in 0..3 {
                 let x = (3 * i + c) as f64;

@@ -8,13 +8,14 @@ use crate::common::systems::Paper34;
 use crate::flows::Top;
 use crate::splits::{Body, InFour, Schwarzschild, Vortices};
 use crate::systems::{Dipole, Vortices as Strengths};
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::Visitor;
 use hamiltonian::{DoubleDouble, Dual, Exact, Split, Vector};
 use std::f64::consts::FRAC_PI_2;
 
 /// The slope of Strang's scheme and of three compositions of it, from (q, p) over a time.
-fn orders<S: Split<DoubleDouble> + Exact>(system: S, q: &[f64], p: &[f64], span: f64) {
+fn orders<S: Split + Exact>(system: S, q: &[f64], p: &[f64], span: f64) {
     let mut order = Order::new(system, q, p, span, span / 16.0);
     order.visit(Strang);
     order.visit(Yoshida4);
@@ -48,7 +49,7 @@ fn orders_of_vortices() {
 }
 
 /// MᵀJM = J of one, two and three steps.
-fn symplectic<S: Split<Dual<f64>> + Exact>(system: S, q: &[f64], p: &[f64], h: f64) {
+fn symplectic<S: Split + Exact>(system: S, q: &[f64], p: &[f64], h: f64) {
     let mut geometry = Geometry::new(system, q, p, h);
     geometry.visit(Strang);
     geometry.visit(KahanLi8);
@@ -71,7 +72,7 @@ fn compositions_are_symplectic() {
 /// The point of an orbit after a time, by the composition of order 8, beside the printed figures; the
 /// error over κ, and over what is large.
 #[track_caller]
-fn ends<S: Split<f64> + Exact>(
+fn ends<S: Split + Exact>(
     system: &S,
     q: &[f64],
     p: &[f64],
@@ -225,7 +226,7 @@ fn orbits_end_where_the_table_says() {
 }
 
 /// The largest |H − H₀| in the first and in the second half of a run.
-fn halves<S: Split<f64>>(system: &S, start: &State<S::Vector>, h: f64, steps: u64) -> [f64; 2] {
+fn halves<S: Split>(system: &S, start: &State<VectorOf<S>>, h: f64, steps: u64) -> [f64; 2] {
     let first = system.energy(start);
     let mut run = Integrator::new(system, Strang, start.clone(), h).expect("a good start");
     let mut worst = [0.0_f64; 2];

@@ -211,7 +211,7 @@ fn polar() {
         );
     }
     let polar = Polar::default();
-    let names: Vec<_> = <Polar as System<f64>>::GROUPS
+    let names: Vec<_> = <Polar as System>::GROUPS
         .iter()
         .map(|g| g.coordinate)
         .collect();
@@ -269,7 +269,7 @@ fn bodies() {
 #[test]
 fn groups_that_stay_change_their_number() {
     let (around, polar) = (Around {}, AroundPolar {});
-    let names = <AroundPolar as System<f64>>::GROUPS.iter();
+    let names = <AroundPolar as System>::GROUPS.iter();
     let names: Vec<_> = names.map(|g| g.coordinate).collect();
     assert_eq!(names, ["r", "phi", "u"]);
     let old = State::new([0.7, 0.2, -0.4], [0.3, -0.6, 1.1]);
@@ -295,8 +295,8 @@ fn vectors_become_numbers() {
         groups.iter().map(|g| (g.coordinate, g.momentum)).collect()
     };
     assert_eq!(
-        names(<Plane as System<f64>>::GROUPS),
-        names(<Polar as System<f64>>::GROUPS)
+        names(<Plane as System>::GROUPS),
+        names(<Polar as System>::GROUPS)
     );
     // The same type of states, and the same numbers, as from scalars.
     let old = State::new([0.7, -0.4], [0.3, 1.1]);
@@ -405,7 +405,7 @@ fn any_number<const N: usize>() {
     // A force is carried as the momenta are.
     let (force, old) = (new.force(&there), declared.force(&state));
     // Generic code has it too.
-    assert_eq!(System::<f64>::force_at(&new, &there), force);
+    assert_eq!(System::force_at::<f64>(&new, &there), force);
     let pushed = hamiltonian::coordinates::to_heliocentric(&State { p: old, ..state });
     equal(&force, &pushed.p);
     same_system!(declared, new, state);

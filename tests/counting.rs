@@ -30,17 +30,17 @@ struct Work {
 
 /// Runs all functions of a system in an arbitrary state, of `f64` and of the scalar that counts:
 /// the bits are the same.
-fn work<S: System<Counted> + System<f64>>(system: &S) -> Work {
-    let plain = filled(System::<f64>::zeros(system), |x| x);
-    let state = filled(System::<Counted>::zeros(system), Called);
+fn work<S: System>(system: &S) -> Work {
+    let plain = filled(System::zeros::<f64>(system), |x| x);
+    let state = filled(System::zeros::<Counted>(system), Called);
     let ((q, p), (vq, vp)) = (&state, &state);
     let (mut dq, mut dp) = (q.zeros_like(), q.zeros_like());
-    let (prepared, prepare) = counted(|| System::<Counted>::prepare(system));
+    let (prepared, prepare) = counted(|| System::prepare::<Counted>(system));
     let zero: Counted = Called(0.0);
     let (_, energy) = counted(|| prepared.energy(zero, q, p));
     let (_, gradient) = counted(|| prepared.gradient(zero, q, p, &mut dq, &mut dp));
     let (mut plain_dq, mut plain_dp) = (plain.0.zeros_like(), plain.0.zeros_like());
-    System::<f64>::prepare(system).gradient(0.0, &plain.0, &plain.1, &mut plain_dq, &mut plain_dp);
+    System::prepare::<f64>(system).gradient(0.0, &plain.0, &plain.1, &mut plain_dq, &mut plain_dp);
     for (ours, theirs) in [(&dq, &plain_dq), (&dp, &plain_dp)] {
         assert!(ours.components().map(|x| x.0).eq(theirs.components()));
     }

@@ -32,9 +32,9 @@ use dipole::Dipole;
 use double_pendulum::{FromHamiltonian, FromLagrangian};
 use driven_pendulum::DrivenPendulum;
 use fput::Fput;
+use hamiltonian::Real;
 use hamiltonian::nalgebra::SVector;
 use hamiltonian::prelude::*;
-use hamiltonian::{Dual, Real};
 use henon_heiles::HenonHeiles;
 use kerr::Kerr;
 use three_body::{SlowNearBodies, ThreeBody};
@@ -53,7 +53,7 @@ fn half_square<T: Real>(x: T) -> T {
 }
 
 /// Both checks in a state that numbers choose.
-fn check<S: System<f64> + System<Dual<f64>>>(system: &S, plain: &impl Plain) {
+fn check<S: System>(system: &S, plain: &impl Plain) {
     let state = chosen(system, 1);
     check_at(system, &state);
     check_plain(system, &state, plain);
@@ -65,8 +65,8 @@ fn check_states<S, const N: usize>(
     plain: &impl Plain,
     within: impl Fn([f64; N], [f64; N]) -> ([f64; N], [f64; N]),
 ) where
-    S: System<Dual<f64>>,
-    S: System<f64, Vector = SVector<f64, N>>,
+    S: System,
+    S: System<Shape = SVector<(), N>>,
 {
     for seed in 10..30 {
         let state = chosen(system, 3 * seed);

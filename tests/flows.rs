@@ -193,7 +193,7 @@ flows! {
 fn exponentials_are_made_in_the_precision_of_the_scalar() -> Result<(), Error> {
     fn apart<T: Real>(c: f64) -> f64 {
         let system = Coupled::default();
-        let prepared = System::<T>::prepare(&system);
+        let prepared = System::prepare::<T>(&system);
         let z: Vec<T> = [0.3, -0.7, 1.1, 0.9, -0.2, 0.4]
             .map(|x| T::constant(x, 0.0))
             .to_vec();
@@ -202,7 +202,7 @@ fn exponentials_are_made_in_the_precision_of_the_scalar() -> Result<(), Error> {
             let mut point = start.clone();
             for c in durations {
                 let c = T::constant(*c, 0.0);
-                <Coupled as Split<T>>::PIECES.apply(0, &prepared, c, &mut point);
+                <Coupled as Split>::pieces::<T>().apply(0, &prepared, c, &mut point);
             }
             pieces::flat(&point)
         };

@@ -3,6 +3,7 @@
 
 use crate::allocator::allocations;
 use crate::common::order::slope;
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_implicit, visit_separable, visit_split,
@@ -116,17 +117,17 @@ hamiltonian! {
 type D = DoubleDouble;
 
 /// The slope of every scheme against a run of order 4 with a step 64 times as small.
-struct Slopes<S: System<D>> {
+struct Slopes<S: System> {
     system: S,
-    start: State<S::Vector>,
-    exact: State<S::Vector>,
+    start: State<VectorOf<S, D>>,
+    exact: State<VectorOf<S, D>>,
     measured: usize,
 }
 
 const END: f64 = 1.0;
 
-impl<S: System<D>> Slopes<S> {
-    fn new(system: S, start: State<S::Vector>) -> Self {
+impl<S: System> Slopes<S> {
+    fn new(system: S, start: State<VectorOf<S, D>>) -> Self {
         let h = D::from(END / 4096.0);
         let mut run = Integrator::new(&system, RungeKutta4, start.clone(), h).unwrap();
         let exact = run.advance(4096).unwrap().clone();
@@ -139,8 +140,8 @@ impl<S: System<D>> Slopes<S> {
     }
 }
 
-impl<S: System<D>> Visitor<D, S> for Slopes<S> {
-    fn visit<M: Scheme<D, S>>(&mut self, scheme: M) {
+impl<S: System> Visitor<S> for Slopes<S> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let entry = scheme.entry();
         let points: Vec<(f64, f64)> = [16_u64, 32, 64, 128]
             .into_iter()
@@ -169,7 +170,7 @@ impl<S: System<D>> Visitor<D, S> for Slopes<S> {
 
 fn all<S>(mut slopes: Slopes<S>)
 where
-    S: Separable<D> + Split<D>,
+    S: Separable + Split,
 {
     visit_any(&mut slopes);
     visit_implicit(&mut slopes);
@@ -230,8 +231,8 @@ fn a_force_is_a_piece_of_its_own() {
     let mut top = Slopes::new(Top::default(), start);
     visit_split(&mut top);
     top.visit(Yoshida4);
-    assert_eq!(<Top as Split<f64>>::NAMES.last(), Some(&"force"));
-    assert_eq!(<Top as Split<f64>>::NAMES.len(), 5);
+    assert_eq!(<Top as Split>::NAMES.last(), Some(&"force"));
+    assert_eq!(<Top as Split>::NAMES.len(), 5);
     assert!(is_exact!(Bound) && is_exact!(Top) && !is_exact!(Windy));
 }
 

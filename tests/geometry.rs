@@ -7,11 +7,11 @@ use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian::schemes::*;
-use hamiltonian::{Dual, Separable, Split, Unforced};
+use hamiltonian::{Separable, Split, Unforced};
 
 fn separable<S>(mut geometry: Geometry<S>)
 where
-    S: Separable<Dual<f64>> + Split<Dual<f64>> + Unforced,
+    S: Separable + Split + Unforced,
 {
     visit_any(&mut geometry);
     visit_unforced(&mut geometry);

@@ -1,6 +1,7 @@
 //! Conserved quantities, proven where they are declared: that this file compiles is the proof.
 //! Here they are also followed along a run.
 
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, momentum_from_energy};
 use hamiltonian::{observers::Monitor, schemes::author::ObservableKind};
@@ -72,7 +73,7 @@ hamiltonian! {
 }
 
 /// Follows every invariant along a run with RK4: the largest change, relative to 1 + |value|.
-fn drift<S: System<f64>>(system: &S, start: State<S::Vector>, step: f64, steps: u64) -> f64 {
+fn drift<S: System>(system: &S, start: State<VectorOf<S>>, step: f64, steps: u64) -> f64 {
     assert!(
         S::OBSERVABLES
             .iter()
@@ -97,7 +98,7 @@ fn bodies() {
     for n in [1, 2, 3, 7] {
         let masses: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * i as f64).collect();
         let gravity = Gravity::new(n, masses).unwrap();
-        let mut start = System::<f64>::zeros(&gravity);
+        let mut start = System::zeros::<f64>(&gravity);
         let mut momenta = start.clone();
         for i in 0..n {
             let x = i as f64;

@@ -91,10 +91,8 @@ fn close(a: f64, b: f64) {
 #[track_caller]
 fn same<const N: usize, A, B>(a: &A, b: &B)
 where
-    A: System<f64, Vector = Scalars<f64, N>>,
-    B: System<f64, Vector = Scalars<f64, N>>,
-    [f64; N]: hamiltonian::IntoVector<hamiltonian::shape::Array>,
-    Scalars<f64, N>: Vector<Scalar = f64>,
+    A: System<Shape = hamiltonian::nalgebra::SVector<(), N>>,
+    B: System<Shape = hamiltonian::nalgebra::SVector<(), N>>,
 {
     for point in 0..20 {
         let at = |k: usize| (1.7 * k as f64 + 0.37 * f64::from(point)).sin() * 1.5;
@@ -102,7 +100,7 @@ where
         let p: [f64; N] = std::array::from_fn(|k| at(k + N));
         let state = State::new(q, p).at(f64::from(point) / 10.0);
         close(a.energy(&state), b.energy(&state));
-        let (ga, gb) = (a.gradient(&state), b.gradient(&state));
+        let (ga, gb) = (a.gradient::<f64>(&state), b.gradient::<f64>(&state));
         for k in 0..N {
             close(ga.q.component(k), gb.q.component(k));
             close(ga.p.component(k), gb.p.component(k));
@@ -122,7 +120,7 @@ macro_rules! check {
         let back = system.conjugate_momentum(0.25, &state.q, &velocity);
         let wanted = State::new(q, v);
         let lagrangian: f64 = $lagrangian(&wanted.q, &wanted.p);
-        let gradient = System::<f64>::gradient(&system, &state);
+        let gradient = System::gradient::<f64>(&system, &state);
         let mut legendre = -lagrangian;
         for k in 0..state.q.len() {
             close(velocity.component(k), wanted.p.component(k));
@@ -130,11 +128,11 @@ macro_rules! check {
             close(gradient.p.component(k), velocity.component(k));
             legendre += state.p.component(k) * velocity.component(k);
         }
-        close(legendre, System::<f64>::energy(&system, &state));
+        close(legendre, System::energy::<f64>(&system, &state));
         // The gradient against duals of H.
         for k in 0..2 * state.q.len() {
             let lift = |vector: &_| {
-                let mut lifted = System::<Dual<f64>>::zeros(&system);
+                let mut lifted = System::zeros::<Dual<f64>>(&system);
                 for j in 0..Vector::len(vector) {
                     *lifted.component_mut(j) = Dual::fixed(Vector::component(vector, j));
                 }
@@ -154,7 +152,7 @@ macro_rules! check {
                 q,
                 p,
             };
-            close(System::<Dual<f64>>::energy(&system, &dual).eps, expected);
+            close(System::energy::<Dual<f64>>(&system, &dual).eps, expected);
         }
         state
     }};

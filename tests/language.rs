@@ -90,7 +90,7 @@ hamiltonian! {
     H = 0.5*(q^2 + 1)*(p^2 + 1)
 }
 
-fn separable<T: Real, S: Separable<T>>(_: &S) {}
+fn separable<T: Real, S: Separable>(_: &S) {}
 fn quadratic<S: QuadraticKinetic>(_: &S) {}
 fn autonomous<S: Autonomous>(_: &S) {}
 
@@ -159,7 +159,7 @@ fn time_monitors_and_events() {
     close(driven.energy(&state), expected);
     close(driven.power(&state), -0.2 * 1.5 * 0.25f64.cos());
     close(driven.crossing(&state), 0.5 - 0.25f64.sin());
-    let prepared = System::<f64>::prepare(&driven);
+    let prepared = System::prepare::<f64>(&driven);
     close(
         prepared.time_derivative(0.25, &state.q, &state.p),
         0.2 * 0.5 * 0.25f64.sin(),
@@ -168,7 +168,7 @@ fn time_monitors_and_events() {
         prepared.observable(0, 0.25, &state.q, &state.p),
         driven.power(&state),
     );
-    let names: Vec<&str> = <Driven as System<f64>>::OBSERVABLES
+    let names: Vec<&str> = <Driven as System>::OBSERVABLES
         .iter()
         .map(|o: &Observable| o.name)
         .collect();
@@ -183,7 +183,7 @@ fn parameters_without_default_are_arguments_of_new() {
     let state = State::new([1.0, 2.0], [0.5, -0.5]);
     let (a, b) = (0.5 - 0.25 * 2.0, -0.5 + 0.25);
     close(charge.energy(&state), (a * a + b * b) / 4.0);
-    let names: Vec<_> = <Charge as System<f64>>::GROUPS
+    let names: Vec<_> = <Charge as System>::GROUPS
         .iter()
         .map(|g| (g.coordinate, g.momentum))
         .collect();
@@ -201,19 +201,16 @@ fn gradients_and_hessians_are_those_of_duals() {
 }
 
 /// The memory of scalar coordinates.
-type Scalars<T, const N: usize> =
-    <[T; N] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector;
-
 /// The gradient against duals of H, the Hessian times a direction against duals of the gradient,
 /// and the accumulating flow against the gradient.
 fn check<S, const N: usize>(system: &S, q: [f64; N], p: [f64; N])
 where
-    S: System<f64, Vector = Scalars<f64, N>> + System<Dual<f64>, Vector = Scalars<Dual<f64>, N>>,
+    S: System<Shape = hamiltonian::nalgebra::SVector<(), N>>,
 {
     use hamiltonian::schemes::author::VectorField;
     let t = 0.3;
     let state = State::new(q, p).at(t);
-    let gradient = System::<f64>::gradient(system, &state);
+    let gradient = System::gradient::<f64>(system, &state);
     let lift = |values: [f64; N]| values.map(Dual::fixed);
     for at in 0..2 * N {
         let (mut dq, mut dp) = (lift(q), lift(p));
@@ -225,8 +222,8 @@ where
             gradient.p[at - N]
         };
         let state = State::over(dq, dp).at(Dual::fixed(t));
-        close(System::<Dual<f64>>::energy(system, &state).eps, expected);
-        let derivative = System::<Dual<f64>>::gradient(system, &state);
+        close(System::energy::<Dual<f64>>(system, &state).eps, expected);
+        let derivative = System::gradient::<Dual<f64>>(system, &state);
         let (mut vq, mut vp) = ([0.0; N], [0.0; N]);
         if at < N {
             vq[at] = 1.0
@@ -235,7 +232,7 @@ where
         }
         let direction = State::new(vq, vp);
         let (mut hq, mut hp) = (direction.q, direction.q);
-        let prepared = System::<f64>::prepare(system);
+        let prepared = System::prepare::<f64>(system);
         let here = State::new(q, p);
         prepared.hessian_vector(
             t,
@@ -251,7 +248,7 @@ where
             close(hp[k], derivative.p[k].eps);
         }
     }
-    let prepared = System::<f64>::prepare(system);
+    let prepared = System::prepare::<f64>(system);
     let (mut to_q, mut to_p) = (state.q, state.p);
     prepared
         .field(0.125)
@@ -262,7 +259,7 @@ where
     }
     let (mut dq, mut dp) = (state.q, state.p);
     let energy = prepared.energy_and_gradient(t, &state.q, &state.p, &mut dq, &mut dp);
-    close(energy, System::<f64>::energy(system, &state));
+    close(energy, System::energy::<f64>(system, &state));
     for k in 0..N {
         close(dq[k], gradient.q[k]);
         close(dp[k], gradient.p[k]);

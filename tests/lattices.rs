@@ -1,6 +1,7 @@
 //! Coordinates with several axes, whose loops stay loops.
 
 use crate::common::{bits, derivatives};
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{Lattice, Scheme, Vector, observers::Recorder};
 
@@ -307,10 +308,10 @@ fn extents_that_are_sizes_and_numbers_mean_the_same() {
 
 #[test]
 fn schemes_of_all_kinds_keep_the_energy_at_their_order() {
-    fn drift<S: System<f64>, M: Scheme<f64, S>>(
+    fn drift<S: System, M: Scheme<S>>(
         system: &S,
         scheme: M,
-        start: &State<S::Vector>,
+        start: &State<VectorOf<S>>,
         (h, steps): (f64, u64),
     ) -> f64 {
         let run = Integrator::new(system, scheme, start.clone(), h).unwrap();

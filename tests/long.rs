@@ -67,7 +67,7 @@ fn what_is_made_from_the_gradient_agrees_with_it() {
     let waves = Waves::default();
     let state = State::new([0.3, 0.2], [-0.7, 0.4]);
     let gradient = waves.gradient(&state);
-    let prepared = System::<f64>::prepare(&waves);
+    let prepared = System::prepare::<f64>(&waves);
     let (mut q, mut p) = (state.q, state.p);
     prepared.gradient_q(0.0, &state.q, &state.p, &mut q);
     prepared.gradient_p(0.0, &state.q, &state.p, &mut p);

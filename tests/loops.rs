@@ -104,7 +104,7 @@ fn long_sums_are_eight_partial_sums_and_a_tree() {
 #[track_caller]
 fn interpreted<S>(system: &S, n: usize, [signature, parameters, h]: [&str; 3], arrays: &[Vec<f64>])
 where
-    S: System<f64, Vector = hamiltonian::private::DVector<f64>>,
+    S: System<Shape = hamiltonian::private::DVector<()>>,
 {
     let mut model = symbolic::system(signature, "n", parameters, h);
     let structure = structure::analyse(&mut model);

@@ -316,7 +316,7 @@ fn a_saved_run_knows_each_element() {
     let other = Crystal::new(2, 3, 4, w, lattice([2, 3, 3], 1), lattice([2, 2, 3], 2)).unwrap();
     assert!(Integrator::resume(&other, scheme(), run.checkpoint()).is_err());
     let mut described = String::new();
-    System::<f64>::describe_parameters(&layers(), &mut described).unwrap();
+    System::describe_parameters(&layers(), &mut described).unwrap();
     assert!(described.contains("c[3][1][2] = 6.0\n"), "{described}");
     assert!(described.contains("a[1][0][1][0] = 6.0\n"), "{described}");
 }

@@ -2,6 +2,7 @@
 //!
 //! Each call of `ceil` is an error (E0689) if the type is open.
 
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{IntoStart, System};
 
@@ -94,7 +95,7 @@ fn over<T: Real>(x: T) -> T {
 }
 
 /// A run from a state of any system.
-fn first<S: hamiltonian::Separable<f64>>(system: &S, start: impl IntoStart<S::Vector>) -> f64 {
+fn first<S: hamiltonian::Separable>(system: &S, start: impl IntoStart<VectorOf<S>>) -> f64 {
     let run = Integrator::new(system, StormerVerlet::default(), start, 0.1).unwrap();
     System::energy(system, run.state())
 }

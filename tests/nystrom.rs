@@ -4,6 +4,7 @@
 use crate::common::order::{Order, slope};
 use crate::common::reference::difference;
 use crate::common::systems::Relativistic;
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{
     author::{Zigzag, ZigzagOf},
@@ -67,7 +68,7 @@ hamiltonian! {
 }
 
 /// The slopes of tables of order 6 and 8.
-fn orders<S: Nystrom<DoubleDouble>>(system: S, q: &[f64], p: &[f64]) {
+fn orders<S: Nystrom>(system: S, q: &[f64], p: &[f64]) {
     let mut order = Order::new(system, q, p, 2.0, 0.2);
     order.visit(Srkn11b);
     order.visit(BlanesCasasEscorihuela8);
@@ -87,10 +88,7 @@ fn order_is_kept_beside_any_piece_at_most_quadratic_in_momenta() {
 /// Against a general composition of order 8.
 #[test]
 fn order_is_kept_under_a_force_without_momenta() {
-    fn end<M: Scheme<DoubleDouble, Pushed>>(
-        scheme: M,
-        steps: u64,
-    ) -> StateOf<Pushed, DoubleDouble> {
+    fn end<M: Scheme<Pushed>>(scheme: M, steps: u64) -> StateOf<Pushed, DoubleDouble> {
         let numbers = |v: [f64; 2]| v.map(DoubleDouble::from);
         let start = State::over(numbers([0.7, -0.4]), numbers([0.3, 0.8]));
         let h = DoubleDouble::from(2.0 / steps as f64);
@@ -111,7 +109,7 @@ fn order_is_kept_under_a_force_without_momenta() {
 /// The kick is the first stroke of the table, wherever it stands among the pieces.
 #[test]
 fn the_kick_is_found_in_either_place() {
-    fn end<S: Nystrom<f64>>(system: &S) -> Vec<f64> {
+    fn end<S: Nystrom>(system: &S) -> Vec<f64> {
         let start = crate::common::state(system, 0.0, [0.7, -0.4], [0.3, 0.8]);
         let run = Integrator::new(system, Srkn11b, start, 0.25);
         let end = run.expect("a good start").advance(40).cloned();
@@ -136,17 +134,18 @@ impl Listed for OnPieces {
     }
 }
 
-impl<S: Split<DoubleDouble>> Scheme<DoubleDouble, S> for OnPieces {
-    type Map = ZigzagOf<DoubleDouble, S, S::Pieces, Srkn11b>;
-    fn prepare(&self, prepared: &S::Prepared, step: Step<DoubleDouble>) -> Self::Map {
-        Zigzag::new(&self.0, &S::PIECES, prepared, step)
+impl<S: Split> Scheme<S> for OnPieces {
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = ZigzagOf<T, S, S::Pieces<T>, Srkn11b>;
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        Zigzag::new(&self.0, &S::pieces::<T>(), prepared, step)
     }
-    fn start(
+    fn start<T: Real>(
         &self,
-        _: &S::Prepared,
-        state: &State<S::Vector>,
-        _: DoubleDouble,
-    ) -> Point<S::Vector> {
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

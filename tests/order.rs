@@ -5,11 +5,11 @@ use crate::common::measured_here;
 use crate::common::order::Order;
 use crate::common::systems::*;
 use hamiltonian::schemes::walk::{visit_any, visit_separable, visit_split, visit_unforced};
-use hamiltonian::{DoubleDouble, Separable, Split, Unforced};
+use hamiltonian::{Separable, Split, Unforced};
 
 fn separable<S>(mut order: Order<S>)
 where
-    S: Separable<DoubleDouble> + Split<DoubleDouble> + Unforced,
+    S: Separable + Split + Unforced,
 {
     visit_any(&mut order);
     visit_unforced(&mut order);

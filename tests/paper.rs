@@ -8,6 +8,7 @@
 use crate::common::reference::{difference, jacobi, solution};
 use crate::common::systems::*;
 use crate::common::{assert_digits, state};
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::private::SVector;
 use hamiltonian::{DoubleDouble, Real, Scheme, Separable, Unforced, Vector};
@@ -36,8 +37,8 @@ fn book_says(claim: &str) {
 /// max |ΔH/H₀| over every step up to `t`.
 fn drift<S, M>(system: &S, scheme: M, start: State<One>, step: f64, t: f64) -> f64
 where
-    S: System<f64, Vector = One>,
-    M: Scheme<f64, S>,
+    S: System<Shape = SVector<(), 1>>,
+    M: Scheme<S>,
 {
     let run = Integrator::new(system, scheme, start, step).unwrap();
     let mut run = run.observe(EnergyDrift::new());
@@ -110,7 +111,7 @@ fn scheme_33_with_half_euler_start_is_29() {
 #[test]
 fn pihajoki_on_separable_systems_is_stormer_verlet() {
     book_says("(29) and (30) coincide with Störmer–Verlet bit for bit");
-    fn same<S: Separable<f64> + Unforced>(system: &S, q: &[f64], p: &[f64], h: f64) {
+    fn same<S: Separable + Unforced>(system: &S, q: &[f64], p: &[f64], h: f64) {
         let numbers = |v: &[f64]| v.to_vec();
         let start = state(system, 0.0, numbers(q), numbers(p));
         for (copies, alone) in [
@@ -121,7 +122,7 @@ fn pihajoki_on_separable_systems_is_stormer_verlet() {
             let mut alone = Integrator::new(system, alone, start.clone(), h).unwrap();
             for _ in 0..500 {
                 let (a, b) = (copies.advance(7).unwrap(), alone.advance(7).unwrap());
-                let bits = |v: &S::Vector| v.components().map(f64::to_bits).collect::<Vec<_>>();
+                let bits = |v: &VectorOf<S>| v.components().map(f64::to_bits).collect::<Vec<_>>();
                 assert_eq!(
                     (bits(&a.q), bits(&a.p)),
                     (bits(&b.q), bits(&b.p)),

@@ -4,6 +4,7 @@
 use crate::common::geometry::Geometry;
 use crate::common::is_heavy;
 use crate::common::order::{Order, slope};
+use hamiltonian::VectorOf;
 use hamiltonian::nalgebra::{Const, Dyn, OMatrix};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::Visitor;
@@ -75,7 +76,7 @@ fn from_star(e: f64) -> (FromStar, Bodies) {
 }
 
 /// The largest |H − H₀|/|H₀| in each of two halves of a run.
-fn halves<S: Split<f64>>(system: &S, start: &State<S::Vector>, h: f64, steps: u64) -> [f64; 2] {
+fn halves<S: Split>(system: &S, start: &State<VectorOf<S>>, h: f64, steps: u64) -> [f64; 2] {
     let first = system.energy(start);
     let mut run = Integrator::new(system, Strang, start.clone(), h).expect("a good start");
     [(); 2].map(|()| {
@@ -167,14 +168,8 @@ fn orders_and_forms() {
 
 #[test]
 fn pieces_are_the_authors() {
-    assert_eq!(
-        <FromStar as Split<f64>>::NAMES,
-        ["Star", "Pulls", "Ellipses"]
-    );
-    assert_eq!(
-        <Declared as Split<f64>>::NAMES,
-        ["Ellipses", "Pulls", "Star"]
-    );
+    assert_eq!(<FromStar as Split>::NAMES, ["Star", "Pulls", "Ellipses"]);
+    assert_eq!(<Declared as Split>::NAMES, ["Ellipses", "Pulls", "Star"]);
     // Alone a planet is on its ellipse exactly, in steps of any length.
     let system = FromStar::new(2, vec![1.0, 1e-3]).expect("two masses");
     let whole = State::new(

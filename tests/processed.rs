@@ -2,6 +2,7 @@
 //! and without its corrector.
 
 use crate::common::is_heavy;
+use hamiltonian::VectorOf;
 use hamiltonian::nalgebra::{SMatrix, SVector};
 use hamiltonian::prelude::*;
 use hamiltonian::{DoubleDouble, Exact, Scheme, Split, Unforced, Vector};
@@ -61,13 +62,13 @@ hamiltonian! {
 fn stages<S, M>(
     system: &S,
     scheme: &M,
-    start: &State<S::Vector>,
+    start: &State<VectorOf<S>>,
     end: f64,
     (stages, least): (f64, f64),
 ) -> f64
 where
-    S: System<f64>,
-    M: Scheme<f64, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let mut rate = least;
     loop {
@@ -83,9 +84,9 @@ where
 }
 
 /// How many times as much work [`BlanesMoan6`] is as [`Processed6`].
-fn gain<S>(system: &S, start: &State<S::Vector>, end: f64, least: f64) -> f64
+fn gain<S>(system: &S, start: &State<VectorOf<S>>, end: f64, least: f64) -> f64
 where
-    S: Split<f64> + Exact + Unforced,
+    S: Split + Exact + Unforced,
 {
     let plain = stages(system, &BlanesMoan6, start, end, (10.0, least));
     let processed = stages(system, &Processed6::default(), start, end, (8.0, least));
@@ -115,9 +116,9 @@ struct Seen {
 }
 
 impl Seen {
-    fn new<S>(system: &S, start: &State<S::Vector>, end: f64, least: f64) -> Seen
+    fn new<S>(system: &S, start: &State<VectorOf<S>>, end: f64, least: f64) -> Seen
     where
-        S: Split<f64> + Exact + Unforced,
+        S: Split + Exact + Unforced,
     {
         let (processed, cheap) = (Processed4::default(), CheapProcessed4::default());
         let plain = stages(system, &BlanesMoan4, start, end, (6.0, least));
@@ -195,7 +196,7 @@ fn correctors_make_the_error_of_planets_a_hundred_times_smaller() {
     };
     let exact = end(true);
     let unsure = end(false).q.distance(&exact.q);
-    fn run<M: Scheme<f64, OuterPlanets>>(
+    fn run<M: Scheme<OuterPlanets>>(
         system: &OuterPlanets,
         start: &StateOf<OuterPlanets>,
         scheme: M,
@@ -229,7 +230,7 @@ fn correctors_make_the_error_of_planets_a_hundred_times_smaller() {
 /// 2048 steps, as the leading term of the error of order 6 is small.
 #[test]
 fn forced_systems_have_the_order_of_the_scheme() {
-    fn end<M: Scheme<DoubleDouble, Damped>>(scheme: M, steps: u64) -> [DoubleDouble; 2] {
+    fn end<M: Scheme<Damped>>(scheme: M, steps: u64) -> [DoubleDouble; 2] {
         let number = DoubleDouble::from;
         let start = State::over([number(1.25)], [number(0.25)]);
         let h = number(8.0) / number(steps as f64);
@@ -237,7 +238,7 @@ fn forced_systems_have_the_order_of_the_scheme() {
         let end = run.advance(steps).unwrap();
         [end.q[0], end.p[0]]
     }
-    fn is_of_order<M: Scheme<DoubleDouble, Damped>>(scheme: M, exact: [DoubleDouble; 2]) {
+    fn is_of_order<M: Scheme<Damped>>(scheme: M, exact: [DoubleDouble; 2]) {
         let entry = scheme.entry();
         let [coarse, fine] = [1024, 2048].map(|steps| {
             let [q, p] = end(scheme.clone(), steps);

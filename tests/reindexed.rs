@@ -30,7 +30,7 @@ fn given(k: usize, salt: usize) -> f64 {
 
 /// The gradient of a system against bonds.
 #[track_caller]
-fn check<S: System<f64>>(name: &str, system: &S, bonds: &[Bond], seed: usize) {
+fn check<S: System>(name: &str, system: &S, bonds: &[Bond], seed: usize) {
     let zeros = system.zeros();
     let mut start = State {
         q: zeros.clone(),

@@ -78,8 +78,8 @@ fn drift<S, M, const N: usize>(
     steps: usize,
 ) -> f64
 where
-    S: System<f64, Vector = hamiltonian::nalgebra::SVector<f64, N>>,
-    M: Scheme<f64, S>,
+    S: System<Shape = hamiltonian::nalgebra::SVector<(), N>>,
+    M: Scheme<S>,
 {
     let first = system.energy(&start);
     let mut run = Integrator::new(system, scheme, start, h).unwrap();
@@ -94,7 +94,7 @@ where
 #[test]
 fn the_papers_system_is_split_in_two() {
     assert_eq!(
-        <Paper34 as Split<f64>>::NAMES,
+        <Paper34 as Split>::NAMES,
         ["p^2/2 + 0.5", "0.5*q^2*p^2 + q^2/2"]
     );
     let start = State::new([-3.0], [0.0]);
@@ -129,7 +129,7 @@ fn orbits_about_a_black_hole_stay() {
     println!("four by hand {four:e}, as found {found:e}");
     assert!(found < 4e-5, "{found:e}");
     assert_eq!(
-        <InFour as Split<f64>>::NAMES,
+        <InFour as Split>::NAMES,
         ["Potential", "Turning", "Radial", "Falling"]
     );
 }
@@ -137,7 +137,7 @@ fn orbits_about_a_black_hole_stay() {
 #[test]
 fn a_ring_keeps_its_norm() {
     let ring = Ring::<5>::default();
-    assert_eq!(<Ring<5> as Split<f64>>::NAMES.len(), 2);
+    assert_eq!(<Ring<5> as Split>::NAMES.len(), 2);
     let start = State::new([0.9, -0.4, 0.3, 0.7, -0.2], [0.1, 0.5, -0.6, 0.2, 0.8]);
     let first = ring.particles(&start);
     let energy = ring.energy(&start);
@@ -205,5 +205,5 @@ fn bodies_and_dipoles_split() {
     assert!(drift(&Body::default(), Strang, start, 0.01, 2_000) < 1e-5);
     let start = State::new([1.0, 0.3, 0.2], [0.1, 0.4, 0.2]);
     assert!(drift(&Dipole::default(), Strang, start, 0.005, 2_000) < 1e-3);
-    assert_eq!(<Dipole as Split<f64>>::NAMES.len(), 2);
+    assert_eq!(<Dipole as Split>::NAMES.len(), 2);
 }

@@ -3,6 +3,7 @@
 
 use crate::allocator::allocations;
 use crate::common::bits::LEVEL;
+use hamiltonian::VectorOf;
 use hamiltonian::lanes::Cpu;
 use hamiltonian::prelude::*;
 use hamiltonian::{Checkpoint, Dual, Run, Scheme};
@@ -50,10 +51,10 @@ hamiltonian! {
 }
 
 /// The run after some steps, and between two of them, in lanes and without.
-fn same_bits<S, M>(system: &S, scheme: M, start: &State<S::Vector>, h: f64) -> State<S::Vector>
+fn same_bits<S, M>(system: &S, scheme: M, start: &State<VectorOf<S>>, h: f64) -> State<VectorOf<S>>
 where
-    S: System<f64>,
-    M: Scheme<f64, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let name = scheme.entry();
     let run = |lanes| {

@@ -17,8 +17,8 @@ hamiltonian! {
 /// The bits of the end of a run.
 fn end<S, M>(system: &S, scheme: M, lanes: bool, fused: bool) -> Vec<u64>
 where
-    S: System<f64>,
-    M: Scheme<f64, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let zeros = system.zeros();
     let mut start = State {

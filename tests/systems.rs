@@ -12,6 +12,7 @@ use crate::common::case::{Case, exactly, unit};
 use crate::common::reference::{difference, quarter_period, solution};
 use crate::common::systems::*;
 use crate::common::{assert_digits, is_heavy, state};
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{DoubleDouble, Dual, Real, Vector};
 use std::f64::consts::FRAC_PI_4;
@@ -73,7 +74,7 @@ hamiltonian! {
 }
 
 /// (π/4; 0), which no decimal is.
-fn lifted<E: System<DoubleDouble>>(system: &E) -> State<E::Vector> {
+fn lifted<E: System>(system: &E) -> State<VectorOf<E, DoubleDouble>> {
     let angle = DoubleDouble::new(FRAC_PI_4, hamiltonian_symbolic::PI_LOW / 4.0);
     state(
         system,

@@ -323,7 +323,7 @@ fn sundman() {
     assert!((end.q[0] - 0.4).abs() < 1e-11 && end.q[1].abs() < 1e-10);
     assert!((end.t - period).abs() < 1e-12);
     assert!((end.p[2] - 0.5).abs() < 1e-11);
-    let names: Vec<_> = <Sundman as System<f64>>::GROUPS
+    let names: Vec<_> = <Sundman as System>::GROUPS
         .iter()
         .map(|g| (g.coordinate, g.momentum))
         .collect();
@@ -450,7 +450,7 @@ fn starts() {
     let start =
         momentum_from_energy(&sundman, &guess, 1, Dual::fixed(0.0), Branch::Forward).unwrap();
     close(start.p[1].eps, 0.5);
-    let prepared = System::<f64>::prepare(&sundman);
+    let prepared = System::prepare::<f64>(&sundman);
     close(
         prepared.time_derivative(0.0, &[0.4, 0.0, 0.0].into(), &[0.0, 2.0, 0.5].into()),
         0.0,

@@ -1,6 +1,7 @@
 //! Gauss' method as it was before stages had lanes: stage by stage, sums from the first stage on, iterated
 //! until the change no longer shrinks. A measure for the schemes of today in the same process.
 
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::collocation::Collocation;
 use hamiltonian::{
@@ -70,12 +71,12 @@ fn iterate<V: Vector<Scalar = f64>, const S: usize>(
 }
 
 /// `n` steps of `Gauss::<S>`.
-pub fn gauss<Y: System<f64>, const S: usize>(
+pub fn gauss<Y: System, const S: usize>(
     system: &Y,
-    start: &State<Y::Vector>,
+    start: &State<VectorOf<Y>>,
     h: f64,
     n: u64,
-) -> State<Y::Vector> {
+) -> State<VectorOf<Y>> {
     let method = Collocation::<S>::gauss();
     let (mu, guess) = (method.symplectic::<f64>(), extrapolation(&method));
     let (weights, times) = (
@@ -103,7 +104,7 @@ pub fn gauss<Y: System<f64>, const S: usize>(
             to.copy_from(from);
         }
         let size = S as f64 * point.size() / h.abs();
-        let map = |slopes: &[_; S], next: &mut [Point<Y::Vector>; S]| {
+        let map = |slopes: &[_; S], next: &mut [Point<VectorOf<Y>>; S]| {
             for j in 0..S {
                 increments[j].copy_from(&slopes[j]);
                 increments[j].scale(weights[j]);
@@ -120,7 +121,7 @@ pub fn gauss<Y: System<f64>, const S: usize>(
             }
         };
         let scale =
-            |slopes: &[Point<Y::Vector>; S]| size + slopes.iter().map(Vector::size).sum::<f64>();
+            |slopes: &[Point<VectorOf<Y>>; S]| size + slopes.iter().map(Vector::size).sum::<f64>();
         iterate(&mut slopes, &mut next, map, scale);
         for (weight, slope) in weights.iter().zip(&slopes) {
             low.accumulate(*weight, slope);
@@ -135,12 +136,12 @@ pub fn gauss<Y: System<f64>, const S: usize>(
 }
 
 /// `n` steps of `GaussNystrom::<S>`.
-pub fn gauss_nystrom<Y: System<f64>, const S: usize>(
+pub fn gauss_nystrom<Y: System, const S: usize>(
     system: &Y,
-    start: &State<Y::Vector>,
+    start: &State<VectorOf<Y>>,
     h: f64,
     n: u64,
-) -> State<Y::Vector> {
+) -> State<VectorOf<Y>> {
     let method = Collocation::<S>::gauss();
     let guess = extrapolation(&method);
     let (b, c) = (method.weights.map(|b| b.hi()), method.nodes.map(|c| c.hi()));
@@ -174,7 +175,7 @@ pub fn gauss_nystrom<Y: System<f64>, const S: usize>(
         }
         prepared.gradient_p(t, &point.q, &point.p, &mut velocity);
         let size = S as f64 * (point.q.size() / (h * h) + point.p.size() / h.abs());
-        let map = |forces: &[Y::Vector; S], next: &mut [Y::Vector; S]| {
+        let map = |forces: &[VectorOf<Y>; S], next: &mut [VectorOf<Y>; S]| {
             for i in 0..S {
                 let t = t + c[i] * h;
                 impulse.set_zero();
@@ -190,7 +191,7 @@ pub fn gauss_nystrom<Y: System<f64>, const S: usize>(
                 next[i].scale(-1.0);
             }
         };
-        let scale = |forces: &[Y::Vector; S]| size + forces.iter().map(Vector::size).sum::<f64>();
+        let scale = |forces: &[VectorOf<Y>; S]| size + forces.iter().map(Vector::size).sum::<f64>();
         iterate(&mut forces, &mut next, map, scale);
         impulse.set_zero();
         for j in 0..S {

@@ -98,8 +98,8 @@ pub fn start(n: usize, columns: usize) -> (Vec<f64>, Vec<f64>) {
 /// The end of a run by the library.
 pub fn run<S>(system: &S, start: (Vec<f64>, Vec<f64>), steps: usize, fused: bool) -> Timed
 where
-    S: System<f64>,
-    StormerVerlet: hamiltonian::Scheme<f64, S>,
+    S: System,
+    StormerVerlet: Scheme<S>,
 {
     let mut state = State {
         q: system.zeros(),

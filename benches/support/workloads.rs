@@ -166,7 +166,7 @@ fn henon_heiles_twin(n: u64) -> Vec<f64> {
 }
 
 #[inline(never)]
-fn yoshida<M: Scheme<f64, HenonHeiles>>(scheme: M, n: u64) -> Vec<f64> {
+fn yoshida<M: Scheme<HenonHeiles>>(scheme: M, n: u64) -> Vec<f64> {
     let start = black_box(State::new([0.1, -0.1], [0.3, 0.2]));
     let mut run = Integrator::new(&HenonHeiles {}, scheme, start, black_box(STEP)).unwrap();
     let end = run.advance(n).unwrap();

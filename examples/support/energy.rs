@@ -1,6 +1,7 @@
 //! Conservation of H by schemes, side by side: the largest |H − H(0)| since the last point of a curve,
 //! against time, both axes logarithmic.
 
+use hamiltonian::VectorOf;
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::{Scheme, Split, Unforced, View};
@@ -9,7 +10,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Prints a system with the pieces of H that have exact flows, the outermost first.
-pub fn print_pieces<S: Split<f64> + Display>(system: &S) {
+pub fn print_pieces<S: Split + Display>(system: &S) {
     println!("{system}\nin the pieces");
     for name in S::NAMES {
         println!("    {name}");
@@ -17,9 +18,9 @@ pub fn print_pieces<S: Split<f64> + Display>(system: &S) {
 }
 
 /// Runs of one system from one start.
-pub struct Contest<'a, S: System<f64>> {
+pub struct Contest<'a, S: System> {
     pub system: &'a S,
-    pub start: State<S::Vector>,
+    pub start: State<VectorOf<S>>,
     pub step: f64,
     pub end: f64,
     /// The number of steps between two looks at H.
@@ -27,9 +28,9 @@ pub struct Contest<'a, S: System<f64>> {
     pub curves: Vec<Curve>,
 }
 
-impl<'a, S: System<f64>> Contest<'a, S> {
+impl<'a, S: System> Contest<'a, S> {
     /// A contest that looks at H after each step.
-    pub fn new(system: &'a S, start: State<S::Vector>, step: f64, end: f64) -> Self {
+    pub fn new(system: &'a S, start: State<VectorOf<S>>, step: f64, end: f64) -> Self {
         println!(
             "{:<34} {:>16} {:>12} {:>10}",
             "scheme", "max |H − H(0)|", "to t =", "ns a step"
@@ -45,7 +46,7 @@ impl<'a, S: System<f64>> Contest<'a, S> {
     }
 
     /// Runs one scheme, and says how far H moved: ∞ for a run that does not come to its end.
-    pub fn enter<M: Scheme<f64, S>>(&mut self, name: &str, scheme: M) -> Result<f64, Error> {
+    pub fn enter<M: Scheme<S>>(&mut self, name: &str, scheme: M) -> Result<f64, Error> {
         let run = Integrator::new(self.system, scheme, self.start.clone(), self.step)?;
         let energy = run.energy();
         let (mut points, mut next) = (Vec::new(), 0.0);

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::integrator::{Integrator, MapOf};
 use crate::observe::Observer;
 use crate::scheme::Entry;
-use crate::system::{Observable, System};
+use crate::system::{Observable, System, VectorOf};
 use crate::vector::Vector;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -57,7 +57,7 @@ pub trait AnyRun {
     fn observable(&self, name: &str) -> Option<f64>;
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> AnyRun for Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> AnyRun for Integrator<T, S, R, O> {
     fn system(&self) -> &'static str {
         S::NAME
     }
@@ -88,7 +88,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> AnyRun for Integr
     fn values(&self) -> Vec<f64> {
         let state = self.state();
         let names = crate::output::names(S::GROUPS, &state.q);
-        let of = |vector: &S::Vector| -> Vec<f64> {
+        let of = |vector: &VectorOf<S, T>| -> Vec<f64> {
             let values = names.iter().map(|name| vector.component(name.index));
             values.map(Real::to_f64).collect()
         };

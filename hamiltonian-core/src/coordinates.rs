@@ -24,7 +24,7 @@ use crate::error::Error;
 use crate::state::State;
 use crate::vector::Vector;
 use alloc::vec::Vec;
-use hamiltonian_lanes::{Lift, Real};
+use hamiltonian_lanes::{Parameter, Real};
 use nalgebra::allocator::Allocator;
 use nalgebra::{DefaultAllocator, Dim, OMatrix};
 
@@ -42,10 +42,10 @@ pub fn to_jacobi<T, R, C, P>(
     masses: &[P],
 ) -> Result<State<OMatrix<T, R, C>>, Error>
 where
-    T: Real + Lift<P>,
+    T: Real,
     R: Dim,
     C: Dim,
-    P: Copy,
+    P: Parameter,
     DefaultAllocator: Allocator<R, C>,
     OMatrix<T, R, C>: Vector<Scalar = T>,
 {
@@ -77,10 +77,10 @@ pub fn from_jacobi<T, R, C, P>(
     masses: &[P],
 ) -> Result<State<OMatrix<T, R, C>>, Error>
 where
-    T: Real + Lift<P>,
+    T: Real,
     R: Dim,
     C: Dim,
-    P: Copy,
+    P: Parameter,
     DefaultAllocator: Allocator<R, C>,
     OMatrix<T, R, C>: Vector<Scalar = T>,
 {
@@ -148,10 +148,7 @@ where
 }
 
 /// The masses of all bodies, and their partial sums.
-fn summed<T: Real + Lift<P>, P: Copy>(
-    bodies: usize,
-    masses: &[P],
-) -> Result<(Vec<T>, Vec<T>), Error> {
+fn summed<T: Real, P: Parameter>(bodies: usize, masses: &[P]) -> Result<(Vec<T>, Vec<T>), Error> {
     if bodies == 0 || masses.len() != bodies {
         return Err(Error::Shape {
             name: "masses",
@@ -159,7 +156,7 @@ fn summed<T: Real + Lift<P>, P: Copy>(
             found: masses.len(),
         });
     }
-    let masses: Vec<T> = masses.iter().map(|m| T::lift(*m)).collect();
+    let masses: Vec<T> = masses.iter().map(|m| m.into_real()).collect();
     let mut sums = Vec::with_capacity(bodies);
     let mut sum = T::zero();
     for (body, mass) in masses.iter().enumerate() {

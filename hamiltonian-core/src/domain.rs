@@ -4,7 +4,7 @@
 //! not evaluated where [`System::GROWTH`] and the sizes of the numbers show that it is finite.
 
 use crate::state::State;
-use crate::system::{Dynamics, System};
+use crate::system::{Dynamics, System, VectorOf};
 use crate::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -15,16 +15,16 @@ const EXPONENT: u64 = 600;
 
 /// Returns true if H is finite at a state of finite numbers.
 #[inline(always)]
-pub(crate) fn is_inside<T: Real, S: System<T>>(
-    prepared: &S::Prepared,
-    state: &State<S::Vector>,
+pub(crate) fn is_inside<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
+    state: &State<VectorOf<S, T>>,
 ) -> bool {
     is_moderate::<T, S>(state) || undefined::<T, S>(prepared, state).is_none()
 }
 
 /// Returns true if the numbers of a state are so small that H is finite there.
 #[inline(always)]
-fn is_moderate<T: Real, S: System<T>>(state: &State<S::Vector>) -> bool {
+fn is_moderate<T: Real, S: System>(state: &State<VectorOf<S, T>>) -> bool {
     // Scalars of less than double precision have smaller exponents.
     let growth = match S::GROWTH {
         Some(growth) if T::epsilon() <= f64::EPSILON => growth,
@@ -33,7 +33,7 @@ fn is_moderate<T: Real, S: System<T>>(state: &State<S::Vector>) -> bool {
     let bound = f64::from_bits((1023 + EXPONENT / u64::from(growth.max(1))) << 52);
     let mut is_moderate = state.t.magnitude() < bound;
     for vector in [&state.q, &state.p] {
-        for k in 0..S::Vector::PARTS {
+        for k in 0..<VectorOf<S, T> as Vector>::PARTS {
             for number in vector.part(k) {
                 is_moderate &= number.magnitude() < bound;
             }
@@ -45,9 +45,9 @@ fn is_moderate<T: Real, S: System<T>>(state: &State<S::Vector>) -> bool {
 /// Returns the first lane in which H is not finite, with its value there. It is compiled once for each system, since
 /// the code of H may be long.
 #[inline(never)]
-pub(crate) fn undefined<T: Real, S: System<T>>(
-    prepared: &S::Prepared,
-    state: &State<S::Vector>,
+pub(crate) fn undefined<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
+    state: &State<VectorOf<S, T>>,
 ) -> Option<(u32, f64)> {
     let h = prepared.energy(state.t, &state.q, &state.p);
     for lane in 0..T::LANES {
@@ -80,13 +80,13 @@ pub(crate) fn write_state<V: Vector>(
 /// Returns true for each lane whose member is inside the domain of H at the state of these rows, or which has none. A
 /// member is a prepared system and a state of its shape.
 #[inline(never)]
-pub(crate) fn inside<'a, T: Real, S: System<T> + 'a>(
-    members: impl Iterator<Item = Option<(&'a S::Prepared, &'a State<S::Vector>)>>,
+pub(crate) fn inside<'a, T: Real, S: System + 'a>(
+    members: impl Iterator<Item = Option<(&'a S::Prepared<T>, &'a State<VectorOf<S, T>>)>>,
     rows: &[T],
     lanes: usize,
 ) -> Vec<bool> {
     let mut inside = vec![true; lanes];
-    let mut of_shape: Option<State<S::Vector>> = None;
+    let mut of_shape: Option<State<VectorOf<S, T>>> = None;
     for (lane, member) in members.enumerate() {
         let Some((prepared, shape)) = member else {
             continue;

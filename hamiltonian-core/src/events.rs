@@ -15,8 +15,8 @@ use crate::error::{Error, Known};
 use crate::observe::{FollowVisitor, MemberSection, Observer, View, one_trajectory};
 use crate::root::{Sample, side};
 use crate::state::State;
-use crate::system::{Dynamics, Observable, System};
-use crate::vector::Vector;
+use crate::system::{Dynamics, Observable, System, VectorOf};
+use crate::vector::{Shape, Vector};
 use alloc::collections::VecDeque;
 use alloc::format;
 use alloc::string::String;
@@ -171,10 +171,10 @@ impl<V: Vector> Events<V> {
     }
 
     /// Returns the value of an event's function at a state.
-    fn value<S: System<V::Scalar, Vector = V>>(
+    fn value<S: System<Shape: Shape<Vector<V::Scalar> = V>>>(
         event: &Event<V>,
         observable: Option<usize>,
-        prepared: &S::Prepared,
+        prepared: &S::Prepared<V::Scalar>,
         state: &State<V>,
     ) -> V::Scalar {
         match (&event.function, observable) {
@@ -185,7 +185,7 @@ impl<V: Vector> Events<V> {
     }
 
     /// Evaluates the functions at the first state.
-    fn begin<S: System<V::Scalar, Vector = V>>(
+    fn begin<S: System<Shape: Shape<Vector<V::Scalar> = V>>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
     ) -> Result<(), Error> {
@@ -229,7 +229,7 @@ impl<V: Vector> Events<V> {
     }
 
     /// Locates the events of a step from `before` to the present state, in the order of time.
-    fn step<S: System<V::Scalar, Vector = V>>(
+    fn step<S: System<Shape: Shape<Vector<V::Scalar> = V>>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
         before: &State<V>,
@@ -314,7 +314,10 @@ impl<V: Vector> Events<V> {
     }
 
     /// Accepts the state after a step without events.
-    fn skip<S: System<V::Scalar, Vector = V>>(&mut self, view: &View<'_, V::Scalar, S>) {
+    fn skip<S: System<Shape: Shape<Vector<V::Scalar> = V>>>(
+        &mut self,
+        view: &View<'_, V::Scalar, S>,
+    ) {
         for (event, history) in self.events.iter().zip(&mut self.histories) {
             let value = Self::value::<S>(event, history.observable, view.prepared, view.state);
             history.advance(event, value);
@@ -362,7 +365,7 @@ fn correct<V: Vector>(to: &mut V, part: V::Scalar, end: &V, reached: &V) {
     }
 }
 
-impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
+impl<T: Real, S: System> Observer<T, S> for Events<VectorOf<S, T>> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         one_trajectory::<T>();
         self.before = Some((view.step, view.state.clone()));
@@ -377,7 +380,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
             return <Self as Observer<T, S>>::attach(self, view);
         };
         // A run that ended between two steps may have been restarted at that state, with another step.
-        let is_there = |end: &State<S::Vector>| end.t.equals(view.between.start()).all();
+        let is_there = |end: &State<VectorOf<S, T>>| end.t.equals(view.between.start()).all();
         if let Some(end) = self.end.take().filter(is_there) {
             // Roots of other events at this state are yet to come; later ones are located again.
             self.pending
@@ -492,7 +495,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         Ok(())
     }
 
-    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+    fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         match &self.failure {
             Some(error) => Err(error.clone()),
             None => Ok(self.end.as_ref()),

@@ -6,7 +6,7 @@
 use crate::function::Function;
 use crate::system::Arithmetic;
 use crate::system::gather::{MOST, masks, numbers, vectors};
-use crate::vector::Vector;
+use crate::vector::{Over, Vector};
 use alloc::sync::Arc;
 use core::fmt::Debug;
 use hamiltonian_lanes::{Mask, Pack, Real};
@@ -118,9 +118,9 @@ impl<T: Real, F: Function<N>, const N: usize> LaneValue<T> for Given<F, N> {
 }
 
 impl<V: Vector> LaneValue<V::Scalar> for V {
-    type Over<U: Real> = V::Over<U>;
+    type Over<U: Real> = Over<V, U>;
     #[inline(always)]
-    fn gather<P: Pack>(members: &[&Self]) -> V::Over<<V::Scalar as Real>::Over<P>> {
+    fn gather<P: Pack>(members: &[&Self]) -> Over<V, <V::Scalar as Real>::Over<P>> {
         vectors::<V, P, _>(members, |one| one)
     }
     fn equals(&self, other: &Self) -> bool {
@@ -130,9 +130,9 @@ impl<V: Vector> LaneValue<V::Scalar> for V {
 
 /// Holders of a run share an array of run-time size.
 impl<V: Vector> LaneValue<V::Scalar> for Arc<V> {
-    type Over<U: Real> = Arc<V::Over<U>>;
+    type Over<U: Real> = Arc<Over<V, U>>;
     #[inline(always)]
-    fn gather<P: Pack>(members: &[&Self]) -> Arc<V::Over<<V::Scalar as Real>::Over<P>>> {
+    fn gather<P: Pack>(members: &[&Self]) -> Arc<Over<V, <V::Scalar as Real>::Over<P>>> {
         Arc::new(vectors::<V, P, _>(members, |one| &**one))
     }
     fn equals(&self, other: &Self) -> bool {

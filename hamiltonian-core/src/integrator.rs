@@ -22,9 +22,9 @@ use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map, Step};
 use crate::observe::{Every, Observer, Unobserved, Verdict, View, Watch, every, watch};
-use crate::scheme::{Entry, Scheme};
+use crate::scheme::{CarriedBy, Entry, Scheme};
 use crate::state::{Carried, IntoStart, State};
-use crate::system::{Arithmetic, Dynamics, System};
+use crate::system::{Arithmetic, Dynamics, System, VectorOf};
 use crate::vector::Vector;
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -64,8 +64,8 @@ use threads::Threads;
 /// # Type
 /// `R` is the scheme's map; [`Run`] names the type by the scheme. (With the scheme as the
 /// parameter, rustc would report a wrong pairing at every use of the type.)
-pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
-    pub(crate) prepared: S::Prepared,
+pub struct Integrator<T: Real, S: System, R: MapOf<T, S>, O = ()> {
+    pub(crate) prepared: S::Prepared<T>,
     pub(crate) recipe: Arc<dyn Recipe<T, S, R>>,
     pub(crate) entry: Entry,
     map: R,
@@ -80,7 +80,7 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     /// The number of the step at which the clock began.
     pub(crate) began: u64,
     pub(crate) steps: u64,
-    pub(crate) state: State<S::Vector>,
+    pub(crate) state: State<VectorOf<S, T>>,
     pub(crate) ended: bool,
     /// The memory of the observers of a saved run, until they are attached.
     pub(crate) memory: Memory,
@@ -99,12 +99,12 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
 }
 
 /// A map of a scheme for the system `S` over the scalar `T`.
-pub trait MapOf<T: Real, S: System<T>>:
-    Map<Carried: Carried<Vector = S::Vector, Scalar = T>>
+pub trait MapOf<T: Real, S: System>:
+    Map<Carried: Carried<Vector = VectorOf<S, T>, Scalar = T>>
 {
 }
 
-impl<T: Real, S: System<T>, R: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>> MapOf<T, S>
+impl<T: Real, S: System, R: Map<Carried: Carried<Vector = VectorOf<S, T>, Scalar = T>>> MapOf<T, S>
     for R
 {
 }
@@ -124,9 +124,9 @@ impl<T: Real, S: System<T>, R: Map<Carried: Carried<Vector = S::Vector, Scalar =
 /// simulation.run.advance(3)?;
 /// # Ok::<(), Error>(())
 /// ```
-pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<T, S>>::Map, O>;
+pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<S>>::Map<T>, O>;
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
+impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
     /// Creates a run of `scheme` on `system` from `start` with the step size `step`. A negative step integrates
     /// backwards.
     ///
@@ -136,12 +136,15 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     /// derivative of it is not finite there; [`Error::Shell`] for a system in another time if the start is off the shell
     /// H = 0 by more than a thousandth of the energies in it; [`Error::Jumps`] for a scheme that evaluates H(t) at the
     /// ends of steps, if H jumps; those of [`Scheme::check`].
-    pub fn new<M: Scheme<T, S, Map = R>>(
+    pub fn new<M: Scheme<S, Map<T> = R>>(
         system: &S,
         scheme: M,
-        start: impl IntoStart<S::Vector>,
+        start: impl IntoStart<VectorOf<S, T>>,
         step: T,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, Error>
+    where
+        R: Map<Carried = CarriedBy<M, S, T>>,
+    {
         let start = start.into_start();
         check_step(step)?;
         let prepared = check_start(system, &start)?;
@@ -150,13 +153,16 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     }
 
     /// Makes the run after all checks.
-    pub(crate) fn begin<M: Scheme<T, S, Map = R>>(
+    pub(crate) fn begin<M: Scheme<S, Map<T> = R>>(
         system: &S,
-        prepared: S::Prepared,
+        prepared: S::Prepared<T>,
         scheme: M,
-        start: State<S::Vector>,
+        start: State<VectorOf<S, T>>,
         step: T,
-    ) -> Self {
+    ) -> Self
+    where
+        R: Map<Carried = CarriedBy<M, S, T>>,
+    {
         let entry = scheme.entry();
         let carried = scheme.start(&prepared, &start, step);
         let map = scheme.prepare(&prepared, Step::of(step));
@@ -190,7 +196,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Attaches an observer. It receives the current state at once, and then every state whose step
     /// number is a multiple of its [interval](Observer::interval), for all ways of making steps:
     /// [`advance`](Integrator::advance), [`advance_to`](Integrator::advance_to),
@@ -209,7 +215,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// Attaches a closure besides the observer. It receives the current state at once, and then
     /// every state whose step number is a multiple of `steps` (0 counts as 1).
     ///
@@ -237,7 +243,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Continues with another step: the scheme starts anew at the current state and makes the other
     /// carried values again, for example the second point of (25), (26) and (33).
     ///
@@ -369,7 +375,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     }
 
     /// Ends the run at a state between two steps, or at the current one.
-    fn end(&mut self, end: Result<Option<State<S::Vector>>, Error>) {
+    fn end(&mut self, end: Result<Option<State<VectorOf<S, T>>>, Error>) {
         self.ended = true;
         match end {
             Ok(Some(state)) => self.state = state,
@@ -442,7 +448,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S, R, O> {
     fn clone(&self) -> Self {
         let map = self.recipe.prepare(&self.prepared, Step::of(self.step));
         Integrator {
@@ -473,7 +479,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S,
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integrator<T, S, R, O> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator")
             .field("system", &S::NAME)
@@ -487,12 +493,12 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integr
 }
 
 /// The name of a system, H, and the number of components, which identify a saved run.
-pub(crate) fn formula<T: Real, S: System<T>>(q: &S::Vector) -> String {
+pub(crate) fn formula<T: Real, S: System>(q: &VectorOf<S, T>) -> String {
     alloc::format!("{}: {} (coordinates: {})", S::NAME, S::FORMULA, q.len())
 }
 
 /// The parameters of a system with their values.
-pub(crate) fn parameters<T: Real, S: System<T>>(system: &S) -> String {
+pub(crate) fn parameters<S: System>(system: &S) -> String {
     // Capacity for a few, so that short runs spend no time on growth.
     let mut parameters = String::with_capacity(64);
     // Writing to a string does not fail.

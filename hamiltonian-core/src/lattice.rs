@@ -9,7 +9,7 @@ pub use nested::{MatrixOf, lattice};
 
 use crate::error::Error;
 use crate::uneven::{Uneven, same_part};
-use crate::vector::Vector;
+use crate::vector::{Shape, Vector};
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -141,9 +141,13 @@ impl<T, const R: usize> IndexMut<[usize; R]> for Lattice<T, R> {
     }
 }
 
+impl<const R: usize> Shape for Lattice<(), R> {
+    type Vector<T: Real> = Lattice<T, R>;
+}
+
 impl<T: Real, const R: usize> Vector for Lattice<T, R> {
     type Scalar = T;
-    type Over<U: Real> = Lattice<U, R>;
+    type Shape = Lattice<(), R>;
     fn zeros_over<U: Real>(&self) -> Lattice<U, R> {
         Lattice {
             extents: self.extents,

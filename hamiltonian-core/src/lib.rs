@@ -116,8 +116,7 @@ pub mod private;
 pub use any::AnyRun;
 pub use checkpoint::Checkpoint;
 pub use ensemble::{
-    End, Ensemble, Ensembles, Fused, Lyapunov, Member, Record, Rounding, Row, Status, Sweep,
-    Unfused,
+    End, Ensemble, Fused, Lyapunov, Member, Record, Rounding, Row, Status, Sweep, Unfused,
 };
 pub use error::Error;
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Real};
@@ -128,11 +127,11 @@ pub use scheme::Scheme;
 pub use shard::Shard;
 pub use state::{Gradient, IntoStart, Plain, State};
 pub use system::{
-    Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
+    Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced, VectorOf,
 };
 pub use table::Table;
 pub use transformed::TimeTransformed;
-pub use vector::{IntoVector, Vector, shape};
+pub use vector::{IntoVector, Shape, Vector, shape};
 
 // Hidden, since the glob of the facade would put its pages among those of the library.
 #[doc(hidden)]
@@ -175,7 +174,7 @@ pub mod tangents {
 }
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
-pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
+pub type StateOf<S, T = f64> = State<VectorOf<S, T>>;
 
 /// The names that a program needs to run systems.
 ///
@@ -207,8 +206,8 @@ pub mod prelude {
         Closing, OrbitSearch, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,
     };
     pub use crate::{
-        AnyRun, Checkpoint, DoubleDouble, Dual, Ensemble, Ensembles, Error, Gradient, Integrator,
-        Lyapunov, Member, Observer, Real, Run, Shard, Split, State, StateOf, Status, Sweep, System,
+        AnyRun, Checkpoint, DoubleDouble, Dual, Ensemble, Error, Gradient, Integrator, Lyapunov,
+        Member, Observer, Real, Run, Scheme, Shard, Split, State, StateOf, Status, Sweep, System,
         TimeTransformed,
     };
 

@@ -23,21 +23,21 @@ pub(crate) use section::{LaneSection, MemberSection};
 use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::state::State;
-use crate::system::{Dynamics, System, declared_energy};
+use crate::system::{Dynamics, System, VectorOf, declared_energy};
 use crate::vector::Vector;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
 
 /// A state of a run, as an observer receives it.
-pub struct View<'a, T: Real, S: System<T>> {
+pub struct View<'a, T: Real, S: System> {
     /// The number of steps made.
     pub step: u64,
     /// Time, coordinates and momenta, all at the same time; finite.
-    pub state: &'a State<S::Vector>,
+    pub state: &'a State<VectorOf<S, T>>,
     /// The prepared system: expressions that depend only on parameters are computed.
-    pub prepared: &'a S::Prepared,
+    pub prepared: &'a S::Prepared<T>,
     /// Computes states at other times.
-    pub(crate) between: &'a dyn Between<S::Vector>,
+    pub(crate) between: &'a dyn Between<VectorOf<S, T>>,
 }
 
 /// States at other times near the present one, computed by a part of a step.
@@ -55,7 +55,7 @@ pub(crate) trait Between<V: Vector> {
     fn start(&self) -> V::Scalar;
 }
 
-impl<T: Real, S: System<T>> View<'_, T, S> {
+impl<T: Real, S: System> View<'_, T, S> {
     /// The declared H at this state. If the definition changes time, `dt = g*ds`, g and the momentum of time are not
     /// part of it.
     pub fn energy(&self) -> T {
@@ -66,7 +66,7 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
     ///
     /// # Errors
     /// [`Error::Far`] for a time further away, and errors of a step.
-    pub fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
+    pub fn state_at(&self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         self.between.state_at(t)
     }
 
@@ -88,7 +88,7 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
 /// counted from the start of the run, is a multiple of its interval. This does not depend on the calls of `advance`
 /// that make the steps. A tuple of observers is an observer, and so is `&mut O`.
 /// [`Integrator::watch`](crate::Integrator::watch) attaches a closure.
-pub trait Observer<T: Real, S: System<T>> {
+pub trait Observer<T: Real, S: System> {
     /// Steps between observations, at least 1.
     fn interval(&self) -> u64 {
         1
@@ -131,7 +131,7 @@ pub trait Observer<T: Real, S: System<T>> {
     ///
     /// # Errors
     /// The error because of which the observer cannot continue; the run returns it.
-    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+    fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         Ok(None)
     }
 }
@@ -189,7 +189,7 @@ fn both(a: ControlFlow<()>, b: ControlFlow<()>) -> ControlFlow<()> {
 /// run.advance(100)?;
 /// # Ok::<(), Error>(())
 /// ```
-pub fn watch<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R>(
+pub fn watch<T: Real, S: System, R: Verdict, F: FnMut(&View<'_, T, S>) -> R>(
     closure: F,
 ) -> Watch<F> {
     Watch(closure)
@@ -199,9 +199,7 @@ pub fn watch<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R>(
 #[derive(Debug, Clone)]
 pub struct Watch<F>(F);
 
-impl<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R> Observer<T, S>
-    for Watch<F>
-{
+impl<T: Real, S: System, R: Verdict, F: FnMut(&View<'_, T, S>) -> R> Observer<T, S> for Watch<F> {
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         (self.0)(view).control()
     }
@@ -236,7 +234,7 @@ pub struct Every<O> {
     pub inner: O,
 }
 
-impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
+impl<T: Real, S: System, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn interval(&self) -> u64 {
         self.steps.saturating_mul(self.inner.interval().max(1))
     }
@@ -252,7 +250,7 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         self.inner.restore(view, from)
     }
-    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+    fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         self.inner.end()
     }
     fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
@@ -264,7 +262,7 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
     }
 }
 
-impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut O {
+impl<T: Real, S: System, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut O {
     fn interval(&self) -> u64 {
         (**self).interval()
     }
@@ -280,7 +278,7 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         (**self).restore(view, from)
     }
-    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+    fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         (**self).end()
     }
     fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
@@ -291,7 +289,7 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     }
 }
 
-impl<T: Real, S: System<T>> Observer<T, S> for () {
+impl<T: Real, S: System> Observer<T, S> for () {
     fn interval(&self) -> u64 {
         u64::MAX
     }
@@ -322,7 +320,7 @@ fn common(a: u64, b: u64) -> u64 {
 
 macro_rules! tuple {
     ($($observer:ident $index:tt),+) => {
-        impl<T: Real, S: System<T>, $($observer: Observer<T, S>),+> Observer<T, S>
+        impl<T: Real, S: System, $($observer: Observer<T, S>),+> Observer<T, S>
             for ($($observer,)+)
         {
             fn interval(&self) -> u64 {
@@ -349,7 +347,7 @@ macro_rules! tuple {
                 $(self.$index.restore(view, from)?;)+
                 Ok(())
             }
-            fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+            fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
                 let mut end = None;
                 $(end = end.or(self.$index.end()?);)+
                 Ok(end)

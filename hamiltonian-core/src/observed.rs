@@ -5,9 +5,9 @@
 
 use crate::error::Error;
 use crate::flow::VectorField;
-use crate::system::gather::{Gather, InPack, Kept, with_whole};
-use crate::system::{Autonomous, Dynamics, Group, Observable, System, Unforced};
-use crate::vector::Vector;
+use crate::system::gather::{InPack, Kept, with_whole};
+use crate::system::{Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf};
+use crate::vector::{Over, Vector};
 use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::fmt;
@@ -32,7 +32,7 @@ pub struct Observed<S> {
     index: usize,
 }
 
-impl<S: System<f64>> Observed<S> {
+impl<S: System> Observed<S> {
     /// Creates the system for the observable of this name: `height`, or `angular_momentum[2]` for a component.
     ///
     /// # Errors
@@ -63,48 +63,61 @@ impl<S> Unforced for Observed<S> {}
 /// [`Observed::new`] refuses observables that depend on time.
 impl<S> Autonomous for Observed<S> {}
 
-/// The vectors of a system over a scalar.
-type VectorOf<S, T> = <S as System<T>>::Vector;
-
-impl<T, S> System<T> for Observed<S>
-where
-    T: Real,
-    S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
-{
-    type Vector = VectorOf<S, T>;
-    type Prepared = ReadyObserved<
-        T,
-        <S as System<T>>::Prepared,
-        <S as System<Dual<T>>>::Prepared,
-        <S as System<Dual<Dual<T>>>>::Prepared,
-    >;
-    const NAME: &'static str = <S as System<T>>::NAME;
-    const GROUPS: &'static [Group] = <S as System<T>>::GROUPS;
+impl<S: System> System for Observed<S> {
+    type Shape = S::Shape;
+    type Prepared<T: Real> =
+        ReadyObserved<T, S::Prepared<T>, S::Prepared<Dual<T>>, S::Prepared<Dual<Dual<T>>>>;
+    const NAME: &'static str = S::NAME;
+    const GROUPS: &'static [Group] = S::GROUPS;
     const OBSERVABLES: &'static [Observable] = &[];
 
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
-        let observable = <S as System<T>>::OBSERVABLES.get(self.index);
+        let observable = S::OBSERVABLES.get(self.index);
         let name = observable.map_or("", |observable| observable.name);
-        writeln!(to, "{name} of {}", <S as System<T>>::FORMULA)?;
-        <S as System<T>>::describe_parameters(&self.system, to)
+        writeln!(to, "{name} of {}", S::FORMULA)?;
+        self.system.describe_parameters(to)
     }
-    fn prepare(&self) -> Self::Prepared {
+    fn prepare<T: Real>(&self) -> Self::Prepared<T> {
         ReadyObserved {
-            plain: <S as System<T>>::prepare(&self.system),
+            plain: self.system.prepare(),
             first: ready::<_, Dual<T>>(&self.system),
             second: ready::<_, Dual<Dual<T>>>(&self.system),
             index: self.index,
         }
     }
-    fn zeros(&self) -> VectorOf<S, T> {
-        <S as System<T>>::zeros(&self.system)
+    fn zeros<T: Real>(&self) -> VectorOf<S, T> {
+        self.system.zeros()
+    }
+    #[inline(always)]
+    fn gather<T: Real, L: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<L>> {
+        let plain: Vec<_> = members.iter().map(|one| &one.plain).collect();
+        let first: Vec<_> = members.iter().map(|one| &one.first.0).collect();
+        let second: Vec<_> = members.iter().map(|one| &one.second.0).collect();
+        let [one, ..] = members else {
+            unreachable!("there is at least one member")
+        };
+        ReadyObserved {
+            plain: S::gather::<T, L>(&plain),
+            first: (S::gather::<Dual<T>, L>(&first), one.first.1.zeros_over()),
+            second: (
+                S::gather::<Dual<Dual<T>>, L>(&second),
+                one.second.1.zeros_over(),
+            ),
+            index: one.index,
+        }
+    }
+    fn fits<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool {
+        a.index == b.index && S::fits(&a.plain, &b.plain)
+    }
+    fn equals<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool {
+        a.index == b.index && S::equals(&a.plain, &b.plain)
     }
 }
 
 /// A prepared system with zeros of its shape.
 type Ready<F, T> = (F, <F as Dynamics<T>>::Vector);
 
-fn ready<S: System<T>, T: Real>(system: &S) -> Ready<S::Prepared, T> {
+fn ready<S: System, T: Real>(system: &S) -> Ready<S::Prepared<T>, T> {
     (system.prepare(), system.zeros())
 }
 
@@ -294,7 +307,7 @@ where
     #[inline(always)]
     fn run<D>(self, plain: &D, kept: &mut Kept) -> Self::Output
     where
-        D: Dynamics<T::Over<L>, Vector = <P::Vector as Vector>::Over<T::Over<L>>> + 'static,
+        D: Dynamics<T::Over<L>, Vector = Over<P::Vector, T::Over<L>>> + 'static,
     {
         let ToFirst { ready, kernel } = self;
         let kernel = ToSecond {
@@ -320,7 +333,7 @@ where
     P: Dynamics<T>,
     F: Dynamics<Dual<T>>,
     G: Dynamics<Dual<Dual<T>>>,
-    D: Dynamics<T::Over<L>, Vector = <P::Vector as Vector>::Over<T::Over<L>>> + 'static,
+    D: Dynamics<T::Over<L>, Vector = Over<P::Vector, T::Over<L>>> + 'static,
     L: Pack,
     K: InPack<T, P::Vector, L>,
 {
@@ -328,8 +341,7 @@ where
     #[inline(always)]
     fn run<E>(self, first: &E, kept: &mut Kept) -> Self::Output
     where
-        E: Dynamics<Dual<T::Over<L>>, Vector = <F::Vector as Vector>::Over<Dual<T::Over<L>>>>
-            + 'static,
+        E: Dynamics<Dual<T::Over<L>>, Vector = Over<F::Vector, Dual<T::Over<L>>>> + 'static,
     {
         let ToSecond {
             ready,
@@ -361,8 +373,8 @@ where
     P: Dynamics<T>,
     F: Dynamics<Dual<T>>,
     G: Dynamics<Dual<Dual<T>>>,
-    D: Dynamics<T::Over<L>, Vector = <P::Vector as Vector>::Over<T::Over<L>>> + 'static,
-    E: Dynamics<Dual<T::Over<L>>, Vector = <F::Vector as Vector>::Over<Dual<T::Over<L>>>> + 'static,
+    D: Dynamics<T::Over<L>, Vector = Over<P::Vector, T::Over<L>>> + 'static,
+    E: Dynamics<Dual<T::Over<L>>, Vector = Over<F::Vector, Dual<T::Over<L>>>> + 'static,
     L: Pack,
     K: InPack<T, P::Vector, L>,
 {
@@ -370,10 +382,8 @@ where
     #[inline(always)]
     fn run<C>(self, second: &C, kept: &mut Kept) -> K::Output
     where
-        C: Dynamics<
-                Dual<Dual<T::Over<L>>>,
-                Vector = <G::Vector as Vector>::Over<Dual<Dual<T::Over<L>>>>,
-            > + 'static,
+        C: Dynamics<Dual<Dual<T::Over<L>>>, Vector = Over<G::Vector, Dual<Dual<T::Over<L>>>>>
+            + 'static,
     {
         let ReadyObserved {
             first: (_, first),
@@ -393,38 +403,6 @@ where
             whole,
             self.kernel,
         )
-    }
-}
-
-impl<T, P, F, G> Gather<T> for ReadyObserved<T, P, F, G>
-where
-    T: Real,
-    P: Gather<T>,
-    F: Gather<Dual<T>>,
-    G: Gather<Dual<Dual<T>>>,
-{
-    type Over<U: Real> = ReadyObserved<U, P::Over<U>, F::Over<Dual<U>>, G::Over<Dual<Dual<U>>>>;
-
-    #[inline(always)]
-    fn gather<L: Pack>(members: &[&Self]) -> Self::Over<T::Over<L>> {
-        let plain: Vec<&P> = members.iter().map(|one| &one.plain).collect();
-        let first: Vec<&F> = members.iter().map(|one| &one.first.0).collect();
-        let second: Vec<&G> = members.iter().map(|one| &one.second.0).collect();
-        let [one, ..] = members else {
-            unreachable!("there is at least one member")
-        };
-        ReadyObserved {
-            plain: P::gather::<L>(&plain),
-            first: (F::gather::<L>(&first), one.first.1.zeros_over()),
-            second: (G::gather::<L>(&second), one.second.1.zeros_over()),
-            index: one.index,
-        }
-    }
-    fn fits(&self, other: &Self) -> bool {
-        self.index == other.index && self.plain.fits(&other.plain)
-    }
-    fn equals(&self, other: &Self) -> bool {
-        self.index == other.index && self.plain.equals(&other.plain)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::error::{Error, TableError};
 use crate::lattice;
 use crate::observe::{Observer, View, one_trajectory};
 use crate::state::State;
-use crate::system::{Group, System, clock};
+use crate::system::{Group, System, VectorOf, clock};
 use crate::table::{Table, wrapped};
 use crate::uneven::named;
 use crate::vector::Vector;
@@ -133,7 +133,10 @@ impl Recorder {
     }
 
     /// The table without rows and the sources of its columns.
-    fn layout<T: Real, S: System<T>>(&self, q: &S::Vector) -> Result<(Table, Vec<Source>), Error> {
+    fn layout<T: Real, S: System>(
+        &self,
+        q: &VectorOf<S, T>,
+    ) -> Result<(Table, Vec<Source>), Error> {
         let mut all = all_columns::<T, S>(q);
         let energy = ("H".to_string(), Value::Energy);
         let chosen: Vec<(String, Value)> = match &self.selected {
@@ -191,7 +194,7 @@ fn columns_of(name: &str, known: &[String]) -> Result<Vec<usize>, Error> {
 }
 
 /// All columns but H with their sources: time, coordinates, momenta, observables.
-fn all_columns<T: Real, S: System<T>>(q: &S::Vector) -> Vec<(String, Value)> {
+fn all_columns<T: Real, S: System>(q: &VectorOf<S, T>) -> Vec<(String, Value)> {
     let names = names(S::GROUPS, q);
     let mut all = Vec::with_capacity(2 + 2 * names.len() + S::OBSERVABLES.len());
     for name in &names {
@@ -206,7 +209,7 @@ fn all_columns<T: Real, S: System<T>>(q: &S::Vector) -> Vec<(String, Value)> {
     for (index, observable) in S::OBSERVABLES.iter().enumerate() {
         all.push((observable.name.to_string(), Value::Observable(index)));
     }
-    let time = clock::<T, S>();
+    let time = clock::<S>();
     let mut free = time.to_string();
     for number in 2.. {
         if all.iter().all(|(name, _)| *name != free) {
@@ -227,7 +230,7 @@ impl Deref for Recorder {
     }
 }
 
-impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
+impl<T: Real, S: System> Observer<T, S> for Recorder {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         one_trajectory::<T>();
         match self.layout::<T, S>(&view.state.q) {
@@ -280,7 +283,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
         Ok(())
     }
 
-    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+    fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         self.failure.clone().map_or(Ok(None), Err)
     }
 }

@@ -12,12 +12,12 @@ use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::{Dynamics, System};
 use crate::tangent::multipliers;
-use crate::vector::Vector;
+use crate::vector::{Shape, Vector};
 use alloc::borrow::ToOwned;
 use alloc::vec;
 use alloc::vec::Vec;
 use arcs::{Nodes, Shooting};
-use hamiltonian_lanes::{Dual, Real};
+use hamiltonian_lanes::Real;
 use nalgebra::{Complex, DMatrix};
 
 /// The condition that selects one periodic orbit.
@@ -104,8 +104,8 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
         steps: u64,
     ) -> Result<Self, Error>
     where
-        S: System<f64, Vector = V> + System<Dual<f64>>,
-        M: Scheme<Dual<f64>, S>,
+        S: System<Shape: Shape<Vector<f64> = V>>,
+        M: Scheme<S>,
     {
         OrbitSearch::new(closing, steps).find(system, scheme, guess)
     }
@@ -226,22 +226,22 @@ impl<'a> OrbitSearch<'a> {
     ) -> Result<PeriodicOrbit<V>, Error>
     where
         V: Vector<Scalar = f64>,
-        S: System<f64, Vector = V> + System<Dual<f64>>,
-        M: Scheme<Dual<f64>, S>,
+        S: System<Shape: Shape<Vector<f64> = V>>,
+        M: Scheme<S>,
     {
-        System::<f64>::check_shape(system, &guess)?;
+        system.check_shape::<f64>(&guess)?;
         let (section, period) = match self.closing {
             Closing::Driven { period } => (None, period),
             Closing::OfPeriod { period, section } => (Some(section), period),
             Closing::OfEnergy { near, section } => (Some(section), near),
         };
         if let Some(name) = section
-            && <S as System<f64>>::observable_index(name).is_none()
+            && S::observable_index(name).is_none()
         {
-            let known = <S as System<f64>>::OBSERVABLES.iter();
+            let known = S::OBSERVABLES.iter();
             return Err(Error::Unknown {
                 name: name.to_owned(),
-                system: <S as System<f64>>::NAME,
+                system: S::NAME,
                 known: known.map(|known| known.name).collect(),
             });
         }
@@ -262,7 +262,7 @@ impl<'a> OrbitSearch<'a> {
             like: &guess,
             section,
             energy: match self.closing {
-                Closing::OfEnergy { .. } => Some(System::<f64>::energy(system, &guess)),
+                Closing::OfEnergy { .. } => Some(system.energy::<f64>(&guess)),
                 _ => None,
             },
             steps: self.steps,
@@ -276,7 +276,7 @@ impl<'a> OrbitSearch<'a> {
         let guessed = path.widths;
         self.check_symmetry(&shooting, &odd, &path, period)?;
         let is_driven = matches!(self.closing, Closing::Driven { .. }) && {
-            let prepared = System::<f64>::prepare(system);
+            let prepared = system.prepare::<f64>();
             let is_at_rest = guessed == [0.0; 2];
             let changes = |(arc, point): (usize, &Vec<f64>)| {
                 let part = arc as f64 / path.nodes.len() as f64;
@@ -398,8 +398,8 @@ impl<'a> OrbitSearch<'a> {
     ) -> Result<(), Error>
     where
         V: Vector<Scalar = f64>,
-        S: System<f64, Vector = V> + System<Dual<f64>>,
-        M: Scheme<Dual<f64>, S>,
+        S: System<Shape: Shape<Vector<f64> = V>>,
+        M: Scheme<S>,
     {
         /// The largest change of H, relative to the sizes of its terms.
         const LEAST: f64 = 1e-9;
@@ -413,8 +413,8 @@ impl<'a> OrbitSearch<'a> {
             let [here, there] = [(point, after), (&image, -after)]
                 .map(|(point, after)| shooting.state(point, 1, after));
             let [before, changed] =
-                [&here, &there].map(|state| System::<f64>::energy(shooting.system, state));
-            let slopes = System::<f64>::gradient(shooting.system, &here);
+                [&here, &there].map(|state| shooting.system.energy::<f64>(state));
+            let slopes = shooting.system.gradient::<f64>(&here);
             let slopes = slopes.q.components().chain(slopes.p.components());
             let size = slopes
                 .zip(point)
@@ -433,8 +433,8 @@ impl<'a> OrbitSearch<'a> {
 impl<S, M, V> Shooting<'_, S, M, V>
 where
     V: Vector<Scalar = f64>,
-    S: System<f64, Vector = V> + System<Dual<f64>>,
-    M: Scheme<Dual<f64>, S>,
+    S: System<Shape: Shape<Vector<f64> = V>>,
+    M: Scheme<S>,
 {
     /// Follows a point for half a period forwards and half a period backwards, or for a period forwards if its ends are
     /// nearer to each other.

@@ -2,7 +2,7 @@
 //!
 //! Input: nothing. Output: re-exports; [`Never`], the type of a structure that a system lacks; [`SetByNew`], a field
 //! that only `new` sets; [`window`] and [`columns`], parts of slices; traits whose names and attributes word rustc's
-//! messages ([`ArrayOf`], [`ParameterWithoutDefault`], [`AnyParameter`]); at the end the macros `__prepared`,
+//! messages ([`ArrayOf`], [`ParameterWithoutDefault`], [`AnyParameter`]); at the end the macros `__prepared`, `__gathers`,
 //! `__computed_as_chosen`, `__each`, `__halves` and `__known`, which shorten emitted code. Invariant: these names may
 //! be used by code in a crate that has neither this crate nor its dependencies in scope; if one is removed or renamed,
 //! the macro is changed with it.
@@ -19,7 +19,7 @@ pub use core::{
     result::Result,
 };
 
-pub use hamiltonian_lanes::{Dual, Lift, Mask, Pack, Real};
+pub use hamiltonian_lanes::{Dual, Mask, Pack, Parameter, Real};
 pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
@@ -47,16 +47,16 @@ pub use crate::push::Coupled;
 pub use crate::reach::{Reach, product};
 pub use crate::slabs::rows;
 pub use crate::state::{Gradient, Plain, Point, State};
-pub use crate::system::gather::{Gather, InPack, Kept, in_pack};
+pub use crate::system::gather::{InPack, Kept, in_pack};
 pub use crate::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
-    QuadraticKinetic, Separable, Split, System, Unforced,
+    QuadraticKinetic, Separable, Split, System, Unforced, VectorOf,
 };
 pub use crate::uneven::Uneven;
-pub use crate::vector::{IntoVector, Vector};
+pub use crate::vector::{IntoVector, Over, Shape, Vector};
 pub use crate::{
-    __computed_as_chosen as computed_as_chosen, __each as each, __halves as halves,
-    __known as known, __prepared as prepared,
+    __computed_as_chosen as computed_as_chosen, __each as each, __gathers as gathers,
+    __halves as halves, __known as known, __prepared as prepared,
 };
 
 /// A group of coordinates with its rank, part, offset and columns.
@@ -96,7 +96,7 @@ pub fn window<T, const N: usize>(values: &[T], start: usize) -> &[T; N] {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn describe_parameter<T: Real>(
+pub fn describe_parameter<T: fmt::Debug>(
     out: &mut dyn Write,
     name: &str,
     extents: &[usize],
@@ -288,7 +288,7 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
 
 // A constant of the user's may have the name of a variable, which would then be a pattern: variables begin with `_`.
 
-/// Declares a prepared system, a struct around the held values, and implements `Gather` for it.
+/// Declares a prepared system, a struct around the held values.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __prepared {
@@ -302,20 +302,6 @@ macro_rules! __prepared {
             #[inline(always)]
             fn data(&self) -> &Self::Data {
                 &self.0.data
-            }
-        }
-        #[automatically_derived]
-        impl $($generics)* $crate::private::Gather<T> for $name<$($arguments)* T> {
-            type Over<__U: $crate::private::Real> = $name<$($arguments)* __U>;
-            #[inline(always)]
-            fn gather<__P: $crate::private::Pack>(_of: &[&Self]) -> Self::Over<T::Over<__P>> {
-                $name($crate::private::gathered::<T, __P, _, _>(_of, |_one| &_one.0))
-            }
-            fn fits(&self, _other: &Self) -> $crate::private::bool {
-                $crate::private::LaneValue::fits(&self.0, &_other.0)
-            }
-            fn equals(&self, _other: &Self) -> $crate::private::bool {
-                self.fits(_other) && $crate::private::LaneValue::equals(&self.0, &_other.0)
             }
         }
     };
@@ -364,7 +350,7 @@ macro_rules! __computed_as_chosen {
             self.gradient(_t, _q, _p, &mut $crate::private::Vector::zeros_like(_q), _out);
         }
     };
-    ($scalar:ident, $field:ty $(, $more:ident)*) => {
+    ($scalar:ident of $system:ty, $field:ty $(, $more:ident)*) => {
         $($crate::__computed_as_chosen! { @$more $scalar })*
         type Field = $crate::private::FieldOf<Self, $field, $scalar>;
         #[inline(always)]
@@ -401,7 +387,35 @@ macro_rules! __computed_as_chosen {
             _kept: &mut $crate::private::Kept,
             _kernel: __K,
         ) -> $crate::private::Option<__K::Output> {
-            $crate::private::in_pack(self, _kept, _kernel)
+            $crate::private::in_pack::<$scalar, $system, __P, __K>(self, _kept, _kernel)
+        }
+    };
+}
+
+/// The type of what a system prepares, and its placement in lanes.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __gathers {
+    ($prepared:ident $($arguments:tt)*) => {
+        type Prepared<T: $crate::private::Real> = $prepared $($arguments)*;
+        #[inline(always)]
+        fn gather<T: $crate::private::Real, __P: $crate::private::Pack>(
+            _of: &[&Self::Prepared<T>],
+        ) -> Self::Prepared<T::Over<__P>> {
+            $prepared($crate::private::gathered::<T, __P, _, _>(_of, |_one| &_one.0))
+        }
+        fn fits<T: $crate::private::Real>(
+            _a: &Self::Prepared<T>,
+            _b: &Self::Prepared<T>,
+        ) -> $crate::private::bool {
+            $crate::private::LaneValue::<T>::fits(&_a.0, &_b.0)
+        }
+        fn equals<T: $crate::private::Real>(
+            _a: &Self::Prepared<T>,
+            _b: &Self::Prepared<T>,
+        ) -> $crate::private::bool {
+            $crate::private::LaneValue::<T>::fits(&_a.0, &_b.0)
+                && $crate::private::LaneValue::<T>::equals(&_a.0, &_b.0)
         }
     };
 }
@@ -435,11 +449,17 @@ macro_rules! __halves {
         const JUMPING: [$crate::private::bool; 2] = [$first, $second];
     };
     (@Separable [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
-        $($impl)* $crate::private::Separable<T> for $system {
-            type Kick = $kick;
-            const KICK: $kick = $crate::private::Kernel::PIECE;
-            type Drift = $drift;
-            const DRIFT: $drift = $crate::private::Kernel::PIECE;
+        $($impl)* $crate::private::Separable for $system {
+            type Kick<T: $crate::private::Real> = $kick;
+            #[inline(always)]
+            fn kick<T: $crate::private::Real>() -> $kick {
+                $crate::private::Kernel::PIECE
+            }
+            type Drift<T: $crate::private::Real> = $drift;
+            #[inline(always)]
+            fn drift<T: $crate::private::Real>() -> $drift {
+                $crate::private::Kernel::PIECE
+            }
             $crate::__halves! { @jumping $($jumping)* }
         }
     };
@@ -448,18 +468,27 @@ macro_rules! __halves {
         $crate::__halves! { @Split [false true] $impl $system, $drift, $kick }
     };
     (@Split [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $first:ty, $second:ty) => {
-        $($impl)* $crate::private::Split<T> for $system {
-            type Pieces = ($first, $second);
-            const PIECES: Self::Pieces = ($crate::private::Kernel::PIECE, $crate::private::Kernel::PIECE);
+        $($impl)* $crate::private::Split for $system {
+            type Pieces<T: $crate::private::Real> = ($first, $second);
+            #[inline(always)]
+            fn pieces<T: $crate::private::Real>() -> Self::Pieces<T> {
+                ($crate::private::Kernel::PIECE, $crate::private::Kernel::PIECE)
+            }
             $crate::__halves! { @jumping $($jumping)* }
         }
     };
     (@Nystrom [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
-        $($impl)* $crate::private::Nystrom<T> for $system {
-            type Kick = $kick;
-            const KICK: $kick = $crate::private::Kernel::PIECE;
-            type Quadratic = $drift;
-            const QUADRATIC: $drift = $crate::private::Kernel::PIECE;
+        $($impl)* $crate::private::Nystrom for $system {
+            type Kick<T: $crate::private::Real> = $kick;
+            #[inline(always)]
+            fn kick<T: $crate::private::Real>() -> $kick {
+                $crate::private::Kernel::PIECE
+            }
+            type Quadratic<T: $crate::private::Real> = $drift;
+            #[inline(always)]
+            fn quadratic<T: $crate::private::Real>() -> $drift {
+                $crate::private::Kernel::PIECE
+            }
             $crate::__halves! { @jumping $($jumping)* }
         }
     };
@@ -504,7 +533,7 @@ macro_rules! __known {
         $($impl)* $system {
             $(/// The pieces of H with exact flows, the outermost first.
             $visibility const $names: &'static [&'static $crate::private::str] =
-                <Self as $crate::private::Split<$crate::private::f64>>::NAMES;)?
+                <Self as $crate::private::Split>::NAMES;)?
             /// H in LaTeX.
             $visibility const LATEX: &'static $crate::private::str = $latex;
             /// Hamilton's equations in LaTeX, one a line.

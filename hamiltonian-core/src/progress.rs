@@ -68,7 +68,7 @@ impl Progress {
     }
 }
 
-impl<T: Real, S: System<T>> Observer<T, S> for Progress {
+impl<T: Real, S: System> Observer<T, S> for Progress {
     fn interval(&self) -> u64 {
         self.interval
     }

@@ -8,8 +8,9 @@ use crate::error::{CheckpointError, Error};
 use crate::integrator::Recipe;
 use crate::integrator::{Integrator, MapOf, formula, parameters};
 use crate::map::Clock;
+use crate::map::Map;
 use crate::observe::Observer;
-use crate::scheme::Scheme;
+use crate::scheme::{CarriedBy, Scheme};
 use crate::state::State;
 use crate::system::{Arithmetic, Dynamics, System};
 use crate::vector::Vector;
@@ -23,7 +24,7 @@ const FUSED: u64 = 2;
 /// Lanes are not used.
 const SCALAR: u64 = 4;
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// Returns a checkpoint of the run and the data of its observers. Closures have no data.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
@@ -52,7 +53,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
 }
 
 #[cfg(feature = "std")]
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Saves the run to `path` after every `steps` steps (0 counts as 1), counted from its start,
     /// after observers have received the state. A file is replaced when the new one is complete.
     ///
@@ -81,7 +82,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     }
 }
 
-impl<S: System<f64>, R: MapOf<f64, S>> Integrator<f64, S, R> {
+impl<S: System, R: MapOf<f64, S>> Integrator<f64, S, R> {
     /// Resumes a saved run with the same bits, also in another process of the same binary (for a
     /// [`fused`](Integrator::fused) run, on the same kind of processor). Attach its observers in
     /// the same order by [`observe`](Integrator::observe) and [`watch`](Integrator::watch); their
@@ -106,26 +107,32 @@ impl<S: System<f64>, R: MapOf<f64, S>> Integrator<f64, S, R> {
     /// # Errors
     /// [`CheckpointError::Other`] for another system, another parameter, scheme or scalar;
     /// [`CheckpointError::Damaged`] for numbers that do not fit.
-    pub fn resume<M: Scheme<f64, S, Map = R>>(
+    pub fn resume<M: Scheme<S, Map<f64> = R>>(
         system: &S,
         scheme: M,
         checkpoint: Checkpoint,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, Error>
+    where
+        R: Map<Carried = CarriedBy<M, S>>,
+    {
         Self::resume_over(system, scheme, checkpoint)
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
+impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
     /// Resumes a saved run over another scalar, `Integrator::<DoubleDouble, _, _>::resume_over(…)`,
     /// like [`resume`](Integrator::resume).
     ///
     /// # Errors
     /// Those of [`resume`](Integrator::resume).
-    pub fn resume_over<M: Scheme<T, S, Map = R>>(
+    pub fn resume_over<M: Scheme<S, Map<T> = R>>(
         system: &S,
         scheme: M,
         checkpoint: Checkpoint,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, Error>
+    where
+        R: Map<Carried = CarriedBy<M, S, T>>,
+    {
         let zeros = system.zeros();
         Checkpoint::same("system", &checkpoint.system, &formula::<T, S>(&zeros))?;
         Checkpoint::same("parameter", &checkpoint.parameters, &parameters(system))?;

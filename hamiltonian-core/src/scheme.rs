@@ -6,8 +6,8 @@
 
 use crate::error::Error;
 use crate::map::{Map, Step};
-use crate::state::{Carried, State};
-use crate::system::System;
+use crate::state::{CarriedShape, State};
+use crate::system::{System, VectorOf};
 use core::fmt::Debug;
 use hamiltonian_lanes::Real;
 
@@ -90,28 +90,52 @@ pub trait Listed: Clone + Debug + Send + Sync + 'static {
     fn entry(&self) -> Entry;
 }
 
-/// A scheme for the system `S` over the scalar `T`.
+/// What the scheme `M` carries from step to step of the system `S` over a scalar.
+pub type CarriedBy<M, S, T = f64> =
+    <<M as Scheme<S>>::Carried as CarriedShape<<S as System>::Shape>>::Of<T>;
+
+/// A scheme for the system `S`, over every scalar.
 ///
 /// The bounds of the implementation state what the scheme requires of a system, so a wrong pairing is a
-/// compile error in the call that makes the run.
-pub trait Scheme<T: Real, S: System<T>>: Listed {
+/// compile error in the call that makes the run. Code that is generic over systems and schemes needs these bounds only:
+///
+/// ```
+/// use hamiltonian::{Separable, prelude::*};
+#[doc = include_str!("doc/oscillator.md")]
+///
+/// fn study<S: Separable, M: Scheme<S>>(system: &S, scheme: M, start: StateOf<S>) -> Result<f64, Error> {
+///     let run = Integrator::new(system, scheme.clone(), start.clone(), 0.01)?;
+///     let mut run = run.observe(EnergyDrift::new());
+///     run.advance(100)?;
+///     // A run over dual numbers for each deviation.
+///     let matrix = monodromy(system, scheme, start, 1.0, 100)?;
+///     assert!(symplectic_defect(&matrix) < 1e-9);
+///     Ok(run.observer().max_relative())
+/// }
+/// assert!(study(&Oscillator {}, Yoshida4, State::new([1.0], [0.0]))? < 1e-8);
+/// # Ok::<(), Error>(())
+/// ```
+pub trait Scheme<S: System>: Listed {
+    /// What is carried from step to step, over each scalar: the [`Point`](crate::schemes::author::Point) of most
+    /// schemes is `Point<S::Shape>` here.
+    type Carried: CarriedShape<S::Shape>;
     /// The map: the scheme with the system's flows and all coefficients folded in.
-    type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;
+    type Map<T: Real>: Map<Carried = CarriedBy<Self, S, T>>;
     /// Folds the step into the flows. This does not allocate.
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map;
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T>;
     /// One step of size `h` from `t` to `end`, with the bits of [`Map::step`] of the map for this step. [`Paced`]
     /// calls it in each step. The provided method prepares the map. A splitting of several stages makes each flow where
     /// it applies it, by [`Zigzag::once`](crate::schemes::author::Zigzag::once), which stores no stages.
     ///
     /// [`Paced`]: crate::schemes::Paced
     #[inline(always)]
-    fn step(
+    fn step<T: Real>(
         &self,
-        prepared: &S::Prepared,
+        prepared: &S::Prepared<T>,
         h: T,
         [t, end]: [T; 2],
-        z: &mut <Self::Map as Map>::Carried,
-        work: &mut <Self::Map as Map>::Work,
+        z: &mut CarriedBy<Self, S, T>,
+        work: &mut <Self::Map<T> as Map>::Work,
     ) {
         self.prepare(prepared, Step::of(h)).step(t, end, z, work);
     }
@@ -126,38 +150,38 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
     ///
     /// # Errors
     /// [`Error::MonitorOfMomenta`].
-    fn check(&self, _: &S::Prepared, _: &State<S::Vector>) -> Result<(), Error> {
+    fn check<T: Real>(&self, _: &S::Prepared<T>, _: &State<VectorOf<S, T>>) -> Result<(), Error> {
         Ok(())
     }
     /// Prepares a map that follows a step of `before`, a scheme with other settings: the closing
     /// piece that [`Map::join`] absorbs is that of `before`. `None` if the two cannot be joined.
     #[inline(always)]
-    fn prepare_after(
+    fn prepare_after<T: Real>(
         &self,
         before: &Self,
-        prepared: &S::Prepared,
+        prepared: &S::Prepared<T>,
         step: Step<T>,
-    ) -> Option<Self::Map>
+    ) -> Option<Self::Map<T>>
     where
         Self: OneStep,
     {
         (self == before).then(|| self.prepare(prepared, step))
     }
     /// The carried value at the beginning of steps of size `h` from a state.
-    fn start(
+    fn start<T: Real>(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> <Self::Map as Map>::Carried;
+    ) -> CarriedBy<Self, S, T>;
     /// The carried value for a single step, a part of a step of a run: a second point that the
     /// scheme's own start computes to first order is computed to second order here.
-    fn start_alone(
+    fn start_alone<T: Real>(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> <Self::Map as Map>::Carried {
+    ) -> CarriedBy<Self, S, T> {
         self.start(prepared, state, h)
     }
 }

@@ -22,7 +22,7 @@ mod search;
 use crate::error::Error;
 use crate::integrator::check_state;
 use crate::state::State;
-use crate::system::{Dynamics, Group, System};
+use crate::system::{Dynamics, Group, System, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 use search::{EnergySample, FINEST, MomentumSearch, polished};
@@ -61,13 +61,13 @@ pub struct Section {
 /// # Errors
 /// [`Error::NoMomentum`] if H = E for no value (beyond a turning point), with the value of H
 /// nearest to E; [`Error::Shape`], [`Error::Component`], [`Error::Start`].
-pub fn momentum_from_energy<T: Real, S: System<T>>(
+pub fn momentum_from_energy<T: Real, S: System>(
     system: &S,
-    state: &State<S::Vector>,
+    state: &State<VectorOf<S, T>>,
     momentum: usize,
     energy: T,
     branch: Branch,
-) -> Result<State<S::Vector>, Error> {
+) -> Result<State<VectorOf<S, T>>, Error> {
     check_state(system, state)?;
     check_component(momentum, state.p.len())?;
     let prepared = system.prepare();
@@ -91,12 +91,12 @@ pub fn momentum_from_energy<T: Real, S: System<T>>(
 /// # Errors
 /// [`Error::NoCrossing`] if none was found; [`Error::Observable`], [`Error::Shape`],
 /// [`Error::Component`], [`Error::Start`].
-pub fn coordinate_on_event<T: Real, S: System<T>>(
+pub fn coordinate_on_event<T: Real, S: System>(
     system: &S,
-    state: &State<S::Vector>,
+    state: &State<VectorOf<S, T>>,
     event: usize,
     coordinate: usize,
-) -> Result<State<S::Vector>, Error> {
+) -> Result<State<VectorOf<S, T>>, Error> {
     check_state(system, state)?;
     if event >= S::OBSERVABLES.len() {
         return Err(Error::Observable {
@@ -122,13 +122,13 @@ pub fn coordinate_on_event<T: Real, S: System<T>>(
 ///
 /// # Errors
 /// Those of [`momentum_from_energy`] and [`coordinate_on_event`].
-pub fn on_section<T: Real, S: System<T>>(
+pub fn on_section<T: Real, S: System>(
     system: &S,
-    state: &State<S::Vector>,
+    state: &State<VectorOf<S, T>>,
     section: Section,
     energy: T,
     branch: Branch,
-) -> Result<State<S::Vector>, Error> {
+) -> Result<State<VectorOf<S, T>>, Error> {
     let Section {
         event,
         coordinate,
@@ -137,7 +137,7 @@ pub fn on_section<T: Real, S: System<T>>(
     check_component(momentum, state.p.len())?;
     let placed = coordinate_on_event(system, state, event, coordinate)?;
     let prepared = system.prepare();
-    let value = |s: &State<S::Vector>| prepared.observable(event, s.t, &s.q, &s.p);
+    let value = |s: &State<VectorOf<S, T>>| prepared.observable(event, s.t, &s.q, &s.p);
     let solved = momentum_from_energy(system, &placed, momentum, energy, branch);
     if let Ok(solved) = &solved
         && value(solved).equals(value(&placed)).all()
@@ -333,11 +333,7 @@ fn check_component(index: usize, count: usize) -> Result<(), Error> {
     }
 }
 
-fn no_momentum<T: Real, S: System<T>>(
-    momentum: usize,
-    energy: T,
-    closest: &EnergySample<T>,
-) -> Error {
+fn no_momentum<T: Real, S: System>(momentum: usize, energy: T, closest: &EnergySample<T>) -> Error {
     Error::NoMomentum {
         name: name::<T, S>(momentum, |group| group.momentum),
         index: momentum,
@@ -347,10 +343,10 @@ fn no_momentum<T: Real, S: System<T>>(
     }
 }
 
-fn no_crossing<T: Real, S: System<T>>(
+fn no_crossing<T: Real, S: System>(
     event: usize,
     coordinate: usize,
-    state: &State<S::Vector>,
+    state: &State<VectorOf<S, T>>,
     value: T,
 ) -> Error {
     Error::NoCrossing {
@@ -364,11 +360,8 @@ fn no_crossing<T: Real, S: System<T>>(
 
 /// The name of the group a component of a system with one part belongs to; empty where the
 /// components are in several parts.
-fn name<T: Real, S: System<T>>(
-    index: usize,
-    name: impl Fn(&Group) -> &'static str,
-) -> &'static str {
-    if S::Vector::PARTS > 1 {
+fn name<T: Real, S: System>(index: usize, name: impl Fn(&Group) -> &'static str) -> &'static str {
+    if <VectorOf<S, T> as Vector>::PARTS > 1 {
         return "";
     }
     S::GROUPS

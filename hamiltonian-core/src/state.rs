@@ -5,7 +5,7 @@
 //! is checked where a run begins.
 
 use crate::error::Error;
-use crate::vector::{IntoVector, Vector};
+use crate::vector::{IntoVector, Over, Shape, Vector};
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
@@ -129,7 +129,7 @@ mod sealed {
 ///
 /// It is a [`Vector`] itself, its parts those of `q`, then those of `p`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point<V: Vector> {
+pub struct Point<V> {
     /// Coordinates.
     pub q: V,
     /// Momenta.
@@ -138,18 +138,22 @@ pub struct Point<V: Vector> {
 
 /// Two vectors over one scalar as one: the parts of `x`, then those of `y`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pair<X: Vector, Y: Vector<Scalar = X::Scalar>> {
+pub struct Pair<X, Y> {
     /// The first.
     pub x: X,
     /// The second.
     pub y: Y,
 }
 
+impl<H: Shape> Shape for Point<H> {
+    type Vector<T: Real> = Point<H::Vector<T>>;
+}
+
 impl<V: Vector> Vector for Point<V> {
     type Scalar = V::Scalar;
-    type Over<U: Real> = Point<V::Over<U>>;
+    type Shape = Point<V::Shape>;
     #[inline(always)]
-    fn zeros_over<U: Real>(&self) -> Point<V::Over<U>> {
+    fn zeros_over<U: Real>(&self) -> Point<Over<V, U>> {
         Point {
             q: self.q.zeros_over(),
             p: self.p.zeros_over(),
@@ -187,11 +191,15 @@ impl<V: Vector> Vector for Point<V> {
     }
 }
 
+impl<X: Shape, Y: Shape> Shape for Pair<X, Y> {
+    type Vector<T: Real> = Pair<X::Vector<T>, Y::Vector<T>>;
+}
+
 impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
     type Scalar = X::Scalar;
-    type Over<U: Real> = Pair<X::Over<U>, Y::Over<U>>;
+    type Shape = Pair<X::Shape, Y::Shape>;
     #[inline(always)]
-    fn zeros_over<U: Real>(&self) -> Pair<X::Over<U>, Y::Over<U>> {
+    fn zeros_over<U: Real>(&self) -> Pair<Over<X, U>, Over<Y, U>> {
         Pair {
             x: self.x.zeros_over(),
             y: self.y.zeros_over(),
@@ -353,6 +361,21 @@ impl<V: Vector, Y: Vector<Scalar = V::Scalar>> Carried for Pair<Point<V>, Y> {
     fn point(&self) -> &Point<V> {
         &self.x
     }
+}
+
+/// The shape of what a scheme carries for a system of the shape `H`: a [`Carried`] over each scalar. It is named as
+/// vectors are, with the shape in their place: `Point<S::Shape>`, `Pair<Point<S::Shape>, S::Shape>`.
+pub trait CarriedShape<H: Shape>: 'static {
+    /// What is carried over a scalar.
+    type Of<T: Real>: Carried<Scalar = T, Vector = H::Vector<T>>;
+}
+
+impl<H: Shape> CarriedShape<H> for Point<H> {
+    type Of<T: Real> = Point<H::Vector<T>>;
+}
+
+impl<H: Shape, Y: Shape> CarriedShape<H> for Pair<Point<H>, Y> {
+    type Of<T: Real> = Pair<Point<H::Vector<T>>, Y::Vector<T>>;
 }
 
 /// ∂H/∂q and ∂H/∂p.

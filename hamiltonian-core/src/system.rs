@@ -12,7 +12,7 @@ pub mod gather;
 
 use crate::state::{Gradient, Point, State};
 use crate::uneven::same_part;
-use crate::vector::Vector;
+use crate::vector::{Shape, Vector};
 use gather::{InPack, Kept};
 use hamiltonian_lanes::{Dual, Pack, Real};
 
@@ -55,20 +55,97 @@ pub struct Observable {
     pub depends_on_time: bool,
 }
 
-/// A Hamiltonian H(q, p, t) with its parameters, over the state scalar `T`.
+/// The coordinates of a system over a scalar, and its momenta, which have the same shape.
+pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
+
+/// A Hamiltonian H(q, p, t) with its parameters, over every scalar of states: `f64`, dual numbers, lanes of packs.
 ///
-/// Signs: q̇ = ∂H/∂p, ṗ = −∂H/∂q. Units are the caller's.
+/// Signs: q̇ = ∂H/∂p, ṗ = −∂H/∂q. Units are the caller's. A bound `S: System` serves every scalar; a parameter may be
+/// of any type that is a [`Parameter`](crate::lanes::Parameter).
+///
+/// The macro implements it for every definition. A system written by hand is generic over its scalar too:
+///
+/// ```
+/// use hamiltonian::{Unforced, VectorOf, schemes::author::{Dynamics, Group, InPack, Kept, VectorField, gather}};
+/// use hamiltonian::lanes::Pack;
+/// use hamiltonian::nalgebra::SVector;
+/// use hamiltonian::prelude::*;
+///
+/// /// H = ½(p² + ω²q²)
+/// struct Spring {
+///     omega: f64,
+/// }
+/// /// It, prepared.
+/// #[derive(Debug, Clone)]
+/// struct Ready<T> {
+///     omega_squared: T,
+/// }
+///
+/// impl System for Spring {
+///     type Shape = SVector<(), 1>;
+///     type Prepared<T: Real> = Ready<T>;
+///     const NAME: &'static str = "Spring";
+///     const GROUPS: &'static [Group] =
+///         &[Group { coordinate: "q", momentum: "p", rank: 0, part: 0, offset: 0, columns: 1 }];
+///     fn prepare<T: Real>(&self) -> Ready<T> {
+///         Ready { omega_squared: T::constant(self.omega * self.omega, 0.0) }
+///     }
+///     fn zeros<T: Real>(&self) -> SVector<T, 1> {
+///         SVector::from_element(T::zero())
+///     }
+///     fn gather<T: Real, P: Pack>(members: &[&Ready<T>]) -> Ready<T::Over<P>> {
+///         Ready { omega_squared: gather::number::<T, P, _>(members, |one| one.omega_squared) }
+///     }
+///     fn fits<T: Real>(_: &Ready<T>, _: &Ready<T>) -> bool {
+///         true // no sizes that could differ
+///     }
+///     fn equals<T: Real>(a: &Ready<T>, b: &Ready<T>) -> bool {
+///         a.omega_squared == b.omega_squared
+///     }
+/// }
+/// impl Unforced for Spring {}
+/// # impl<T: Real> Dynamics<T> for Ready<T> {
+/// #     type Vector = SVector<T, 1>;
+/// #     type Field = (Self, T);
+/// #     fn energy(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> T { (p[0] * p[0] + self.omega_squared * q[0] * q[0]) * T::constant(0.5, 0.0) }
+/// #     fn gradient_q(&self, _: T, q: &SVector<T, 1>, _: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = self.omega_squared * q[0]; }
+/// #     fn gradient_p(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = p[0]; }
+/// #     fn time_derivative(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
+/// #     fn hessian_vector(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, vq: &SVector<T, 1>, vp: &SVector<T, 1>, out_q: &mut SVector<T, 1>, out_p: &mut SVector<T, 1>) { out_q[0] = self.omega_squared * vq[0]; out_p[0] = vp[0]; }
+/// #     fn field(&self, c: T) -> (Self, T) { (self.clone(), c) }
+/// #     fn in_pack<P: Pack, K: InPack<T, SVector<T, 1>, P>>(&self, kept: &mut Kept, kernel: K) -> Option<K::Output> {
+/// #         gather::in_pack::<T, Spring, P, K>(self, kept, kernel)
+/// #     }
+/// # }
+/// # impl<T: Real> VectorField<SVector<T, 1>> for (Ready<T>, T) {
+/// #     fn add(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>, into_q: &mut SVector<T, 1>, into_p: &mut SVector<T, 1>) {
+/// #         into_q[0] += self.1 * p[0];
+/// #         into_p[0] -= self.1 * self.0.omega_squared * q[0];
+/// #     }
+/// # }
+///
+/// let start = |member: Member| {
+///     let omega = 1.0 + member.index as f64;
+///     (Spring { omega }, State::new([1.0], [0.0]))
+/// };
+/// let mut springs = Ensemble::new(3, start, Gauss::<2>::default(), 0.01)?;
+/// springs.advance(100);
+/// for (state, omega) in springs.states().zip([1.0, 2.0, 3.0]) {
+///     assert!((state?.q[0] - f64::cos(omega)).abs() < 1e-6);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a Hamiltonian system",
     label = "expected a system of `hamiltonian!`",
-    note = "in generic code bound it by what is used: `S: System<f64>` for energies and gradients, and what the scheme requires, such as `S: Separable<f64>` or `S: Split<f64>`, for a run",
+    note = "in generic code bound it by what is used: `S: System` for energies and gradients, and what the scheme requires, such as `S: Separable` or `S: Split`, for a run",
     note = "`new` of a system whose sizes are set at run time returns a `Result`: write `Name::new(…)?`"
 )]
-pub trait System<T: Real> {
-    /// The type of the coordinates, and of the momenta, which have the same shape.
-    type Vector: Vector<Scalar = T>;
-    /// The prepared system, with all that depends on parameters alone computed.
-    type Prepared: Dynamics<T, Vector = Self::Vector>;
+pub trait System {
+    /// The shape of the coordinates, and of the momenta: `SVector<(), 2>` for coordinates `SVector<T, 2>` over `T`.
+    type Shape: Shape;
+    /// The prepared system over a scalar, with all that depends on parameters alone computed.
+    type Prepared<T: Real>: Dynamics<T, Vector = VectorOf<Self, T>> + Send + Sync + 'static;
 
     /// The name of the system (of the type for item form, `H` for expression form).
     const NAME: &'static str;
@@ -108,9 +185,17 @@ pub trait System<T: Real> {
     }
 
     /// Does all work that depends on parameters alone.
-    fn prepare(&self) -> Self::Prepared;
+    fn prepare<T: Real>(&self) -> Self::Prepared<T>;
     /// The zero vector of this system's shape.
-    fn zeros(&self) -> Self::Vector;
+    fn zeros<T: Real>(&self) -> VectorOf<Self, T>;
+
+    /// One prepared system with member k in lane k of the pack, and the last in the lanes that are left. There are at
+    /// least one and at most [`MOST`](gather::MOST) members, and all of them [fit](System::fits) the first.
+    fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>>;
+    /// Returns true if both may be in one pack: sizes set at run time are equal.
+    fn fits<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool;
+    /// Returns true if every parameter is equal in both.
+    fn equals<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool;
 
     /// Checks that a state has the shape of the system. With sizes set at run time, a state of another length has the
     /// same type, and evaluation on it panics. Runs and starts make this check once.
@@ -118,7 +203,7 @@ pub trait System<T: Real> {
     /// # Errors
     /// [`Error::Shape`] with the first coordinate or momentum of another length, [`Error::Extent`] with the
     /// first axis of another extent, [`Error::Row`] with a row of another length than others.
-    fn check_shape(&self, state: &State<Self::Vector>) -> Result<(), Error> {
+    fn check_shape<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> Result<(), Error> {
         let zeros = self.zeros();
         let coordinates = Self::GROUPS.iter().map(|g| (g.part, g.coordinate));
         same_shape(coordinates, &zeros, &state.q)?;
@@ -127,16 +212,16 @@ pub trait System<T: Real> {
     }
 
     /// H at a state.
-    fn energy(&self, state: &State<Self::Vector>) -> T {
-        self.prepare().energy(state.t, &state.q, &state.p)
+    fn energy<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> T {
+        self.prepare::<T>().energy(state.t, &state.q, &state.p)
     }
     /// ∂H/∂q and ∂H/∂p at a state.
-    fn gradient(&self, state: &State<Self::Vector>) -> Gradient<Self::Vector> {
+    fn gradient<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> Gradient<VectorOf<Self, T>> {
         let mut gradient = Gradient {
             q: self.zeros(),
             p: self.zeros(),
         };
-        self.prepare().gradient(
+        self.prepare::<T>().gradient(
             state.t,
             &state.q,
             &state.p,
@@ -147,9 +232,9 @@ pub trait System<T: Real> {
     }
 
     /// The force f on the momenta at a state, dp/dt = −∂H/∂q + f; zero if there is none.
-    fn force_at(&self, state: &State<Self::Vector>) -> Self::Vector {
+    fn force_at<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> VectorOf<Self, T> {
         let mut force = self.zeros();
-        let prepared = self.prepare();
+        let prepared = self.prepare::<T>();
         prepared.force(state.t, &state.q, &state.p, &mut force);
         force
     }
@@ -171,26 +256,23 @@ pub trait System<T: Real> {
     /// // The oscillator declares none.
     /// assert_eq!(oscillator.observable_named("height", &state), None);
     /// ```
-    fn observable_named(&self, name: &str, state: &State<Self::Vector>) -> Option<T> {
+    fn observable_named<T: Real>(&self, name: &str, state: &State<VectorOf<Self, T>>) -> Option<T> {
         let index = Self::observable_index(name)?;
-        let prepared = self.prepare();
+        let prepared = self.prepare::<T>();
         Some(prepared.observable(index, state.t, &state.q, &state.p))
     }
 
     /// The derivatives of the observable of that name by all coordinates and momenta at a state; `None` if there is
     /// none. The observable is evaluated over dual numbers, once for each coordinate and momentum.
-    fn observable_gradient(
+    fn observable_gradient<T: Real>(
         &self,
         name: &str,
-        state: &State<<Self as System<T>>::Vector>,
-    ) -> Option<Gradient<<Self as System<T>>::Vector>>
-    where
-        Self: System<Dual<T>>,
-    {
-        let index = <Self as System<T>>::observable_index(name)?;
-        let prepared = <Self as System<Dual<T>>>::prepare(self);
-        let dual = |from: &<Self as System<T>>::Vector| {
-            let mut to = <Self as System<Dual<T>>>::zeros(self);
+        state: &State<VectorOf<Self, T>>,
+    ) -> Option<Gradient<VectorOf<Self, T>>> {
+        let index = Self::observable_index(name)?;
+        let prepared = self.prepare::<Dual<T>>();
+        let dual = |from: &VectorOf<Self, T>| {
+            let mut to = self.zeros::<Dual<T>>();
             for i in 0..from.len() {
                 *to.component_mut(i) = Dual::fixed(from.component(i));
             }
@@ -336,11 +418,9 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
 
     /// Runs a kernel with this system in all lanes of the pack `P`, for
     /// [`gather::in_lanes`](crate::schemes::author::gather::in_lanes). The provided method, for systems written by
-    /// hand, runs nothing and returns `None`: they stay scalar. With [`Gather`] it is
-    /// [`gather::in_pack`](crate::schemes::author::gather::in_pack)`(self, kept, kernel)`. `kept` is memory of the
-    /// caller's.
-    ///
-    /// [`Gather`]: crate::schemes::author::Gather
+    /// hand, runs nothing and returns `None`: they stay scalar. For the prepared system of an `S: System` it may be
+    /// [`gather::in_pack`](crate::schemes::author::gather::in_pack)`::<T, S, P, K>(self, kept, kernel)`. `kept` is memory
+    /// of the caller's.
     #[inline(always)]
     fn in_pack<P: Pack, K: InPack<T, Self::Vector, P>>(
         &self,
@@ -352,26 +432,26 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
 }
 
 /// The name of the time of a run: `t`, in another time the one that it has there.
-pub(crate) fn clock<T: Real, S: System<T>>() -> &'static str {
+pub(crate) fn clock<S: System>() -> &'static str {
     S::FICTITIOUS_TIME.unwrap_or("t")
 }
 
 /// The declared H at a state: in another time, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
 #[inline(always)]
-pub(crate) fn declared_energy<T: Real, S: System<T>>(
-    prepared: &S::Prepared,
-    state: &State<S::Vector>,
+pub(crate) fn declared_energy<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
+    state: &State<VectorOf<S, T>>,
 ) -> T {
     declared_energy_at::<T, S>(prepared, state.t, &state.q, &state.p)
 }
 
 /// See [`declared_energy`].
 #[inline(always)]
-pub(crate) fn declared_energy_at<T: Real, S: System<T>>(
-    prepared: &S::Prepared,
+pub(crate) fn declared_energy_at<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
     t: T,
-    q: &S::Vector,
-    p: &S::Vector,
+    q: &VectorOf<S, T>,
+    p: &VectorOf<S, T>,
 ) -> T {
     let energy = prepared.energy(t, q, p);
     let Some(last) = p.len().checked_sub(1) else {
@@ -393,16 +473,17 @@ pub(crate) fn declared_energy_at<T: Real, S: System<T>>(
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to split into pieces with exact flows",
     label = "this scheme composes the flows of pieces of H",
-    note = "in generic code bound the system, `S: Split<{T}>`; every `S: Separable<{T}>` splits too",
+    note = "in generic code bound the system, `S: Split`; every `S: Separable` splits too",
     note = "a system written by hand implements `Split`"
 )]
-pub trait Split<T: Real>: System<T> {
+pub trait Split: System {
     /// The pieces, the outermost first.
-    type Pieces: Pieces<T, Self::Prepared, Point = Point<Self::Vector>>;
+    type Pieces<T: Real>: Pieces<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
     /// The pieces.
-    const PIECES: Self::Pieces;
+    fn pieces<T: Real>() -> Self::Pieces<T>;
     /// The pieces as text, in the same order.
-    const NAMES: &'static [&'static str] = <Self::Pieces as Pieces<T, Self::Prepared>>::NAMES;
+    const NAMES: &'static [&'static str] =
+        <Self::Pieces<f64> as Pieces<f64, Self::Prepared<f64>>>::NAMES;
     /// [`JUMPS`](System::JUMPS) of the first piece, and of the others. The macro puts a piece first that does not jump.
     const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
@@ -411,18 +492,18 @@ pub trait Split<T: Real>: System<T> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be separable",
     label = "this scheme takes H = T(p, t) + V(q, t)",
-    note = "in generic code bound the system, `S: Separable<{T}>`",
+    note = "in generic code bound the system, `S: Separable`",
     note = "a system written by hand implements `Separable`"
 )]
-pub trait Separable<T: Real>: System<T> {
+pub trait Separable: System {
     /// V: its flow is `p −= c·∂V/∂q(q, t)`; with a force, `p += c·(f − ∂V/∂q)`.
-    type Kick: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    type Kick<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
     /// T: its flow is `q += c·∂T/∂p(p, t)`.
-    type Drift: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    type Drift<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
     /// The kick.
-    const KICK: Self::Kick;
+    fn kick<T: Real>() -> Self::Kick<T>;
     /// The drift.
-    const DRIFT: Self::Drift;
+    fn drift<T: Real>() -> Self::Drift<T>;
     /// [`JUMPS`](System::JUMPS) of the kick, and of the drift.
     const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
@@ -436,18 +517,18 @@ pub trait Separable<T: Real>: System<T> {
 #[diagnostic::on_unimplemented(
     message = "H of `{Self}` is not known to be at most quadratic in p beside V(q, t)",
     label = "this scheme takes H = A(q, p) + V(q, t), with A at most quadratic in p",
-    note = "in generic code bound the system, `S: Nystrom<{T}>`",
+    note = "in generic code bound the system, `S: Nystrom`",
     note = "a system written by hand implements `Nystrom`"
 )]
-pub trait Nystrom<T: Real>: System<T> {
+pub trait Nystrom: System {
     /// V: its flow is `p −= c·∂V/∂q(q, t)`.
-    type Kick: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    type Kick<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
     /// A.
-    type Quadratic: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    type Quadratic<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
     /// The kick.
-    const KICK: Self::Kick;
+    fn kick<T: Real>() -> Self::Kick<T>;
     /// The piece that is at most quadratic in p.
-    const QUADRATIC: Self::Quadratic;
+    fn quadratic<T: Real>() -> Self::Quadratic<T>;
     /// [`JUMPS`](System::JUMPS) of the kick, and of the other piece.
     const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }

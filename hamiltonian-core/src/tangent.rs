@@ -10,9 +10,10 @@ mod megno;
 
 use crate::error::Error;
 use crate::integrator::{Integrator, MapOf};
-use crate::scheme::Scheme;
+use crate::map::Map;
+use crate::scheme::{CarriedBy, Scheme};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use crate::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Dual, Real};
@@ -41,12 +42,12 @@ pub(crate) use megno::Megno;
 /// assert!(symplectic_defect(&matrix) < 1e-9);
 /// # Ok::<(), Error>(())
 /// ```
-pub struct Tangent<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> {
+pub struct Tangent<T: Real, S: System, R: MapOf<Dual<T>, S>> {
     /// The runs, one for each deviation; their values are those of the first.
     runs: Vec<Integrator<Dual<T>, S, R>>,
 }
 
-impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
+impl<T: Real, S: System, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// Creates a run of `scheme` on `system` from `start` with the step size `step`, with `deviations` deviations.
     /// The whole derivative of the map needs as many as there are coordinates and momenta.
     ///
@@ -56,13 +57,13 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     pub fn new<M>(
         system: &S,
         scheme: M,
-        start: State<<S as System<T>>::Vector>,
+        start: State<VectorOf<S, T>>,
         step: T,
         deviations: usize,
     ) -> Result<Self, Error>
     where
-        S: System<T>,
-        M: Scheme<Dual<T>, S, Map = R>,
+        M: Scheme<S, Map<Dual<T>> = R>,
+        R: Map<Carried = CarriedBy<M, S, Dual<T>>>,
     {
         let lifted = lifted::<T, S>(system, &start)?;
         check_deviations(deviations, lifted.q.len())?;
@@ -96,7 +97,7 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     }
 
     /// The current state; derivative parts are those of the first deviation.
-    pub fn state(&self) -> &State<<S as System<Dual<T>>>::Vector> {
+    pub fn state(&self) -> &State<VectorOf<S, Dual<T>>> {
         self.runs[0].state()
     }
 
@@ -258,7 +259,7 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
 }
 
 /// The whole carried value changes: its derivative parts are linear in the deviation.
-impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Columns<T> for Tangent<T, S, R> {
+impl<T: Real, S: System, R: MapOf<Dual<T>, S>> Columns<T> for Tangent<T, S, R> {
     fn combine(&mut self, to: usize, scale: T, less: Option<(usize, T)>) {
         let (before, run) = self.runs.split_at_mut(to);
         let carried = &mut run[0].carried;
@@ -273,12 +274,12 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Columns<T> for Tangent<T
 }
 
 /// A state without deviation.
-pub(crate) fn lifted<T: Real, S: System<T> + System<Dual<T>>>(
+pub(crate) fn lifted<T: Real, S: System>(
     system: &S,
-    start: &State<<S as System<T>>::Vector>,
-) -> Result<State<<S as System<Dual<T>>>::Vector>, Error> {
-    System::<T>::check_shape(system, start)?;
-    let zeros = || System::<Dual<T>>::zeros(system);
+    start: &State<VectorOf<S, T>>,
+) -> Result<State<VectorOf<S, Dual<T>>>, Error> {
+    system.check_shape(start)?;
+    let zeros = || system.zeros::<Dual<T>>();
     let mut lifted = State {
         t: Dual::fixed(start.t),
         q: zeros(),
@@ -419,14 +420,14 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
 pub fn monodromy<T, S, M>(
     system: &S,
     scheme: M,
-    start: State<<S as System<T>>::Vector>,
+    start: State<VectorOf<S, T>>,
     time: T,
     steps: u64,
 ) -> Result<DMatrix<T>, Error>
 where
     T: Real,
-    S: System<T> + System<Dual<T>>,
-    M: Scheme<Dual<T>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let size = 2 * start.q.len();
     let step = time / T::constant(steps as f64, 0.0);
@@ -463,15 +464,15 @@ where
 pub fn megno<T, S, M>(
     system: &S,
     scheme: M,
-    start: State<<S as System<T>>::Vector>,
+    start: State<VectorOf<S, T>>,
     step: T,
     steps: u64,
     every: u64,
 ) -> Result<T, Error>
 where
     T: Real,
-    S: System<T> + System<Dual<T>>,
-    M: Scheme<Dual<T>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let start = aslant(&lifted::<T, S>(system, &start)?);
     let run = Integrator::new(system, scheme, start, Dual::fixed(step))?;

@@ -7,8 +7,8 @@ use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::observe::{Observer, View, one_trajectory};
 use crate::state::State;
-use crate::system::{System, clock};
-use crate::vector::Vector;
+use crate::system::{System, VectorOf, clock};
+use crate::vector::{Shape, Vector};
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -66,7 +66,7 @@ pub struct AtTimes<V: Vector, I, O> {
 impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
     /// Passes on the states at the times from `before`, a state of the run, up to the current
     /// state.
-    fn show<S: System<V::Scalar, Vector = V>>(
+    fn show<S: System<Shape: Shape<Vector<V::Scalar> = V>>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
         before: &State<V>,
@@ -89,7 +89,7 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
         let is_due = |t: &V::Scalar| !comes_before(view.state.t, *t) || meets(view.state.t, *t);
         while let Some(t) = self.next.filter(is_due) {
             let is_behind = comes_before(t, before.t) && !meets(t, before.t);
-            let (clock, target) = (clock::<V::Scalar, S>(), t.to_f64());
+            let (clock, target) = (clock::<S>(), t.to_f64());
             if is_behind {
                 let now = before.t.to_f64();
                 return Err(Error::Behind { clock, target, now });
@@ -122,7 +122,7 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
 
     /// Passes on the requested states between `before` and the current state, and stores its
     /// position.
-    fn go<S: System<V::Scalar, Vector = V>>(
+    fn go<S: System<Shape: Shape<Vector<V::Scalar> = V>>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
         mut before: State<V>,
@@ -142,10 +142,10 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
     }
 }
 
-impl<T, S, I, O> Observer<T, S> for AtTimes<S::Vector, I, O>
+impl<T, S, I, O> Observer<T, S> for AtTimes<VectorOf<S, T>, I, O>
 where
     T: Real,
-    S: System<T>,
+    S: System,
     I: Iterator<Item = T>,
     O: Observer<T, S>,
 {
@@ -180,7 +180,7 @@ where
         self.inner.restore(view, from)
     }
 
-    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+    fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         match &self.failure {
             Some(error) => Err(error.clone()),
             None => Ok(self.end.as_ref()),

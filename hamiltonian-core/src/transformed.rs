@@ -8,9 +8,11 @@ use crate::error::Error;
 use crate::flow::VectorField;
 use crate::observed::Observed;
 use crate::state::{Pair, State};
-use crate::system::gather::{Gather, InPack, Kept, with_whole};
-use crate::system::{Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced};
-use crate::vector::{Vector, dot};
+use crate::system::gather::{InPack, Kept, with_whole};
+use crate::system::{
+    Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf,
+};
+use crate::vector::{Over, Vector, dot};
 use alloc::vec::Vec;
 use core::fmt;
 use hamiltonian_lanes::{Mask, Pack, Real};
@@ -73,7 +75,7 @@ pub struct InNewTime<P, G> {
     pub(crate) monitor: G,
 }
 
-impl<S: System<f64> + Clone> TimeTransformed<S, Observed<S>> {
+impl<S: System + Clone> TimeTransformed<S, Observed<S>> {
     /// H in the time of a monitor that the system declares, by its name.
     ///
     /// # Errors
@@ -96,22 +98,23 @@ impl<S, G> TimeTransformed<S, G> {
     /// # Errors
     /// [`Error::Shape`] for a state of another shape, [`Error::Monitor`] if g is not positive
     /// there.
-    pub fn start<T, V>(&self, state: &State<V>) -> Result<State<WithTime<V>>, Error>
+    pub fn start<T: Real>(
+        &self,
+        state: &State<VectorOf<S, T>>,
+    ) -> Result<State<WithTime<VectorOf<S, T>>>, Error>
     where
-        T: Real,
-        V: Vector<Scalar = T>,
-        S: System<T, Vector = V>,
-        G: System<T, Vector = V>,
+        S: System,
+        G: System<Shape = S::Shape>,
     {
         self.system.check_shape(state)?;
         self.monitor.check_shape(state)?;
-        let monitor = self.monitor.prepare();
+        let monitor = self.monitor.prepare::<T>();
         let value = monitor.energy(state.t, &state.q, &state.p);
         if !T::zero().lt(value).all() {
             let value = value.to_f64();
             return Err(Error::Monitor { value });
         }
-        let with = |x: &V, time: T| Pair {
+        let with = |x: &VectorOf<S, T>, time: T| Pair {
             x: x.clone(),
             y: SVector::from_element(time),
         };
@@ -132,11 +135,11 @@ impl<S, G> TimeTransformed<S, G> {
     }
 
     /// The groups of H, and that of the time.
-    const fn groups<T: Real>() -> &'static [Group]
+    const fn groups() -> &'static [Group]
     where
-        S: System<T>,
+        S: System,
     {
-        let all: &'static [Group] = const { &with_time(S::GROUPS, S::Vector::PARTS) };
+        let all: &'static [Group] = const { &with_time(S::GROUPS, <VectorOf<S> as Vector>::PARTS) };
         all.split_at(S::GROUPS.len() + 1).0
     }
 }
@@ -167,16 +170,15 @@ const fn with_time(groups: &[Group], part: usize) -> [Group; MOST_GROUPS] {
     all
 }
 
-impl<T, S, G> System<T> for TimeTransformed<S, G>
+impl<S, G> System for TimeTransformed<S, G>
 where
-    T: Real,
-    S: System<T> + Unforced + Autonomous,
-    G: System<T, Vector = S::Vector> + Unforced + Autonomous,
+    S: System + Unforced + Autonomous,
+    G: System<Shape = S::Shape> + Unforced + Autonomous,
 {
-    type Vector = WithTime<S::Vector>;
-    type Prepared = InNewTime<S::Prepared, G::Prepared>;
+    type Shape = Pair<S::Shape, SVector<(), 1>>;
+    type Prepared<T: Real> = InNewTime<S::Prepared<T>, G::Prepared<T>>;
     const NAME: &'static str = S::NAME;
-    const GROUPS: &'static [Group] = Self::groups::<T>();
+    const GROUPS: &'static [Group] = Self::groups();
     const OBSERVABLES: &'static [Observable] = S::OBSERVABLES;
     const FICTITIOUS_TIME: Option<&'static str> = Some("s");
     const FORMULA: &'static str = S::FORMULA;
@@ -186,17 +188,32 @@ where
         writeln!(to, "in the time of {}: {}", G::NAME, G::FORMULA)?;
         self.monitor.describe_parameters(to)
     }
-    fn prepare(&self) -> Self::Prepared {
+    fn prepare<T: Real>(&self) -> Self::Prepared<T> {
         InNewTime {
             system: self.system.prepare(),
             monitor: self.monitor.prepare(),
         }
     }
-    fn zeros(&self) -> Self::Vector {
+    fn zeros<T: Real>(&self) -> WithTime<VectorOf<S, T>> {
         Pair {
             x: self.system.zeros(),
             y: SVector::from_element(T::zero()),
         }
+    }
+    #[inline(always)]
+    fn gather<T: Real, L: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<L>> {
+        let systems: Vec<_> = members.iter().map(|one| &one.system).collect();
+        let monitors: Vec<_> = members.iter().map(|one| &one.monitor).collect();
+        InNewTime {
+            system: S::gather::<T, L>(&systems),
+            monitor: G::gather::<T, L>(&monitors),
+        }
+    }
+    fn fits<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool {
+        S::fits(&a.system, &b.system) && G::fits(&a.monitor, &b.monitor)
+    }
+    fn equals<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool {
+        S::equals(&a.system, &b.system) && G::equals(&a.monitor, &b.monitor)
     }
 }
 
@@ -342,7 +359,7 @@ where
     #[inline(always)]
     fn run<D>(self, system: &D, kept: &mut Kept) -> Self::Output
     where
-        D: Dynamics<T::Over<L>, Vector = <G::Vector as Vector>::Over<T::Over<L>>> + 'static,
+        D: Dynamics<T::Over<L>, Vector = Over<G::Vector, T::Over<L>>> + 'static,
     {
         let kernel = self.kernel;
         (self.monitor).in_pack::<L, _>(kept, ToBoth { system, kernel })
@@ -359,7 +376,7 @@ impl<T, V, D, L, K> InPack<T, V, L> for ToBoth<'_, D, K>
 where
     T: Real,
     V: Vector<Scalar = T>,
-    D: Dynamics<T::Over<L>, Vector = V::Over<T::Over<L>>> + 'static,
+    D: Dynamics<T::Over<L>, Vector = Over<V, T::Over<L>>> + 'static,
     L: Pack,
     K: InPack<T, WithTime<V>, L>,
 {
@@ -367,38 +384,13 @@ where
     #[inline(always)]
     fn run<G>(self, monitor: &G, kept: &mut Kept) -> K::Output
     where
-        G: Dynamics<T::Over<L>, Vector = V::Over<T::Over<L>>> + 'static,
+        G: Dynamics<T::Over<L>, Vector = Over<V, T::Over<L>>> + 'static,
     {
         let whole = || InNewTime {
             system: self.system.clone(),
             monitor: monitor.clone(),
         };
         with_whole(kept, |_| true, whole, self.kernel)
-    }
-}
-
-impl<T, P, G> Gather<T> for InNewTime<P, G>
-where
-    T: Real,
-    P: Gather<T>,
-    G: Gather<T, Vector = P::Vector>,
-{
-    type Over<U: Real> = InNewTime<P::Over<U>, G::Over<U>>;
-
-    #[inline(always)]
-    fn gather<L: Pack>(members: &[&Self]) -> InNewTime<P::Over<T::Over<L>>, G::Over<T::Over<L>>> {
-        let systems: Vec<&P> = members.iter().map(|one| &one.system).collect();
-        let monitors: Vec<&G> = members.iter().map(|one| &one.monitor).collect();
-        InNewTime {
-            system: P::gather::<L>(&systems),
-            monitor: G::gather::<L>(&monitors),
-        }
-    }
-    fn fits(&self, other: &Self) -> bool {
-        self.system.fits(&other.system) && self.monitor.fits(&other.monitor)
-    }
-    fn equals(&self, other: &Self) -> bool {
-        self.system.equals(&other.system) && self.monitor.equals(&other.monitor)
     }
 }
 

@@ -28,10 +28,10 @@ use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVec
 pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The scalar of every component.
     type Scalar: Real;
-    /// The same shape over another scalar.
-    type Over<U: Real>: Vector<Scalar = U>;
+    /// The shape, which has a vector over each scalar.
+    type Shape: Shape;
     /// The zero vector of this shape over another scalar.
-    fn zeros_over<U: Real>(&self) -> Self::Over<U>;
+    fn zeros_over<U: Real>(&self) -> Over<Self, U>;
     /// The number of contiguous parts (1 except for mixed shapes).
     const PARTS: usize;
     /// Part `k < PARTS` as a slice.
@@ -262,6 +262,16 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 }
 
+/// A shape of coordinates: one type, with a vector over each scalar. The shape of a vector is named by the type of the
+/// vector over `()`: that of `SVector<f64, 2>` is `SVector<(), 2>`.
+pub trait Shape: 'static {
+    /// The vector of this shape over a scalar.
+    type Vector<T: Real>: Vector<Scalar = T, Shape = Self>;
+}
+
+/// The vector of the same shape as `V` over the scalar `U`.
+pub type Over<V, U> = <<V as Vector>::Shape as Shape>::Vector<U>;
+
 /// a·b.
 pub(crate) fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
     let mut sum = V::Scalar::zero();
@@ -279,9 +289,13 @@ fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }
 
+impl<const R: usize, const C: usize> Shape for SMatrix<(), R, C> {
+    type Vector<T: Real> = SMatrix<T, R, C>;
+}
+
 impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     type Scalar = T;
-    type Over<U: Real> = SMatrix<U, R, C>;
+    type Shape = SMatrix<(), R, C>;
     #[inline(always)]
     fn zeros_over<U: Real>(&self) -> SMatrix<U, R, C> {
         SMatrix::from_element(U::zero())
@@ -308,9 +322,13 @@ impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     }
 }
 
+impl<const C: usize> Shape for OMatrix<(), Dyn, Const<C>> {
+    type Vector<T: Real> = OMatrix<T, Dyn, Const<C>>;
+}
+
 impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
     type Scalar = T;
-    type Over<U: Real> = OMatrix<U, Dyn, Const<C>>;
+    type Shape = OMatrix<(), Dyn, Const<C>>;
     fn zeros_over<U: Real>(&self) -> OMatrix<U, Dyn, Const<C>> {
         OMatrix::from_element_generic(Dyn(self.nrows()), Const, U::zero())
     }
@@ -340,9 +358,13 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
 // Parameters with columns set at run time, and rows that may be.
 macro_rules! wide {
     ($rows:ty, $($given:tt)*) => {
-        impl<T: Real $($given)*> Vector for OMatrix<T, $rows, Dyn> {
+        impl<$($given)*> Shape for OMatrix<(), $rows, Dyn> {
+            type Vector<T: Real> = OMatrix<T, $rows, Dyn>;
+        }
+
+        impl<T: Real, $($given)*> Vector for OMatrix<T, $rows, Dyn> {
             type Scalar = T;
-            type Over<U: Real> = OMatrix<U, $rows, Dyn>;
+            type Shape = OMatrix<(), $rows, Dyn>;
             fn zeros_over<U: Real>(&self) -> OMatrix<U, $rows, Dyn> {
                 let (rows, columns) = self.shape_generic();
                 OMatrix::from_element_generic(rows, columns, U::zero())
@@ -373,7 +395,7 @@ macro_rules! wide {
 }
 
 wide!(Dyn,);
-wide!(Const<R>, , const R: usize);
+wide!(Const<R>, const R: usize);
 
 /// Arguments of [`State::new`](crate::State::new): arrays, vectors, and every [`Vector`] itself.
 ///

@@ -16,7 +16,7 @@ fn begin() -> Plane {
 
 /// The times at which x rises through 0 until t = 20, by bisection in the step that has a sign
 /// change; the last state of the run, and the largest |x| at a root.
-fn crossings<M: Scheme<f64, Heiles>>(scheme: M, h: f64) -> (Vec<f64>, Plane, f64) {
+fn crossings<M: Scheme<Heiles>>(scheme: M, h: f64) -> (Vec<f64>, Plane, f64) {
     let mut times = Vec::new();
     let mut largest = 0.0_f64;
     let mut before = begin().q[0];
@@ -48,7 +48,7 @@ fn crossings<M: Scheme<f64, Heiles>>(scheme: M, h: f64) -> (Vec<f64>, Plane, f64
 }
 
 /// Roots are those of the scheme's order, and nobody asked as far as the run is concerned.
-fn roots_of_order<M: Scheme<f64, Heiles>>(scheme: M, order: f64) {
+fn roots_of_order<M: Scheme<Heiles>>(scheme: M, order: f64) {
     let name = scheme.entry().name;
     let roots: Vec<Vec<f64>> = [0.1, 0.05, 0.025]
         .into_iter()

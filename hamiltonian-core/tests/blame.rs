@@ -131,11 +131,13 @@ impl<T: Real, const WHICH: usize, const SWEEPS: u16, const HONEST: bool> Flow<Pl
 
 macro_rules! walls {
     ($n:literal: $($which:literal)+) => {
-        impl<T: Real, const SWEEPS: u16, const HONEST: bool> Split<T>
+        impl<const SWEEPS: u16, const HONEST: bool> Split
             for Hand<Walls<$n, SWEEPS, HONEST>, 2>
         {
-            type Pieces = ($(WallPiece<$which, SWEEPS, HONEST>,)+);
-            const PIECES: Self::Pieces = ($(WallPiece::<$which, SWEEPS, HONEST>,)+);
+            type Pieces<T: Real> = ($(WallPiece<$which, SWEEPS, HONEST>,)+);
+            fn pieces<T: Real>() -> Self::Pieces<T> {
+        ($(WallPiece::<$which, SWEEPS, HONEST>,)+)
+    }
             const NAMES: &'static [&'static str] = &[$(stringify!($which)),+];
         }
     };
@@ -157,7 +159,7 @@ impl Count {
     fn run<const N: usize, const SWEEPS: u16, const HONEST: bool>(
         &mut self,
         seed: u64,
-        scheme: impl Scheme<f64, Hand<Walls<N, SWEEPS, HONEST>, 2>>,
+        scheme: impl Scheme<Hand<Walls<N, SWEEPS, HONEST>, 2>>,
     ) {
         let mut random = Random(seed);
         let system = Hand(Walls::random(&mut random));
@@ -188,7 +190,7 @@ impl Count {
         seeds: core::ops::Range<u64>,
     ) -> Self
     where
-        Hand<Walls<N, SWEEPS, HONEST>, 2>: Split<f64> + Exact,
+        Hand<Walls<N, SWEEPS, HONEST>, 2>: Split + Exact,
     {
         let mut count = Count::default();
         for seed in seeds {

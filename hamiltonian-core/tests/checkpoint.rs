@@ -2,8 +2,10 @@
 
 use crate::common::start;
 use crate::common::systems::*;
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::{errors::CheckpointError, observers::Every, schemes::author::Listed};
+use hamiltonian_lanes::Pack;
 use std::path::PathBuf;
 
 /// A changed step, an end and a start of the clock are part of a run.
@@ -201,20 +203,29 @@ fn goes_on_with<O: Observer<f64, Hand<Pendulum, 1>> + Clone, const N: usize>(
 /// The pendulum under a name with a parameter.
 struct Spring(f64);
 
-impl System<f64> for Spring {
-    type Vector = hamiltonian_core::private::SVector<f64, 1>;
-    type Prepared = Ready<Pendulum, 1>;
+impl System for Spring {
+    type Shape = hamiltonian_core::private::SVector<(), 1>;
+    type Prepared<T: Real> = Ready<Pendulum, 1>;
     const NAME: &'static str = "Spring";
     const GROUPS: &'static [hamiltonian_core::schemes::author::Group] = &[scalar("q", "p", 0)];
     const OBSERVABLES: &'static [hamiltonian_core::schemes::author::Observable] = &[];
     fn describe_parameters(&self, to: &mut dyn core::fmt::Write) -> core::fmt::Result {
         writeln!(to, "k = {:?}", self.0)
     }
-    fn prepare(&self) -> Self::Prepared {
-        System::<f64>::prepare(&pendulum(true))
+    fn prepare<T: Real>(&self) -> Self::Prepared<T> {
+        System::prepare::<T>(&pendulum(true))
     }
-    fn zeros(&self) -> Self::Vector {
-        System::<f64>::zeros(&pendulum(true))
+    fn zeros<T: Real>(&self) -> VectorOf<Self, T> {
+        System::zeros::<T>(&pendulum(true))
+    }
+    fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>> {
+        members[0].clone()
+    }
+    fn fits<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
+    }
+    fn equals<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
     }
 }
 

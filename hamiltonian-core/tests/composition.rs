@@ -3,6 +3,7 @@
 use crate::common::pieces::{Loops, Polar};
 use crate::common::systems::*;
 use crate::common::{difference, start};
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::author::{Reversed, Splitting, Weight};
 use hamiltonian_core::{DoubleDouble, Scheme, Vector, schemes::author::OneStep};
@@ -11,8 +12,8 @@ use hamiltonian_core::{DoubleDouble, Scheme, Vector, schemes::author::OneStep};
 /// error is below a thousandth of any here.
 pub fn slope<S, M>(system: &S, scheme: M, q: &[f64], p: &[f64]) -> f64
 where
-    S: System<DoubleDouble>,
-    M: Scheme<DoubleDouble, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let start = start::<DoubleDouble, S>(system, q, p);
     let h = |n: u64| DoubleDouble::one() / DoubleDouble::from(n as f64);
@@ -74,8 +75,8 @@ fn yoshidas_composition_of_a_symmetric_scheme_has_order_4() {
 /// The distance of the derivative M of some steps from symplectic: the largest component of MᵀJM − J.
 fn asymplecticity<S, M>(system: &S, scheme: M, q: &[f64], p: &[f64]) -> f64
 where
-    S: System<Dual<f64>>,
-    M: Scheme<Dual<f64>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let n = q.len();
     let column = |k: usize| {
@@ -126,7 +127,7 @@ fn strang_of_three_and_of_four_pieces() {
 fn loops_are_turned() {
     fn check<const PLACE: usize, const TURNS: bool>() -> (f64, f64, f64)
     where
-        Hand<Loops<PLACE, TURNS>, 2>: Split<DoubleDouble> + Split<Dual<f64>> + Split<f64>,
+        Hand<Loops<PLACE, TURNS>, 2>: Split,
     {
         let system = Hand(Loops::<PLACE, TURNS>);
         let (q, p) = ([0.5, -0.4], [0.3, 0.8]);
@@ -154,13 +155,13 @@ fn loops_are_turned() {
 }
 
 /// A state after `n` steps.
-fn after<S: System<f64>, M: Scheme<f64, S>>(
+fn after<S: System, M: Scheme<S>>(
     system: &S,
     scheme: M,
-    start: &State<S::Vector>,
+    start: &State<VectorOf<S>>,
     h: f64,
     n: u64,
-) -> State<S::Vector> {
+) -> State<VectorOf<S>> {
     let mut run = Integrator::new(system, scheme, start.clone(), h).unwrap();
     run.advance(n).unwrap().clone()
 }

@@ -235,7 +235,7 @@ impl Case {
     }
 
     /// Compares a run with one whose H is defined everywhere, which has the same bits.
-    fn check<M: Scheme<f64, Hand<Ending, 1>>>(
+    fn check<M: Scheme<Hand<Ending, 1>>>(
         &self,
         scheme: M,
         begins_with_kick: Option<bool>,

@@ -6,6 +6,7 @@
 //! and it drifts.
 
 use super::common::systems::{Hand, HenonHeiles, Paper34, Pendulum};
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Integrator, QuadraticKinetic, Scheme, State, System};
 
@@ -17,10 +18,10 @@ const SAMPLES: u64 = 101;
 const FOUND: f64 = 1e-3;
 
 /// Runs, and compares the change of H with a random walk.
-fn walks<S, M>(system: &S, size: f64, scheme: M, start: &State<S::Vector>, h: f64)
+fn walks<S, M>(system: &S, size: f64, scheme: M, start: &State<VectorOf<S>>, h: f64)
 where
-    S: System<f64>,
-    M: Scheme<f64, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let entry = scheme.entry();
     let heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
@@ -58,7 +59,7 @@ where
 
 impl QuadraticKinetic for Hand<Pendulum, 1> {}
 
-fn pendulum(scheme: impl Scheme<f64, Hand<Pendulum, 1>>, h: f64) {
+fn pendulum(scheme: impl Scheme<Hand<Pendulum, 1>>, h: f64) {
     let system = Hand(Pendulum {
         m: 1.0,
         l: 1.0,
@@ -68,12 +69,12 @@ fn pendulum(scheme: impl Scheme<f64, Hand<Pendulum, 1>>, h: f64) {
     walks(&system, 1.0, scheme, &State::new([1.5], [0.0]), h);
 }
 
-fn henon_heiles(scheme: impl Scheme<f64, Hand<HenonHeiles, 2>>, h: f64) {
+fn henon_heiles(scheme: impl Scheme<Hand<HenonHeiles, 2>>, h: f64) {
     let start = State::new([0.12, 0.23], [0.31, -0.17]);
     walks(&Hand(HenonHeiles), 0.1, scheme, &start, h);
 }
 
-fn paper_34(scheme: impl Scheme<f64, Hand<Paper34, 1>>, h: f64) {
+fn paper_34(scheme: impl Scheme<Hand<Paper34, 1>>, h: f64) {
     walks(&Hand(Paper34), 5.0, scheme, &State::new([-3.0], [0.0]), h);
 }
 

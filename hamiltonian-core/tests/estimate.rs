@@ -8,7 +8,7 @@ use hamiltonian_core::{ErrorEstimate, Scheme, schemes::author::Listed};
 type Estimate = ErrorEstimate<hamiltonian_core::private::SVector<f64, 1>>;
 
 /// The estimate of a run to t = 5, and its true error.
-fn estimate(scheme: impl Scheme<f64, Hand<Relativistic, 1>>, n: u64) -> (Estimate, f64, f64) {
+fn estimate(scheme: impl Scheme<Hand<Relativistic, 1>>, n: u64) -> (Estimate, f64, f64) {
     const END: f64 = 5.0;
     let system = Hand(Relativistic);
     let begin = start(&system, &[0.9], &[0.4]);
@@ -27,7 +27,7 @@ fn estimate(scheme: impl Scheme<f64, Hand<Relativistic, 1>>, n: u64) -> (Estimat
 
 #[test]
 fn estimates_are_the_errors_of_schemes_of_known_order() {
-    fn check(scheme: impl Scheme<f64, Hand<Relativistic, 1>>, n: u64) {
+    fn check(scheme: impl Scheme<Hand<Relativistic, 1>>, n: u64) {
         let entry = scheme.entry();
         let (estimate, error, energy) = estimate(scheme, n);
         println!(

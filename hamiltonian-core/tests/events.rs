@@ -26,14 +26,14 @@ fn events() -> Events<Plane> {
 /// The times of the roots have the order of the scheme, and the states are those of `state_at`.
 #[test]
 fn roots_have_the_order_of_the_scheme() {
-    fn times<M: Scheme<f64, Heiles>>(scheme: M, h: f64) -> Vec<f64> {
+    fn times<M: Scheme<Heiles>>(scheme: M, h: f64) -> Vec<f64> {
         let mut run = Integrator::new(&Hand(HenonHeiles), scheme, begin(), h)
             .unwrap()
             .observe(events());
         run.advance_to(20.0).unwrap();
         run.observer().states("x").map(|state| state.t).collect()
     }
-    fn of_order<M: Scheme<f64, Heiles>>(scheme: M, order: f64) {
+    fn of_order<M: Scheme<Heiles>>(scheme: M, order: f64) {
         let name = scheme.entry().name;
         let [a, b, c] = [0.1, 0.05, 0.025].map(|h| times(scheme.clone(), h));
         let worst = |a: &[f64], b: &[f64]| {
@@ -364,7 +364,7 @@ fn outputs_at_times_are_those_of_the_run() {
 /// Ends the run past a time.
 struct Until(f64);
 
-impl<S: System<f64>> Observer<f64, S> for Until {
+impl<S: System> Observer<f64, S> for Until {
     fn observe(&mut self, view: &View<'_, f64, S>) -> ControlFlow<()> {
         match view.state.t > self.0 {
             true => ControlFlow::Break(()),

@@ -38,7 +38,7 @@ fn check<H, M, const N: usize>(
     h: f64,
 ) where
     H: Formula<N>,
-    M: Scheme<Four, Hand<H, N>> + Scheme<f64, Hand<H, N>>,
+    M: Scheme<Hand<H, N>>,
 {
     let name = scheme.entry().name;
     let mut run = Integrator::new(system, scheme.clone(), start.clone(), Four([h; 4])).unwrap();
@@ -51,7 +51,7 @@ fn check<H, M, const N: usize>(
         assert_eq!(lone(end, k), alone(k), "{name}, lane {k}");
     }
     // A run refuses a start that is not finite; a map does not look.
-    let prepared = System::<Four>::prepare(system);
+    let prepared = System::prepare::<Four>(system);
     let mut dead = start.clone();
     dead.q[0].0[2] = f64::NAN;
     let mut carried = Scheme::start(scheme, &prepared, &dead, Four([h; 4]));
@@ -131,9 +131,9 @@ fn a_solve_fails_in_its_lane_alone() {
         } => {}
         other => panic!("{other:?}"),
     }
-    let prepared = System::<Four>::prepare(&Hand(Paper34));
-    let map = Scheme::<Four, Hand<Paper34, 1>>::prepare(&scheme, &prepared, Step::of(step));
-    let mut carried = Scheme::<Four, Hand<Paper34, 1>>::start(&scheme, &prepared, &start, step);
+    let prepared = System::prepare::<Four>(&Hand(Paper34));
+    let map = Scheme::<Hand<Paper34, 1>>::prepare(&scheme, &prepared, Step::of(step));
+    let mut carried = Scheme::<Hand<Paper34, 1>>::start(&scheme, &prepared, &start, step);
     let mut work = Scratch::like(&carried);
     map.step(start.t, step, &mut carried, &mut work);
     for k in 0..4 {

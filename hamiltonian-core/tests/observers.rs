@@ -7,6 +7,7 @@ use hamiltonian_core::{
     Observer, Vector, View,
     schemes::author::{Dynamics, Pair},
 };
+use hamiltonian_lanes::Pack;
 
 use std::ops::ControlFlow;
 
@@ -21,7 +22,7 @@ fn run() -> Run<Hand<Pendulum, 1>, StormerVerlet> {
 #[derive(Default)]
 struct Steps(Vec<u64>);
 
-impl<S: System<f64>> Observer<f64, S> for Steps {
+impl<S: System> Observer<f64, S> for Steps {
     fn observe(&mut self, view: &View<'_, f64, S>) -> ControlFlow<()> {
         self.0.push(view.step);
         ControlFlow::Continue(())
@@ -70,7 +71,7 @@ fn drifts_are_those_of_the_states() {
     let mut energies = Vec::new();
     let mut heights = Vec::new();
     let mut plain = run();
-    let prepared = System::<f64>::prepare(&pendulum(true));
+    let prepared = System::prepare::<f64>(&pendulum(true));
     let mut record = |state: &State<One>| {
         energies.push(prepared.energy(state.t, &state.q, &state.p));
         heights.push(-10.0 * state.q[0].cos());
@@ -145,11 +146,12 @@ fn names_of_a_chain() {
 fn names_of_mixed_shapes() {
     #[derive(Debug, Clone)]
     struct Mixed;
-    type V = Pair<Matrix3, One>;
-    type Matrix3 = hamiltonian_core::private::SMatrix<f64, 2, 3>;
-    impl System<f64> for Mixed {
-        type Vector = V;
-        type Prepared = Mixed;
+    type Matrix<T> = hamiltonian_core::private::SMatrix<T, 2, 3>;
+    type V<T> = Pair<Matrix<T>, SVector<T, 1>>;
+    type Matrix3 = Matrix<f64>;
+    impl System for Mixed {
+        type Shape = V<()>;
+        type Prepared<T: Real> = Mixed;
         const NAME: &'static str = "Mixed";
         const GROUPS: &'static [Group] = &[
             Group {
@@ -170,41 +172,60 @@ fn names_of_mixed_shapes() {
             },
         ];
         const OBSERVABLES: &'static [hamiltonian_core::schemes::author::Observable] = &[];
-        fn prepare(&self) -> Mixed {
+        fn prepare<T: Real>(&self) -> Mixed {
             Mixed
         }
-        fn zeros(&self) -> V {
+        fn zeros<T: Real>(&self) -> V<T> {
             Pair {
-                x: Matrix3::zeros(),
-                y: One::zeros(),
+                x: Matrix::from_element(T::zero()),
+                y: SVector::from_element(T::zero()),
             }
+        }
+        fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>> {
+            members[0].clone()
+        }
+        fn fits<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+            true
+        }
+        fn equals<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+            true
         }
     }
     #[derive(Debug, Clone)]
     struct NoField;
-    impl hamiltonian_core::schemes::author::VectorField<V> for NoField {
-        fn add(&self, _: f64, _: &V, _: &V, _: &mut V, _: &mut V) {}
+    impl<T: Real> hamiltonian_core::schemes::author::VectorField<V<T>> for NoField {
+        fn add(&self, _: T, _: &V<T>, _: &V<T>, _: &mut V<T>, _: &mut V<T>) {}
     }
-    impl Dynamics<f64> for Mixed {
-        type Vector = V;
+    impl<T: Real> Dynamics<T> for Mixed {
+        type Vector = V<T>;
         type Field = NoField;
-        fn energy(&self, _: f64, _: &V, _: &V) -> f64 {
-            0.0
+        fn energy(&self, _: T, _: &V<T>, _: &V<T>) -> T {
+            T::zero()
         }
-        fn gradient_q(&self, _: f64, _: &V, _: &V, _: &mut V) {}
-        fn gradient_p(&self, _: f64, _: &V, _: &V, _: &mut V) {}
-        fn gradient(&self, _: f64, _: &V, _: &V, _: &mut V, _: &mut V) {}
-        fn energy_and_gradient(&self, _: f64, _: &V, _: &V, _: &mut V, _: &mut V) -> f64 {
-            0.0
+        fn gradient_q(&self, _: T, _: &V<T>, _: &V<T>, _: &mut V<T>) {}
+        fn gradient_p(&self, _: T, _: &V<T>, _: &V<T>, _: &mut V<T>) {}
+        fn gradient(&self, _: T, _: &V<T>, _: &V<T>, _: &mut V<T>, _: &mut V<T>) {}
+        fn energy_and_gradient(&self, _: T, _: &V<T>, _: &V<T>, _: &mut V<T>, _: &mut V<T>) -> T {
+            T::zero()
         }
-        fn time_derivative(&self, _: f64, _: &V, _: &V) -> f64 {
-            0.0
+        fn time_derivative(&self, _: T, _: &V<T>, _: &V<T>) -> T {
+            T::zero()
         }
-        fn hessian_vector(&self, _: f64, _: &V, _: &V, _: &V, _: &V, _: &mut V, _: &mut V) {}
-        fn observable(&self, _: usize, _: f64, _: &V, _: &V) -> f64 {
-            0.0
+        fn hessian_vector(
+            &self,
+            _: T,
+            _: &V<T>,
+            _: &V<T>,
+            _: &V<T>,
+            _: &V<T>,
+            _: &mut V<T>,
+            _: &mut V<T>,
+        ) {
         }
-        fn field(&self, _: f64) -> NoField {
+        fn observable(&self, _: usize, _: T, _: &V<T>, _: &V<T>) -> T {
+            T::zero()
+        }
+        fn field(&self, _: T) -> NoField {
             NoField
         }
     }
@@ -279,8 +300,8 @@ fn closures_watch_beside_an_observer() {
 /// Code for any system reaches observables and their gradients by name.
 #[test]
 fn observables_by_name_in_generic_code() {
-    fn slope<S: System<f64> + System<Dual<f64>>>(system: &S, name: &str, q: f64) -> Option<f64> {
-        let zeros = <S as System<f64>>::zeros(system);
+    fn slope<S: System>(system: &S, name: &str, q: f64) -> Option<f64> {
+        let zeros = <S as System>::zeros::<f64>(system);
         let mut state = State {
             t: 0.0,
             q: zeros.clone(),

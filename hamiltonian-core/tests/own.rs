@@ -2,6 +2,7 @@
 
 use crate::common::systems::*;
 use crate::composition::{is, slope};
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::author::{Durations, Splitting, Weight, Zigzag, ZigzagOf};
 use hamiltonian_core::{
@@ -34,15 +35,21 @@ impl Listed for Runge {
     }
 }
 
-impl<T: Real, S: System<T>> Scheme<T, S> for Runge {
-    type Map = Twice<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+impl<S: System> Scheme<S> for Runge {
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = Twice<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let half = step.h * T::constant(0.5, 0.0);
         Twice(prepared.field(half), prepared.field(step.h), PhantomData)
     }
     #[inline(always)]
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &StateOf<S, T>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }
@@ -106,17 +113,23 @@ impl Listed for TwoStages {
     }
 }
 
-impl<T: Real, S: Split<T>> Scheme<T, S> for TwoStages {
-    type Map = ZigzagOf<T, S, S::Pieces, Self>;
+impl<S: Split> Scheme<S> for TwoStages {
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = ZigzagOf<T, S, S::Pieces<T>, Self>;
     fn times_of_jumps(&self) -> [f64; 2] {
         self.times_on(S::JUMPING)
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        Zigzag::new(self, &S::PIECES, prepared, step)
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        Zigzag::new(self, &S::pieces::<T>(), prepared, step)
     }
     #[inline(always)]
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &StateOf<S, T>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

@@ -9,6 +9,7 @@ use super::common::systems::{
     scalar,
 };
 use super::common::{difference, start};
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
     DoubleDouble, Error, Integrator, Real, Scheme, State, System, Vector,
@@ -35,7 +36,7 @@ fn cn(u: f64, m: f64) -> f64 {
 const PERIOD: f64 = 3.261_057_238_358_885;
 
 /// The distance from (−3, 0) after ten periods of `steps` steps each, and the gradients of a period.
-fn closure(scheme: impl Scheme<f64, Hand<Counted34, 1>>, steps: u64) -> (f64, u64) {
+fn closure(scheme: impl Scheme<Hand<Counted34, 1>>, steps: u64) -> (f64, u64) {
     let system = Hand(Counted34);
     counting::reset();
     let run = Integrator::new(
@@ -114,7 +115,7 @@ fn mixing_holds_the_copies_together() {
 
 #[test]
 fn discrete_gradients_keep_h() {
-    fn worst(scheme: impl Scheme<f64, Hand<Pendulum, 1>>) -> f64 {
+    fn worst(scheme: impl Scheme<Hand<Pendulum, 1>>) -> f64 {
         let system = pendulum(true);
         let start = State::new([std::f64::consts::FRAC_PI_4], [0.0]);
         let energy = system.energy(&start);
@@ -169,7 +170,7 @@ fn gauss_solves_long_steps_by_newtons_method() {
 /// method: at the bottom of the pendulum, but not where it turns.
 #[test]
 fn steps_with_few_stages_have_the_same_bits_together_and_one_by_one() {
-    fn both<M: Scheme<f64, Hand<Pendulum, 1>>>(scheme: M) {
+    fn both<M: Scheme<Hand<Pendulum, 1>>>(scheme: M) {
         const STEPS: u64 = 200;
         let system = swinging();
         let new = || {
@@ -211,19 +212,26 @@ fn steps_with_few_stages_have_the_same_bits_together_and_one_by_one() {
 #[derive(Debug, Clone, Copy)]
 pub struct Close;
 
-impl<V: Vector> Density<V> for Close {
-    fn rate(&self, _: V::Scalar, q: &V, _: &V, dq: &V, _: &V) -> V::Scalar {
-        let (mut along, mut square) = (V::Scalar::zero(), V::Scalar::zero());
+impl<S: System> Density<S> for Close {
+    fn rate<T: Real>(
+        &self,
+        _: T,
+        q: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+        dq: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+    ) -> T {
+        let (mut along, mut square) = (T::zero(), T::zero());
         for (q, dq) in q.components().zip(dq.components()) {
             along += q * dq;
             square += q * q;
         }
-        V::Scalar::constant(-1.5, 0.0) * along / square
+        T::constant(-1.5, 0.0) * along / square
     }
 }
 
 /// e = 0.9 from the pericentre.
-fn kepler_start() -> State<<Hand<Kepler, 2> as System<f64>>::Vector> {
+fn kepler_start() -> State<VectorOf<Hand<Kepler, 2>>> {
     State::new([0.1, 0.0], [0.0, 19.0_f64.sqrt()])
 }
 
@@ -235,7 +243,7 @@ fn variable_steps_of_keplers_problem_do_not_drift() {
         1_000
     };
     // The largest |ΔH/H| of each tenth of the run, and the number of steps made.
-    fn tenths<M: Scheme<f64, Hand<Kepler, 2>>>(scheme: M, h: f64, end: f64) -> (Vec<f64>, u64) {
+    fn tenths<M: Scheme<Hand<Kepler, 2>>>(scheme: M, h: f64, end: f64) -> (Vec<f64>, u64) {
         let system = Hand(Kepler);
         let start = kepler_start();
         let energy = system.energy(&start);
@@ -314,16 +322,15 @@ fn any_time_with_variable_steps() {
 #[test]
 fn variable_steps_return() {
     let system = Hand(Kepler);
-    let prepared = System::<f64>::prepare(&system);
+    let prepared = System::prepare::<f64>(&system);
     let scheme = Paced {
         scheme: Suzuki4,
         density: Close,
     };
-    let mut carried =
-        Scheme::<f64, Hand<Kepler, 2>>::start(&scheme, &prepared, &kepler_start(), 2e-3);
+    let mut carried = Scheme::<Hand<Kepler, 2>>::start(&scheme, &prepared, &kepler_start(), 2e-3);
     let begin = carried.clone();
     for h in [2e-3, -2e-3] {
-        let map = Scheme::<f64, Hand<Kepler, 2>>::prepare(&scheme, &prepared, Step::of(h));
+        let map = Scheme::<Hand<Kepler, 2>>::prepare(&scheme, &prepared, Step::of(h));
         let mut work = Scratch::like(&carried);
         for _ in 0..2_000 {
             map.step(0.0, h, &mut carried, &mut work);
@@ -335,10 +342,10 @@ fn variable_steps_return() {
 }
 
 /// The largest |ΔH| of each tenth of a run.
-fn tenths<S: System<f64>>(
+fn tenths<S: System>(
     system: &S,
-    scheme: impl Scheme<f64, S>,
-    start: State<S::Vector>,
+    scheme: impl Scheme<S>,
+    start: State<VectorOf<S>>,
     h: f64,
     steps: u64,
 ) -> Vec<f64> {
@@ -374,7 +381,7 @@ fn symplectic_schemes_do_not_drift() {
         tenths(&pendulum(true), scheme, start, 0.1, steps)
     };
     assert!(spread("Verlet", &of_pendulum(StormerVerlet::default())) <= 0.02);
-    fn of_34(scheme: impl Scheme<f64, Hand<Paper34, 1>>, steps: u64) -> f64 {
+    fn of_34(scheme: impl Scheme<Hand<Paper34, 1>>, steps: u64) -> f64 {
         let name = format!("{scheme:?}");
         let start = State::new([-3.0], [0.0]);
         spread(&name, &tenths(&Hand(Paper34), scheme, start, 0.1, steps))
@@ -391,7 +398,7 @@ fn symplectic_schemes_do_not_drift() {
 /// trajectories: of H relative, and of the point, f64 less double-double of the same steps.
 fn rounding<M>(scheme: &M, trajectories: u32, counts: &[u64]) -> Vec<(f64, f64)>
 where
-    M: Scheme<f64, Hand<HenonHeiles, 2>> + Scheme<DoubleDouble, Hand<HenonHeiles, 2>>,
+    M: Scheme<Hand<HenonHeiles, 2>>,
 {
     let system = Hand(HenonHeiles);
     let mut sums = vec![(0.0, 0.0); counts.len()];
@@ -480,7 +487,7 @@ impl Halves<1> for Small {
 /// SABA's error falls with ε², Strang's with ε.
 #[test]
 fn errors_scale_with_the_small_piece() {
-    fn error<M: Scheme<DoubleDouble, Hand<Small, 1>>>(scheme: M, epsilon: f64) -> f64 {
+    fn error<M: Scheme<Hand<Small, 1>>>(scheme: M, epsilon: f64) -> f64 {
         let system = Hand(Small(epsilon));
         let end = |steps: u64, scheme: &dyn Fn(DoubleDouble) -> State<_>| {
             scheme(DoubleDouble::from(1.0) / DoubleDouble::from(steps as f64))
@@ -502,7 +509,7 @@ fn errors_scale_with_the_small_piece() {
         });
         difference(&coarse, &exact)
     }
-    fn exponent<M: Scheme<DoubleDouble, Hand<Small, 1>>>(scheme: M) -> f64 {
+    fn exponent<M: Scheme<Hand<Small, 1>>>(scheme: M) -> f64 {
         let exponent = (error(scheme.clone(), 1e-3) / error(scheme.clone(), 1e-4)).log10();
         println!("{}: error ~ ε^{exponent:.3}", scheme.entry().name);
         exponent
@@ -540,14 +547,14 @@ impl Formula<5> for Dnls {
 /// Σ(q² + p²) is quadratic, and so kept by the semiexplicit method.
 #[test]
 fn semiexplicit_keeps_quadratic_invariants() {
-    fn change<M: Scheme<f64, Hand<Dnls, 5>>>(scheme: M) -> f64 {
+    fn change<M: Scheme<Hand<Dnls, 5>>>(scheme: M) -> f64 {
         let system = Hand(Dnls);
         let start = start(
             &system,
             &[0.9, 0.1, -0.4, 0.2, 0.3],
             &[0.1, 0.5, 0.2, -0.3, 0.0],
         );
-        let norm = |state: &State<<Hand<Dnls, 5> as System<f64>>::Vector>| {
+        let norm = |state: &State<VectorOf<Hand<Dnls, 5>>>| {
             state.q.norm_squared() + state.p.norm_squared()
         };
         let begin = norm(&start);

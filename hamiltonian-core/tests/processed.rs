@@ -83,7 +83,7 @@ fn observers_change_no_bit() {
 /// Three and four pieces, and pieces that depend on time.
 #[test]
 fn a_cheap_post_processor_is_off_by_its_order_and_no_bit_is_carried() {
-    fn holds<S: Split<DoubleDouble> + Exact>(system: &S, q: &[f64], p: &[f64]) {
+    fn holds<S: Split + Exact>(system: &S, q: &[f64], p: &[f64]) {
         let begin = start::<DoubleDouble, S>(system, q, p);
         let off = |n: u64| {
             let h = DoubleDouble::one() / DoubleDouble::from(n as f64);
@@ -151,7 +151,7 @@ impl Halves<2> for Quartic {
 /// Compositions of flows preserve both; the mean of two points preserves linear functions alone.
 #[test]
 fn means_preserve_linear_invariants_and_no_quadratic_ones() {
-    fn change<S: Scheme<f64, Hand<Quartic, 2>>>(scheme: S, pair: bool, h: f64) -> f64 {
+    fn change<S: Scheme<Hand<Quartic, 2>>>(scheme: S, pair: bool, h: f64) -> f64 {
         let system = Hand(Quartic { pair });
         let value = |state: &State<SVector<f64, 2>>| {
             let ([x, y], [px, py]) = ([state.q[0], state.q[1]], [state.p[0], state.p[1]]);
@@ -220,7 +220,7 @@ fn energy_does_not_drift() {
     if std::env::var_os("HAMILTONIAN_HEAVY").is_none_or(|value| value != "1") {
         return;
     }
-    fn tenths(scheme: impl Scheme<f64, Hand<HenonHeiles, 2>>, h: f64) {
+    fn tenths(scheme: impl Scheme<Hand<HenonHeiles, 2>>, h: f64) {
         const TENTH: u64 = 1_000_000;
         let system = Hand(HenonHeiles);
         let begin = start(&system, &[0.12, 0.23], &[0.31, -0.17]);

@@ -332,7 +332,7 @@ fn roots_of_products_are_those_of_their_factors() {
 }
 
 /// The number of roots of one product, which is compared with its factors.
-fn product_of_differences<M: Scheme<f64, Hand<HenonHeiles, 2>>>(
+fn product_of_differences<M: Scheme<Hand<HenonHeiles, 2>>>(
     scheme: M,
     h: f64,
     random: &mut Random,

@@ -28,7 +28,7 @@ fn time_is_not_summed() {
 /// Forwards and back: symmetric schemes return to rounding.
 #[test]
 fn negative_steps_integrate_backwards() {
-    fn there_and_back<M: Scheme<f64, Hand<HenonHeiles, 2>>>(scheme: M) {
+    fn there_and_back<M: Scheme<Hand<HenonHeiles, 2>>>(scheme: M) {
         let system = Hand(HenonHeiles);
         let mut there = Integrator::new(&system, scheme.clone(), oscillating(), 0.05).unwrap();
         let end = there.advance_to(50.0).unwrap().clone();
@@ -156,7 +156,7 @@ fn a_failed_solve_is_reported() {
 /// So many iterations of the fixed point, and as many of Newton's method, are not enough for rounding.
 #[test]
 fn limits_of_iterations_are_kept() {
-    fn stopped(scheme: impl Scheme<f64, Hand<Paper34, 1>>, most: u32) {
+    fn stopped(scheme: impl Scheme<Hand<Paper34, 1>>, most: u32) {
         let start = State::new([1.0], [0.3]);
         let mut run = Integrator::new(&Hand(Paper34), scheme, start, 0.25).unwrap();
         match run.advance(1).unwrap_err() {

@@ -10,7 +10,7 @@ use super::common::{difference, start};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::Splitting;
 use hamiltonian_core::schemes::*;
-use hamiltonian_core::{DoubleDouble, Dual, Integrator, Scheme, State, System};
+use hamiltonian_core::{DoubleDouble, Integrator, Scheme, State, System};
 
 #[test]
 fn splittings_have_their_order_where_both_pieces_depend_on_time() {
@@ -28,7 +28,7 @@ fn splittings_have_their_order_where_both_pieces_depend_on_time() {
 
 #[test]
 fn nystrom_schemes_lose_their_order_where_their_bound_forbids_them() {
-    fn control<M: Scheme<DoubleDouble, Hand<Relativistic, 1>>>(scheme: M) {
+    fn control<M: Scheme<Hand<Relativistic, 1>>>(scheme: M) {
         let system = Hand(Relativistic);
         let start = start(&system, &[0.9], &[0.4]);
         let slopes = slopes(&system, &scheme, &start, 2.0, 32);
@@ -46,7 +46,7 @@ fn nystrom_schemes_lose_their_order_where_their_bound_forbids_them() {
 /// With the velocities eliminated the steps are the same.
 #[test]
 fn the_second_order_form_of_gauss_makes_the_same_steps() {
-    fn end(scheme: impl Scheme<f64, Hand<HenonHeiles, 2>>) -> State<SVector<f64, 2>> {
+    fn end(scheme: impl Scheme<Hand<HenonHeiles, 2>>) -> State<SVector<f64, 2>> {
         let system = Hand(HenonHeiles);
         let start = start(&system, &[0.12, 0.23], &[0.31, -0.17]);
         let mut run = Integrator::new(&system, scheme, start, 0.2).expect("a good start");
@@ -70,17 +70,14 @@ fn the_second_order_form_of_gauss_makes_the_same_steps() {
 }
 
 /// A scheme for any H on the paper's (34).
-pub fn on_34(scheme: impl Scheme<DoubleDouble, Hand<Paper34, 1>>, steps: u64) {
+pub fn on_34(scheme: impl Scheme<Hand<Paper34, 1>>, steps: u64) {
     let system = Hand(Paper34);
     let start = start(&system, &[-1.5], &[0.3]);
     assert_order(&system, &scheme, &start, 1.0, steps);
 }
 
 /// And on the double pendulum.
-pub fn on_the_double_pendulum(
-    scheme: impl Scheme<DoubleDouble, Hand<DoublePendulum, 2>>,
-    steps: u64,
-) {
+pub fn on_the_double_pendulum(scheme: impl Scheme<Hand<DoublePendulum, 2>>, steps: u64) {
     let system = Hand(DoublePendulum);
     let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
     assert_order(&system, &scheme, &start, 1.0, steps);
@@ -111,7 +108,7 @@ fn gauss_has_its_order() {
 }
 
 /// max |ΔH/H| of the paper's (34) from (−3, 0) to T = 1000.
-fn drift_34<M: Scheme<f64, Hand<Paper34, 1>>>(scheme: M, h: f64) -> f64 {
+fn drift_34<M: Scheme<Hand<Paper34, 1>>>(scheme: M, h: f64) -> f64 {
     let system = Hand(Paper34);
     let start = State::new([-3.0], [0.0]);
     let mut run = Integrator::new(&system, scheme.clone(), start, h).expect("a good start");
@@ -138,11 +135,11 @@ fn figures_of_the_papers_34() {
 
 pub fn symplectic<M>(scheme: M)
 where
-    M: Scheme<Dual<f64>, Hand<Paper34, 1>> + Scheme<Dual<f64>, Hand<DoublePendulum, 2>>,
+    M: Scheme<Hand<Paper34, 1>> + Scheme<Hand<DoublePendulum, 2>>,
 {
     let entry = scheme.entry();
     let system = Hand(Paper34);
-    let of_34 = defect(&tangent(
+    let of_34 = defect::<f64>(&tangent(
         &system,
         &scheme,
         &start(&system, &[-3.0], &[0.5]),
@@ -151,7 +148,7 @@ where
     ));
     let system = Hand(DoublePendulum);
     let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
-    let of_pendulum = defect(&tangent(&system, &scheme, &start, 0.05, 3));
+    let of_pendulum = defect::<f64>(&tangent(&system, &scheme, &start, 0.05, 3));
     println!(
         "{} {}: {of_34:.1e} {of_pendulum:.1e}",
         entry.name, entry.variant
@@ -206,10 +203,10 @@ fn copies_part_by_the_error_of_a_step() {
 /// One step of midpoint projection violates dq∧dp by O(h^(2p+2)).
 #[test]
 fn midpoint_projection_is_pseudo_symplectic() {
-    fn slope<M: Scheme<Dual<DoubleDouble>, Hand<Paper34, 1>>>(scheme: M, h: f64) -> f64 {
+    fn slope<M: Scheme<Hand<Paper34, 1>>>(scheme: M, h: f64) -> f64 {
         let system = Hand(Paper34);
         let start = start(&system, &[-1.5], &[0.3]);
-        let of = |h: f64| defect(&tangent(&system, &scheme, &start, h, 1));
+        let of = |h: f64| defect::<DoubleDouble>(&tangent(&system, &scheme, &start, h, 1));
         let slopes: Vec<_> = (0..4)
             .map(|k| h / f64::from(1 << k))
             .map(|h| (of(h) / of(h / 2.0)).log2())

@@ -1,6 +1,7 @@
 //! Starts on surfaces, against values from elsewhere and against H itself; coordinates of bodies.
 
 use crate::common::systems::{Formula, Hand, HenonHeiles, Paper34, Relativistic, scalar};
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::coordinates::{from_heliocentric, from_jacobi, to_heliocentric, to_jacobi};
 use hamiltonian_core::start::{
     Branch, Section, coordinate_on_event, momentum_from_energy, on_section,
@@ -77,7 +78,7 @@ fn schwarzschild(beta: f64) -> Hand<Schwarzschild, 2> {
     Hand(Schwarzschild { beta })
 }
 
-fn guess<T: Real>(p_theta: f64) -> State<<Hand<Schwarzschild, 2> as System<T>>::Vector> {
+fn guess<T: Real>(p_theta: f64) -> State<VectorOf<Hand<Schwarzschild, 2>, T>> {
     let half_pi = T::constant(core::f64::consts::FRAC_PI_2, 6.123233995736766e-17);
     State::over([number(11.0), half_pi], [T::zero(), number(p_theta)])
 }

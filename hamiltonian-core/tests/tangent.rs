@@ -303,7 +303,7 @@ fn multipliers_are_the_eigenvalues() {
 fn tangents_of_symplectic_schemes_are_symplectic_and_others_are_not() {
     fn defect<M>(scheme: M) -> f64
     where
-        M: Scheme<Dual<f64>, Heiles>,
+        M: Scheme<Heiles>,
     {
         let mut tangent = Tangent::new(&HEILES, scheme, regular(), 0.1, 4).unwrap();
         tangent.advance(1000).unwrap();

@@ -12,7 +12,7 @@ use hamiltonian_core::{
 };
 
 /// The largest |H + ½| of each tenth of a run.
-fn tenths(scheme: impl Scheme<f64, InRadius>, h: f64, steps: u64) -> Vec<f64> {
+fn tenths(scheme: impl Scheme<InRadius>, h: f64, steps: u64) -> Vec<f64> {
     let system = in_radius(false);
     let start = system.start(&pericentre(0.9)).expect("a good start");
     let mut run = Integrator::new(&system, scheme, start, h).expect("a good start");
@@ -107,7 +107,7 @@ fn they_have_their_order() {
 
 #[test]
 fn they_are_symplectic() {
-    fn of(scheme: impl Scheme<Dual<f64>, InRadius>, with_momentum: bool) -> f64 {
+    fn of(scheme: impl Scheme<InRadius>, with_momentum: bool) -> f64 {
         let system = in_radius(with_momentum);
         let start = system
             .start(&pericentre::<Dual<f64>>(0.6))
@@ -145,8 +145,8 @@ fn derivatives_of_k() {
     let directions = [0.5, -0.25, 0.75, 0.125, 1.5, -0.5];
     let mut moved = State {
         t: Dual::fixed(0.0),
-        q: System::<Dual<f64>>::zeros(&system),
-        p: System::<Dual<f64>>::zeros(&system),
+        q: System::zeros::<Dual<f64>>(&system),
+        p: System::zeros::<Dual<f64>>(&system),
     };
     let (mut vq, mut vp) = (start.q.zeros_like(), start.p.zeros_like());
     for i in 0..3 {
@@ -155,10 +155,10 @@ fn derivatives_of_k() {
         *vq.component_mut(i) = directions[i];
         *vp.component_mut(i) = directions[i + 3];
     }
-    let along = System::<Dual<f64>>::energy(&system, &moved).eps;
-    let first = System::<f64>::gradient(&system, &start);
-    let second = System::<Dual<f64>>::gradient(&system, &moved);
-    let prepared = System::<f64>::prepare(&system);
+    let along = System::energy::<Dual<f64>>(&system, &moved).eps;
+    let first = System::gradient::<f64>(&system, &start);
+    let second = System::gradient::<Dual<f64>>(&system, &moved);
+    let prepared = System::prepare::<f64>(&system);
     let (mut out_q, mut out_p) = (vq.zeros_like(), vp.zeros_like());
     prepared.hessian_vector(0.0, &start.q, &start.p, &vq, &vp, &mut out_q, &mut out_p);
     let mut field = (vq.zeros_like(), vp.zeros_like());
@@ -179,7 +179,7 @@ fn derivatives_of_k() {
 fn what_is_no_monitor_is_refused() {
     let system = in_radius(false);
     let nowhere = State::new([0.0, 0.0], [0.0, 1.0]);
-    let refused = system.start::<f64, _>(&nowhere).expect_err("g = 0");
+    let refused = system.start::<f64>(&nowhere).expect_err("g = 0");
     assert_eq!(refused, Error::Monitor { value: 0.0 });
     let system = in_radius(true);
     let mut off = system.start(&pericentre::<f64>(0.6)).expect("a good start");

@@ -10,14 +10,16 @@ use super::common::systems::{
     DoublePendulum, Formula, Hand, Pendulum, Pumped, Relativistic, pendulum, scalar,
 };
 use super::schemes::{on_34, on_the_double_pendulum, symplectic};
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::Ends;
 use hamiltonian_core::schemes::collocation::Collocation;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
-    DoubleDouble, Dual, Error, Integrator, Real, Scheme, State, System,
+    Dual, Error, Integrator, Real, Scheme, State, System,
     schemes::author::{Dynamics, Group, Listed, Observable, VectorField},
 };
+use hamiltonian_lanes::Pack;
 
 type Pendulums = Hand<DoublePendulum, 2>;
 type Pair = [f64; 2];
@@ -116,7 +118,7 @@ fn momenta(degree: usize, nodes: &[f64], weights: &[f64], h: f64, ends: [Pair; 2
 }
 
 /// One step from `(q, p)`.
-fn step(scheme: impl Scheme<f64, Pendulums>, h: f64, q: Pair, p: Pair) -> (Pair, Pair) {
+fn step(scheme: impl Scheme<Pendulums>, h: f64, q: Pair, p: Pair) -> (Pair, Pair) {
     let system = Hand(DoublePendulum);
     let run = Integrator::new(&system, scheme, State::new(q, p), h);
     let mut run = run.expect("a good start");
@@ -251,7 +253,7 @@ fn galerkin_identities() {
     println!("line and trapezoid {line:.1e}, parabola and Simpson {parabola:.1e}");
     assert!(line > 1e-5 && parabola > 1e-7, "{line:e} {parabola:e}");
     // and the same where it does not.
-    fn of_the_pendulum(scheme: impl Scheme<f64, Hand<Pendulum, 1>>) -> [f64; 2] {
+    fn of_the_pendulum(scheme: impl Scheme<Hand<Pendulum, 1>>) -> [f64; 2] {
         let system = pendulum(true);
         let run = Integrator::new(&system, scheme, State::new([0.7], [3.0]), 0.3);
         let mut run = run.expect("a good start");
@@ -287,7 +289,7 @@ fn polynomials_of_momenta_are_the_conjugate_methods() {
     assert!(same.iter().all(|error| *error <= 1e-13), "{same:?}");
     assert!(other.iter().all(|error| *error > 1e-6), "{other:?}");
     // And kicks between drifts where H is separable.
-    fn end(scheme: impl Scheme<f64, Hand<Pendulum, 1>>) -> [f64; 2] {
+    fn end(scheme: impl Scheme<Hand<Pendulum, 1>>) -> [f64; 2] {
         let system = pendulum(true);
         let run = Integrator::new(&system, scheme, State::new([0.7], [3.0]), 0.3);
         let mut run = run.expect("a good start");
@@ -314,7 +316,7 @@ fn variational_integrators_have_their_order() {
     on_34(Variational::<3, 3>::lobatto(), 8);
     on_34(Variational::<3, 4>::lobatto(), 4);
     on_the_double_pendulum(Variational::<2, 3>::gauss(), 8);
-    fn one(scheme: impl Scheme<DoubleDouble, Hand<Relativistic, 1>>) {
+    fn one(scheme: impl Scheme<Hand<Relativistic, 1>>) {
         let system = Hand(Relativistic);
         let start = start(&system, &[0.9], &[0.4]);
         assert_order(&system, &scheme, &start, 2.0, 16);
@@ -483,17 +485,26 @@ const DAMPING: f64 = 0.4;
 #[derive(Debug, Clone)]
 struct DampedField<T>(T);
 
-impl<T: Real> System<T> for Damped {
-    type Vector = SVector<T, 1>;
-    type Prepared = Damped;
+impl System for Damped {
+    type Shape = SVector<(), 1>;
+    type Prepared<T: Real> = Damped;
     const NAME: &'static str = "Damped";
     const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
     const OBSERVABLES: &'static [Observable] = &[];
-    fn prepare(&self) -> Damped {
+    fn prepare<T: Real>(&self) -> Damped {
         Damped
     }
-    fn zeros(&self) -> Self::Vector {
+    fn zeros<T: Real>(&self) -> VectorOf<Self, T> {
         SVector::from_element(T::zero())
+    }
+    fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>> {
+        members[0].clone()
+    }
+    fn fits<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
+    }
+    fn equals<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
     }
 }
 

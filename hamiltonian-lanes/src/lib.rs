@@ -64,7 +64,7 @@ mod double_double;
 mod level;
 
 pub use double_double::{DoubleDouble, ParseDoubleDoubleError};
-pub use hamiltonian_real::{Dual, Lift, Mask, Pack, Real, computed_together, itself_in_lanes};
-pub use level::{
-    AtHand, Base, Cpu, Kernel, KernelAt, Level, Nf, OnEveryLevel, W, dispatch, dispatch_at_most,
+pub use hamiltonian_real::{
+    Dual, Lift, Mask, Pack, Parameter, Real, computed_together, itself_in_lanes,
 };
+pub use level::{AtHand, Base, Cpu, Kernel, Level, Nf, W, dispatch, dispatch_at_most};

@@ -1,7 +1,7 @@
 //! Dual numbers: derivatives of every operation against differences in double-double, second
 //! derivatives by nesting, and the conventions where no derivative exists.
 
-use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Real};
+use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Parameter, Real};
 
 type First = Dual<DoubleDouble>;
 type Second = Dual<First>;
@@ -371,4 +371,29 @@ fn parameters_lift_as_constants() {
     );
     let x = Dual::new(1.0, 2.0);
     assert_eq!(Dual::<f64>::lift(x), x);
+}
+
+/// Values are rounded once; derivatives are kept where the scalar has them, as its innermost ones.
+#[test]
+fn parameters_become_every_scalar() {
+    let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
+    assert_eq!(third.into_real::<DoubleDouble>(), third);
+    assert_eq!(third.into_real::<f64>(), 1.0 / 3.0);
+    assert_eq!(0.1.into_real::<f32>(), 0.1f32);
+    assert_eq!(0.1f32.into_real::<f64>(), f64::from(0.1f32));
+    assert_eq!(
+        (-0.0).into_real::<Dual<f64>>().re.to_bits(),
+        (-0f64).to_bits()
+    );
+    assert_eq!(u64::MAX.into_real::<DoubleDouble>().lo(), -1.0);
+    let one = Dual::new(2.0, 3.0);
+    assert_eq!(one.into_real::<f64>(), 2.0);
+    assert_eq!(one.into_real::<Dual<f64>>(), one);
+    assert_eq!(one.into_real::<Dual<Dual<f64>>>(), Dual::fixed(one));
+    let two = Dual::new(one, Dual::new(5.0, 7.0));
+    assert_eq!(two.into_real::<Dual<Dual<f64>>>(), two);
+    assert_eq!(two.into_real::<Dual<Dual<Dual<f64>>>>(), Dual::fixed(two));
+    // Of more derivatives than there are places, the outermost are kept.
+    assert_eq!(two.into_real::<Dual<f64>>(), Dual::new(2.0, 5.0));
+    assert_eq!(two.into_real::<f64>(), 2.0);
 }

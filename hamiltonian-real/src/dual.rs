@@ -8,7 +8,7 @@
 use core::f64::consts::FRAC_2_SQRT_PI;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::real::{Mask, Pack, Real, kepler};
+use crate::real::{Mask, Pack, Parameter, Real, kepler};
 
 /// The largest number of lanes of a pack over which dual numbers are gathered.
 const MOST: usize = 128;
@@ -225,6 +225,14 @@ fn scattered<T: Real, P: Pack, const N: usize>(from: Dual<T::Over<P>>, into: &mu
     }
 }
 
+impl<A: Parameter> Parameter for Dual<A> {
+    const DUALS: u32 = A::DUALS + 1;
+    #[inline(always)]
+    fn into_real<T: Real>(self) -> T {
+        T::from_dual(self.re, self.eps)
+    }
+}
+
 impl<T: Real> Real for Dual<T> {
     type Mask = T::Mask;
     type Size = T::Size;
@@ -252,6 +260,17 @@ impl<T: Real> Real for Dual<T> {
         Dual {
             re: self.re.spread::<P>(),
             eps: self.eps.spread::<P>(),
+        }
+    }
+
+    const DUALS: u32 = T::DUALS + 1;
+    #[inline(always)]
+    fn from_dual<A: Parameter>(value: A, derivative: A) -> Self {
+        // The innermost numbers keep the derivatives of parameters, so that the outer ones are free for those by
+        // coordinates.
+        match const { T::DUALS > A::DUALS } {
+            true => Self::fixed(T::from_dual(value, derivative)),
+            false => Self::new(value.into_real(), derivative.into_real()),
         }
     }
 

@@ -44,7 +44,7 @@ mod dual;
 mod lift;
 
 pub use dual::Dual;
-pub use real::{Lift, Mask, Pack, Real};
+pub use real::{Lift, Mask, Pack, Parameter, Real};
 
 /// The parts for crates that define further scalars.
 ///

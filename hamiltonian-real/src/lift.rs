@@ -5,7 +5,7 @@
 //! to even; a value lifted into a dual is constant (its derivative part is 0).
 
 use crate::dual::Dual;
-use crate::real::{Lift, Real};
+use crate::real::{Lift, Parameter, Real};
 
 /// Scalars that hold any float: a float is cast, which is exact or rounds to nearest.
 macro_rules! lift_float {
@@ -59,6 +59,33 @@ macro_rules! lift_integer {
         )*
     };
 }
+
+/// Parameters: floats in one word, integers in two.
+macro_rules! parameter {
+    ($($number:ident: |$value:ident| $made:expr),*) => {
+        $(
+            impl Parameter for $number {
+                #[inline(always)]
+                fn into_real<T: Real>(self) -> T {
+                    let $value = self;
+                    $made
+                }
+            }
+        )*
+    };
+}
+
+macro_rules! parameter_integer {
+    ($($integer:ident)*) => {
+        parameter!($($integer: |value| {
+            let (hi, lo) = words(value as i128);
+            T::constant(hi, lo)
+        }),*);
+    };
+}
+
+parameter!(f64: |value| T::lift(value), f32: |value| T::lift(f64::from(value)));
+parameter_integer!(i8 i16 i32 i64 isize u8 u16 u32 u64 usize);
 
 lift_float!(f64 f32);
 lift_integer!(i8 i16 i32 i64 isize u8 u16 u32 u64 usize);

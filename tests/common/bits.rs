@@ -4,6 +4,7 @@
 
 use super::derivatives::numbers;
 use crate::counting::counted::Called;
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{
     Vector,
@@ -19,13 +20,13 @@ pub static LEVEL: RwLock<()> = RwLock::new(());
 fn outputs<T, S>(system: &S, seed: u64, word: fn(T) -> f64, number: fn(f64) -> T) -> Vec<u64>
 where
     T: Real,
-    S: System<T>,
+    S: System,
 {
     let prepared = system.prepare();
     let mut some = numbers(seed);
     let mut vector = || {
         let mut vector = system.zeros();
-        for k in 0..<S::Vector as Vector>::PARTS {
+        for k in 0..<VectorOf<S, T> as Vector>::PARTS {
             for (to, from) in vector.part_mut(k).iter_mut().zip(&mut some) {
                 *to = number(from);
             }
@@ -35,9 +36,9 @@ where
     let [q, p, vq, vp, mut a, mut b] = [(); 6].map(|()| vector());
     let t = number(0.25);
     let mut words = vec![prepared.energy(t, &q, &p)];
-    let push = |words: &mut Vec<T>, a: &S::Vector, b: &S::Vector| {
+    let push = |words: &mut Vec<T>, a: &VectorOf<S, T>, b: &VectorOf<S, T>| {
         for vector in [a, b] {
-            (0..<S::Vector as Vector>::PARTS).for_each(|k| words.extend(vector.part(k)));
+            (0..<VectorOf<S, T> as Vector>::PARTS).for_each(|k| words.extend(vector.part(k)));
         }
     };
     prepared.field(number(0.125)).add(t, &q, &p, &mut a, &mut b);
@@ -59,7 +60,7 @@ where
 
 /// The bits of a system over `f64` on every level, and one by one.
 #[track_caller]
-pub fn check<S: System<f64> + System<Called<false>>>(system: &S, seed: u64) {
+pub fn check<S: System>(system: &S, seed: u64) {
     let expected = outputs::<Called<false>, S>(system, seed, |x| x.0, Called);
     let _hidden = LEVEL.write().unwrap_or_else(PoisonError::into_inner);
     for limit in Cpu::available() {

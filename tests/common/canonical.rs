@@ -55,8 +55,8 @@ macro_rules! same_system {
         let (declared, new, written) = ($declared, $new, $state);
         let ones = State {
             t: 0.0,
-            q: System::<f64>::zeros(&new),
-            p: System::<f64>::zeros(&new),
+            q: System::zeros::<f64>(&new),
+            p: System::zeros::<f64>(&new),
         };
         let numbers = flat(&written);
         let old = shaped(written.t, &numbers, &new.to_declared(&ones));
@@ -66,8 +66,8 @@ macro_rules! same_system {
         equal(&back.q, &old.q);
         equal(&back.p, &old.p);
         let (prepared, energy) = (
-            System::<f64>::prepare(&declared),
-            System::<f64>::prepare(&new),
+            System::prepare::<f64>(&declared),
+            System::prepare::<f64>(&new),
         );
         close(
             prepared.energy(written.t, &written.q, &written.p),
@@ -76,8 +76,8 @@ macro_rules! same_system {
 
         let ones = State {
             t: Dual::fixed(0.0),
-            q: System::<Dual<f64>>::zeros(&new),
-            p: System::<Dual<f64>>::zeros(&new),
+            q: System::zeros::<Dual<f64>>(&new),
+            p: System::zeros::<Dual<f64>>(&new),
         };
         let like = new.to_declared(&ones);
         let n = old.q.len();
@@ -104,7 +104,7 @@ macro_rules! same_system {
             q: by_q,
             p: by_p,
         });
-        let dual = System::<Dual<f64>>::prepare(&new);
+        let dual = System::prepare::<Dual<f64>>(&new);
         for (k, slope) in gradient.iter().enumerate() {
             let at = shaped(Dual::fixed(there.t), &along(&flat(&there), k), &ones);
             close(*slope, dual.energy(at.t, &at.q, &at.p).eps);

@@ -5,6 +5,7 @@ use super::geometry::visible_tangent;
 use super::order::slope;
 use super::reference::{difference, solution};
 use super::{assert_digits, state};
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{DoubleDouble, Dual, Real, Vector, schemes::author::Dynamics};
 
@@ -32,11 +33,11 @@ pub struct Case<'a> {
 }
 
 impl Case<'_> {
-    pub fn start<T: Real, S: System<T>>(
+    pub fn start<T: Real, S: System>(
         &self,
         system: &S,
         of: impl Fn(DoubleDouble) -> T,
-    ) -> State<S::Vector> {
+    ) -> State<VectorOf<S, T>> {
         let numbers = |texts: &[&str]| texts.iter().map(|x| of(exactly(x))).collect::<Vec<_>>();
         state(system, T::zero(), numbers(self.q), numbers(self.p))
     }
@@ -44,8 +45,8 @@ impl Case<'_> {
     /// Integrates both ways. `exact` has the parameters as decimals, `rounded` in `f64`.
     pub fn check<E, S>(&self, exact: &E, rounded: &S)
     where
-        E: System<DoubleDouble>,
-        S: System<f64> + System<Dual<f64>>,
+        E: System,
+        S: System,
     {
         let end = self.ends(exact);
         for (found, printed) in end.q.components().chain(end.p.components()).zip(self.end) {
@@ -62,7 +63,7 @@ impl Case<'_> {
     }
 
     /// The end by the reference; H is the same there unless it depends on time.
-    pub fn ends<E: System<DoubleDouble>>(&self, system: &E) -> State<E::Vector> {
+    pub fn ends<E: System>(&self, system: &E) -> State<VectorOf<E, DoubleDouble>> {
         let start = self.start(system, |x| x);
         let end = solution(system, &start, exactly(self.t));
         let prepared = system.prepare();
@@ -84,10 +85,10 @@ impl Case<'_> {
     /// rounding.
     pub fn converges<V: Vector<Scalar = DoubleDouble>, S>(&self, system: &S, end: &State<V>)
     where
-        S: System<f64> + System<Dual<f64>>,
+        S: System,
     {
         let kappa = self.kappa_of(system);
-        let start: State<<S as System<f64>>::Vector> = self.start(system, Real::to_f64);
+        let start: State<VectorOf<S>> = self.start(system, Real::to_f64);
         let numbers = |v: &V| v.components().map(Real::to_f64).collect::<Vec<_>>();
         let end = state(system, end.t.to_f64(), numbers(&end.q), numbers(&end.p));
         let mut ends = Vec::new();
@@ -106,7 +107,7 @@ impl Case<'_> {
             .map(|(h, z)| (*h, difference(z, &end)))
             .collect();
         let measured = slope(&points);
-        let name = <S as System<f64>>::NAME;
+        let name = <S as System>::NAME;
         // Each of n steps is wrong by an ulp or so of the state, in a direction of its own, and
         // the end by κ times that: κ ε √n; four standard deviations.
         let size = end.q.magnitude().max(end.p.magnitude()).max(1.0);
@@ -128,7 +129,7 @@ impl Case<'_> {
 
     /// The largest entry of the derivative of the end with respect to the start, which is the
     /// table's.
-    pub fn kappa_of<S: System<Dual<f64>>>(&self, system: &S) -> f64 {
+    pub fn kappa_of<S: System>(&self, system: &S) -> f64 {
         let start = self.start(system, |x| Dual::fixed(x.to_f64()));
         let (h, steps) = (
             exactly(self.t).to_f64() / f64::from(self.steps),
@@ -150,7 +151,7 @@ impl Case<'_> {
     }
 
     /// The distance of the system's end from its start.
-    pub fn gap<E: System<DoubleDouble>>(&self, system: &E) -> f64 {
+    pub fn gap<E: System>(&self, system: &E) -> f64 {
         difference(&self.ends(system), &self.start(system, |x| x))
     }
 }

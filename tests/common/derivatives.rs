@@ -1,6 +1,7 @@
 //! Derivatives of a system against dual numbers, against its energy in plain Rust, and against
 //! another definition of it.
 
+use hamiltonian::VectorOf;
 use hamiltonian::{
     Dual, Real, State, System, Vector,
     schemes::author::{Dynamics, VectorField},
@@ -26,7 +27,7 @@ pub fn numbers(seed: u64) -> impl Iterator<Item = f64> {
 }
 
 /// The vector of a system with these components.
-fn vector<S: System<f64>>(system: &S, mut values: impl Iterator<Item = f64>) -> S::Vector {
+fn vector<S: System>(system: &S, mut values: impl Iterator<Item = f64>) -> VectorOf<S> {
     let mut vector = system.zeros();
     for at in 0..vector.len() {
         *vector.component_mut(at) = values.next().expect("as many values as components");
@@ -35,7 +36,7 @@ fn vector<S: System<f64>>(system: &S, mut values: impl Iterator<Item = f64>) -> 
 }
 
 /// A state that [`numbers`] choose.
-pub fn chosen<S: System<f64>>(system: &S, seed: u64) -> State<S::Vector> {
+pub fn chosen<S: System>(system: &S, seed: u64) -> State<VectorOf<S>> {
     State {
         t: numbers(seed + 2).next().expect("there is no end"),
         q: vector(system, numbers(seed)),
@@ -46,26 +47,26 @@ pub fn chosen<S: System<f64>>(system: &S, seed: u64) -> State<S::Vector> {
 /// [`check_at`] a state that [`numbers`] choose.
 pub fn check<S>(system: &S)
 where
-    S: System<f64> + System<Dual<f64>>,
+    S: System,
 {
     check_at(system, &chosen(system, 1));
 }
 
 /// The gradient, the derivative by time, the Hessian and the flow against duals.
-pub fn check_at<S>(system: &S, state: &State<<S as System<f64>>::Vector>)
+pub fn check_at<S>(system: &S, state: &State<VectorOf<S>>)
 where
-    S: System<f64> + System<Dual<f64>>,
+    S: System,
 {
-    let gradient = System::<f64>::gradient(system, state);
+    let gradient = System::gradient::<f64>(system, state);
     let n = state.q.len();
-    let lifted = |from: &<S as System<f64>>::Vector| {
-        let mut to = System::<Dual<f64>>::zeros(system);
+    let lifted = |from: &VectorOf<S>| {
+        let mut to = System::zeros::<Dual<f64>>(system);
         for at in 0..n {
             *to.component_mut(at) = Dual::fixed(from.component(at));
         }
         to
     };
-    let prepared = System::<f64>::prepare(system);
+    let prepared = System::prepare::<f64>(system);
     let (t, q, p) = (state.t, &state.q, &state.p);
     // In 64 or so directions, whatever the size, and in one that all components have a part in.
     let stride = (2 * n).div_ceil(64).max(1);
@@ -81,7 +82,7 @@ where
         expected += terms[0] + terms[1];
         size += terms[0].abs() + terms[1].abs();
     }
-    let found = System::<Dual<f64>>::energy(system, &all).eps;
+    let found = System::energy::<Dual<f64>>(system, &all).eps;
     assert!(
         (found - expected).abs() <= 2e-13 * (1.0 + size),
         "{found} is not {expected}"
@@ -92,7 +93,7 @@ where
             q: lifted(q),
             p: lifted(p),
         };
-        let mut direction = (System::<f64>::zeros(system), System::<f64>::zeros(system));
+        let mut direction = (System::zeros::<f64>(system), System::zeros::<f64>(system));
         let expected = if at < n {
             dual.q.component_mut(at).eps = 1.0;
             *direction.0.component_mut(at) = 1.0;
@@ -102,8 +103,8 @@ where
             *direction.1.component_mut(at - n) = 1.0;
             gradient.p.component(at - n)
         };
-        close(System::<Dual<f64>>::energy(system, &dual).eps, expected);
-        let column = System::<Dual<f64>>::gradient(system, &dual);
+        close(System::energy::<Dual<f64>>(system, &dual).eps, expected);
+        let column = System::gradient::<Dual<f64>>(system, &dual);
         let (mut hq, mut hp) = (direction.0.clone(), direction.1.clone());
         prepared.hessian_vector(t, q, p, &direction.0, &direction.1, &mut hq, &mut hp);
         for k in 0..n {
@@ -116,7 +117,7 @@ where
         q: lifted(q),
         p: lifted(p),
     };
-    let by_time = System::<Dual<f64>>::energy(system, &later).eps;
+    let by_time = System::energy::<Dual<f64>>(system, &later).eps;
     close(by_time, prepared.time_derivative(t, q, p));
     let (mut to_q, mut to_p) = (q.clone(), p.clone());
     prepared.field(0.125).add(t, q, p, &mut to_q, &mut to_p);
@@ -133,7 +134,7 @@ pub trait Plain {
 }
 
 /// H and its gradient are those of plain Rust, differentiated by duals.
-pub fn check_plain<S: System<f64>>(system: &S, state: &State<S::Vector>, plain: &impl Plain) {
+pub fn check_plain<S: System>(system: &S, state: &State<VectorOf<S>>, plain: &impl Plain) {
     let (q, p): (Vec<_>, Vec<_>) = (
         state.q.components().collect(),
         state.p.components().collect(),
@@ -159,7 +160,7 @@ pub fn check_plain<S: System<f64>>(system: &S, state: &State<S::Vector>, plain: 
 }
 
 /// Two definitions of one system agree: H, its gradient and its Hessian times a vector.
-pub fn agree<A: System<f64>, B: System<f64>>(a: &A, b: &B) {
+pub fn agree<A: System, B: System>(a: &A, b: &B) {
     let (here, there) = (all(a), all(b));
     assert_eq!(here.len(), there.len());
     for (here, there) in here.into_iter().zip(there) {
@@ -167,7 +168,7 @@ pub fn agree<A: System<f64>, B: System<f64>>(a: &A, b: &B) {
     }
 }
 
-fn all<S: System<f64>>(system: &S) -> Vec<f64> {
+fn all<S: System>(system: &S) -> Vec<f64> {
     let [q, p, vq, vp] = [1, 2, 3, 4].map(|seed| vector(system, numbers(seed)));
     let prepared = system.prepare();
     let [mut dq, mut dp, mut hq, mut hp] = [(); 4].map(|()| system.zeros());

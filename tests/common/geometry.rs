@@ -1,6 +1,7 @@
 //! The 2-form a scheme preserves, measured by exact tangents.
 
 use super::state;
+use hamiltonian::VectorOf;
 use hamiltonian::schemes::walk::Visitor;
 use hamiltonian::{
     Dual, Integrator, Scheme, State, System, Vector,
@@ -68,13 +69,13 @@ pub fn uncrossed(n: usize) -> impl Fn(usize, usize) -> f64 {
 pub fn visible_tangent<S, M>(
     system: &S,
     scheme: &M,
-    start: &State<<S as System<Dual<f64>>>::Vector>,
+    start: &State<VectorOf<S, Dual<f64>>>,
     h: f64,
     steps: u64,
 ) -> Vec<Vec<f64>>
 where
-    S: System<Dual<f64>>,
-    M: Scheme<Dual<f64>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let n = start.q.len();
     (0..2 * n)
@@ -99,13 +100,13 @@ where
 pub fn carried_tangent<S, M>(
     system: &S,
     scheme: &M,
-    start: &State<<S as System<Dual<f64>>>::Vector>,
+    start: &State<VectorOf<S, Dual<f64>>>,
     h: f64,
     made: u64,
 ) -> Vec<Vec<f64>>
 where
-    S: System<Dual<f64>>,
-    M: Scheme<Dual<f64>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let prepared = system.prepare();
     let map = scheme.prepare(&prepared, Step::of(Dual::fixed(h)));
@@ -117,7 +118,8 @@ where
         interval: Dual::fixed(h * duration),
     };
     // All steps are compiled in one place.
-    let steps: fn(&M::Map, _, _, _, &mut <M::Map as Map>::Carried, &mut _) = Map::run;
+    let steps: fn(&M::Map<Dual<f64>>, _, _, _, &mut <M::Map<Dual<f64>> as Map>::Carried, &mut _) =
+        Map::run;
     steps(&map, clock, 0, made, &mut carried, &mut work);
     (0..carried.len())
         .map(|seed| {
@@ -130,7 +132,7 @@ where
 }
 
 /// A start at t = 0.3.
-pub fn start<S: System<Dual<f64>>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
+pub fn start<S: System>(system: &S, q: &[f64], p: &[f64]) -> State<VectorOf<S, Dual<f64>>> {
     let numbers = |v: &[f64]| v.iter().copied().map(Dual::fixed).collect::<Vec<_>>();
     state(system, Dual::fixed(0.3), numbers(q), numbers(p))
 }
@@ -157,8 +159,8 @@ impl<S> Geometry<S> {
     }
 }
 
-impl<S: System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
-    fn visit<M: Scheme<Dual<f64>, S>>(&mut self, scheme: M) {
+impl<S: System> Visitor<S> for Geometry<S> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         // Exact up to the rounding of the tangents themselves: entries of M are sums of a few
         // products, wrong by some ulps of ‖M‖, and enter twice.
         const BOUND: f64 = 1e-13;

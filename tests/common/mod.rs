@@ -10,16 +10,17 @@ pub mod order;
 pub mod reference;
 pub mod systems;
 
+use hamiltonian::VectorOf;
 use hamiltonian::schemes::author::catalogue;
 use hamiltonian::{Real, State, System, Vector, schemes::author::Needs};
 
 /// A point in any scalar.
-pub fn state<T: Real, S: System<T>>(
+pub fn state<T: Real, S: System>(
     system: &S,
     t: T,
     q: impl IntoIterator<Item = T>,
     p: impl IntoIterator<Item = T>,
-) -> State<S::Vector> {
+) -> State<VectorOf<S, T>> {
     let fill = |values: &mut dyn Iterator<Item = T>| {
         let mut vector = system.zeros();
         for at in 0..vector.len() {

@@ -2,6 +2,7 @@
 
 use super::reference::{difference, solution};
 use super::state;
+use hamiltonian::VectorOf;
 use hamiltonian::schemes::walk::Visitor;
 use hamiltonian::{DoubleDouble, Integrator, Real, Scheme, State, System, schemes::author::Entry};
 
@@ -23,15 +24,15 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
 ///
 /// The maximum over several times keeps a zero of the leading error term from passing for order;
 /// double-double keeps rounding out of the errors.
-pub struct Order<S: System<DoubleDouble>> {
+pub struct Order<S: System> {
     system: S,
-    exact: Vec<State<S::Vector>>,
+    exact: Vec<State<VectorOf<S, DoubleDouble>>>,
     between: DoubleDouble,
     coarsest: f64,
     pub measured: Vec<(Entry, f64)>,
 }
 
-impl<S: System<DoubleDouble>> Order<S> {
+impl<S: System> Order<S> {
     /// From (q, p) at t = 0.3, at eight times up to `span` after that.
     pub fn new(system: S, q: &[f64], p: &[f64], span: f64, coarsest: f64) -> Order<S> {
         const TIMES: u32 = 8;
@@ -58,8 +59,8 @@ impl<S: System<DoubleDouble>> Order<S> {
     }
 }
 
-impl<S: System<DoubleDouble>> Visitor<DoubleDouble, S> for Order<S> {
-    fn visit<M: Scheme<DoubleDouble, S>>(&mut self, scheme: M) {
+impl<S: System> Visitor<S> for Order<S> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let entry = scheme.entry();
         let mut points = Vec::new();
         for halving in 0..5 {

@@ -1,5 +1,6 @@
 //! Solutions to compare with, by methods that share nothing with the library's schemes.
 
+use hamiltonian::VectorOf;
 use hamiltonian::{DoubleDouble, Real, State, System, Vector, schemes::author::Dynamics};
 
 /// The local error a step of [`solution`] is accepted with, estimated two orders below its own:
@@ -11,11 +12,11 @@ const TOLERANCE: f64 = 1e-26;
 /// Stoer 1966) with the sequence 2, 4, …, 2·ROWS, over steps of the size the error asks for.
 ///
 /// E. Hairer, S. Nørsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.9.
-pub fn solution<S: System<DoubleDouble>>(
+pub fn solution<S: System>(
     system: &S,
-    start: &State<S::Vector>,
+    start: &State<VectorOf<S, DoubleDouble>>,
     t: DoubleDouble,
-) -> State<S::Vector> {
+) -> State<VectorOf<S, DoubleDouble>> {
     const ROWS: usize = 10;
     let prepared = system.prepare();
     let mut state = start.clone();
@@ -29,7 +30,7 @@ pub fn solution<S: System<DoubleDouble>>(
             DoubleDouble::from(size)
         };
         // Neville's scheme in (H/n)².
-        let mut rows: Vec<State<S::Vector>> = Vec::new();
+        let mut rows: Vec<State<VectorOf<S, DoubleDouble>>> = Vec::new();
         let mut error = f64::INFINITY;
         for row in 0..ROWS {
             let n = 2 * (row + 1);

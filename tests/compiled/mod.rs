@@ -57,7 +57,7 @@ fn two(outputs: &mut Outputs, name: &'static str, values: SVector<Number, 2>) {
 }
 
 /// The outputs of every system, in the order of [`interpret`](interpret).
-pub fn any<S: System<Number, Vector = SVector<Number, 2>>>(system: &S, at: &At) -> Outputs {
+pub fn any<S: System<Shape = SVector<(), 2>>>(system: &S, at: &At) -> Outputs {
     let prepared = system.prepare();
     let (t, q, p) = (
         Called(at.t),
@@ -96,19 +96,19 @@ pub fn any<S: System<Number, Vector = SVector<Number, 2>>>(system: &S, at: &At) 
 /// The further outputs of separable systems.
 pub fn separable<S>(system: &S, at: &At) -> Outputs
 where
-    S: Separable<Number> + System<Number, Vector = SVector<Number, 2>>,
+    S: Separable + System<Shape = SVector<(), 2>>,
 {
     let mut outputs = any(system, at);
     let prepared = system.prepare();
     let [a, b] = at.into.map(|row| SVector::from(numbers(row)));
     let (q, p) = (SVector::from(numbers(at.q)), SVector::from(numbers(at.p)));
     let mut point = Point { q, p: b };
-    let kick = S::KICK.flow(&prepared, Called(at.c));
+    let kick = S::kick::<Number>().flow(&prepared, Called(at.c));
     let mut work = Scratch::like(&point);
     kick.apply(Called(at.t), &mut point, &mut work);
     two(&mut outputs, "kick", point.p);
     let mut point = Point { q: a, p };
-    let drift = S::DRIFT.flow(&prepared, Called(at.c));
+    let drift = S::drift::<Number>().flow(&prepared, Called(at.c));
     let mut work = Scratch::like(&point);
     drift.apply(Called(at.t), &mut point, &mut work);
     two(&mut outputs, "drift", point.q);
@@ -238,12 +238,12 @@ hamiltonian::hamiltonian! {
 /// A condition couples q and p without a derivative that does: the drift must not read q.
 #[test]
 fn conditions_couple_without_a_derivative() {
-    let prepared = System::<f64>::prepare(&Conditional::default());
+    let prepared = System::prepare::<f64>(&Conditional::default());
     let mut point = Point {
         q: SVector::from([0.5]),
         p: SVector::from([0.25]),
     };
-    <Conditional as Separable<f64>>::DRIFT
+    <Conditional as Separable>::drift::<f64>()
         .flow(&prepared, 2.0)
         .apply(0.0, &mut point, &mut ());
     assert_eq!(point.q[0], 2.5);

@@ -62,8 +62,8 @@ impl Ends {
     /// Adds the end of a run and H there.
     fn add<S, M>(&mut self, system: S, scheme: M)
     where
-        S: System<f64>,
-        M: Scheme<f64, S>,
+        S: System,
+        M: Scheme<S>,
     {
         let mut start = State {
             q: system.zeros(),

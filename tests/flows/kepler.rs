@@ -2,6 +2,7 @@
 
 use super::pieces::{Case, Each, check, flat, point};
 use crate::common::geometry::{defect, one_point};
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::Strang;
 use hamiltonian::{DoubleDouble, Dual, Error, Real, Split, System, schemes::author::Point};
@@ -55,14 +56,13 @@ fn orbits_are_those_of_the_equations() {
 /// The flow of the plane's free orbit for a time.
 fn flow<T: Real>(z: &[T], t: T) -> Vec<T>
 where
-    Plane: Split<T>,
-    <Plane as Split<T>>::Pieces:
-        Each<T, <Plane as System<T>>::Prepared, Point<<Plane as System<T>>::Vector>>,
+    Plane: Split,
+    <Plane as Split>::Pieces<T>: Each<T, <Plane as System>::Prepared<T>, Point<VectorOf<Plane, T>>>,
 {
     let plane = Plane::default();
-    let prepared = System::<T>::prepare(&plane);
+    let prepared = System::prepare::<T>(&plane);
     let mut point = point::<T, Plane>(&plane, z);
-    <Plane as Split<T>>::PIECES.apply(0, &prepared, t, &mut point);
+    <Plane as Split>::pieces::<T>().apply(0, &prepared, t, &mut point);
     flat(&point)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::common::geometry::{defect, one_point};
 use crate::symbolic as text;
+use hamiltonian::VectorOf;
 use hamiltonian::{
     DoubleDouble, Dual, Real, Split, System, Vector,
     schemes::author::{Flow, Piece, Point, Scratch},
@@ -50,7 +51,7 @@ each!(A 0, B 1, C 2);
 each!(A 0, B 1, C 2, D 3);
 
 /// The point of a system with these numbers, coordinates first.
-pub fn point<T: Real, S: System<T>>(system: &S, z: &[T]) -> Point<S::Vector> {
+pub fn point<T: Real, S: System>(system: &S, z: &[T]) -> Point<VectorOf<S, T>> {
     let (mut q, mut p) = (system.zeros(), system.zeros());
     for at in 0..q.len() {
         *q.component_mut(at) = z[at];
@@ -222,20 +223,20 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 /// Bounds are multiples of 1 + ‖M‖, M the tangent by duals.
 pub fn check<S>(system: &S, case: &Case)
 where
-    S: Split<f64> + Split<Dual<f64>>,
-    <S as Split<f64>>::Pieces:
-        Each<f64, <S as System<f64>>::Prepared, Point<<S as System<f64>>::Vector>>,
-    <S as Split<Dual<f64>>>::Pieces: Each<Dual<f64>, <S as System<Dual<f64>>>::Prepared, Point<<S as System<Dual<f64>>>::Vector>>,
+    S: Split,
+    <S as Split>::Pieces<f64>: Each<f64, <S as System>::Prepared<f64>, Point<VectorOf<S>>>,
+    <S as Split>::Pieces<Dual<f64>>:
+        Each<Dual<f64>, <S as System>::Prepared<Dual<f64>>, Point<VectorOf<S, Dual<f64>>>>,
 {
     const POINTS: usize = 24;
     const BOUND: f64 = 1e-13;
     // H of a piece is constant to rounding.
     const BOUNDS: [f64; 4] = [BOUND, BOUND, 0.1 * BOUND, BOUND];
-    let prepared = System::<f64>::prepare(system);
-    let dual = System::<Dual<f64>>::prepare(system);
+    let prepared = System::prepare::<f64>(system);
+    let dual = System::prepare::<Dual<f64>>(system);
     let act = |number: usize, c: f64, z: &[f64]| {
         let mut point = point::<f64, S>(system, z);
-        <S as Split<f64>>::PIECES.apply(number, &prepared, c, &mut point);
+        <S as Split>::pieces::<f64>().apply(number, &prepared, c, &mut point);
         flat(&point)
     };
     let n = case.ranges.len();
@@ -246,7 +247,7 @@ where
         0.5 + (x.abs() - 0.25) * x.signum()
     };
     let mut report = Vec::new();
-    for (number, name) in <S as Split<f64>>::NAMES.iter().enumerate() {
+    for (number, name) in <S as Split>::NAMES.iter().enumerate() {
         let equations = Equations::of(case, name);
         let (mut alive, mut worst, mut later) = (0, [0.0_f64; 4], 0.0_f64);
         for trial in 0..POINTS {
@@ -278,7 +279,7 @@ where
                     seeded[k].eps = 1.0;
                     let mut point = point::<Dual<f64>, S>(system, &seeded);
                     let c = Dual::fixed(c);
-                    <S as Split<Dual<f64>>>::PIECES.apply(number, &dual, c, &mut point);
+                    <S as Split>::pieces::<Dual<f64>>().apply(number, &dual, c, &mut point);
                     flat(&point).iter().map(|x| x.eps).collect()
                 })
                 .collect();

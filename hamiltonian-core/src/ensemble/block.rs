@@ -8,9 +8,9 @@ use super::marks::Marks;
 use crate::map::{self, Map};
 use crate::observe::{LaneDrift, LaneSection, Quantity};
 use crate::state::Carried;
-use crate::system::{Dynamics, System, declared_energy_at};
+use crate::system::{Dynamics, System, VectorOf, declared_energy_at};
 use crate::vector::Vector;
-use hamiltonian_lanes::{KernelAt, Level, Mask, Real};
+use hamiltonian_lanes::{Kernel, Level, Mask, Real};
 
 /// The clock of lanes that have made different numbers of steps: `start + (k + ahead)·interval`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -71,8 +71,8 @@ impl<U: Real> LaneSchedule<U> {
 }
 
 /// The quantities that a block evaluates for observers.
-pub(crate) struct Followed<'a, U: Real, S: System<U>> {
-    pub(crate) prepared: &'a S::Prepared,
+pub(crate) struct Followed<'a, U: Real, S: System> {
+    pub(crate) prepared: &'a S::Prepared<U>,
     pub(crate) drifts: &'a mut [LaneDrift<U>],
     /// The functions whose sign is followed. If there are any, states are evaluated after every step.
     pub(crate) sections: &'a mut [LaneSection<U>],
@@ -92,7 +92,7 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) attach: Option<U::Mask>,
 }
 
-impl<U: Real, S: System<U>> Followed<'_, U, S> {
+impl<U: Real, S: System> Followed<'_, U, S> {
     /// Returns true if signs are followed in this block.
     #[inline(always)]
     fn has_sections(&self) -> bool {
@@ -103,7 +103,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
     /// carried value of this step. `shown` is closed if [`closes`](Followed::closes). Returns true if the block
     /// should end.
     #[inline(always)]
-    fn evaluate<L: Level, C: Carried<Vector = S::Vector, Scalar = U>>(
+    fn evaluate<L: Level, C: Carried<Vector = VectorOf<S, U>, Scalar = U>>(
         &mut self,
         (k, t): (u64, U),
         shown: &C,
@@ -143,14 +143,17 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             let section = &mut self.sections[at - count];
             is_any_marked |= follow_sign::<L, _, _>(section, value, &self.section_lanes, marks);
         }
-        is_any_marked && L::enter_at(Mark { marks, step: k })
+        is_any_marked && L::enter(Mark { marks, step: k })
     }
 
     /// Makes the steps from number `k` to number `end`, of which the piece before the first body has been made, and
     /// evaluates the functions whose sign is followed after each. They must not depend on what the closing piece
     /// changes. Returns the number of the last step, since a block ends if too many steps are marked.
     #[inline(always)]
-    fn go_on_with_sections<L: Level, R: Map<Carried: Carried<Vector = S::Vector, Scalar = U>>>(
+    fn go_on_with_sections<
+        L: Level,
+        R: Map<Carried: Carried<Vector = VectorOf<S, U>, Scalar = U>>,
+    >(
         &mut self,
         map: &R,
         (times, mut k, end): (&LaneClock<U>, u64, u64),
@@ -170,7 +173,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
                     .observable(section.observable, t, &point.q, &point.p);
                 is_any_marked |= follow_sign::<L, _, _>(section, value, &self.section_lanes, marks);
             }
-            if is_any_marked && L::enter_at(Mark { marks, step: k }) || k == end {
+            if is_any_marked && L::enter(Mark { marks, step: k }) || k == end {
                 return k;
             }
             map.join(times.at(k), z, work);
@@ -187,7 +190,7 @@ fn follow_sign<L: Level, C: Vector, U: Real>(
     marks: &mut Marks<C, U::Mask>,
 ) -> bool {
     !section.try_skip(value, section_lanes)
-        && L::enter_at(FindMarks {
+        && L::enter(FindMarks {
             section,
             value,
             section_lanes,
@@ -204,12 +207,12 @@ struct FindMarks<'a, C, U: Real> {
     marks: &'a mut Marks<C, U::Mask>,
 }
 
-impl<L: Level, C: Vector, U: Real> KernelAt<L> for FindMarks<'_, C, U> {
+impl<C: Vector, U: Real> Kernel for FindMarks<'_, C, U> {
     /// True if any lane will be marked.
     type Output = bool;
 
     #[inline(always)]
-    fn run(self) -> bool {
+    fn run<L: Level>(self) -> bool {
         let lanes = self.section.lanes_to_mark(self.value) & *self.section_lanes;
         let is_any = lanes.any();
         if is_any {
@@ -225,18 +228,18 @@ struct Mark<'a, C, M> {
     step: u64,
 }
 
-impl<L: Level, C: Vector, M: Mask> KernelAt<L> for Mark<'_, C, M> {
+impl<C: Vector, M: Mask> Kernel for Mark<'_, C, M> {
     /// True if the block should end.
     type Output = bool;
 
     #[inline(always)]
-    fn run(self) -> bool {
+    fn run<L: Level>(self) -> bool {
         self.marks.mark(self.step)
     }
 }
 
 /// A block of steps of all lanes.
-pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: System<U>> {
+pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: System> {
     pub(crate) map: &'a R,
     pub(crate) times: &'a LaneClock<U>,
     /// Steps since the count of times began.
@@ -252,12 +255,11 @@ pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: Sy
     pub(crate) marks: &'a mut Marks<R::Carried, U::Mask>,
 }
 
-impl<L, R, U, S> KernelAt<L> for Block<'_, R, U, S>
+impl<R, U, S> Kernel for Block<'_, R, U, S>
 where
-    L: Level,
-    R: Map<Carried: Carried<Vector = S::Vector, Scalar = U>>,
+    R: Map<Carried: Carried<Vector = VectorOf<S, U>, Scalar = U>>,
     U: Real,
-    S: System<U>,
+    S: System,
 {
     /// The lanes in which all numbers are finite, and the steps since the count of times began. A block ends
     /// before `n` steps if too many of them are marked. `shown` is then closed only if a followed quantity
@@ -265,7 +267,7 @@ where
     type Output = (U::Mask, u64);
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<L: Level>(self) -> Self::Output {
         let Block {
             map,
             times,

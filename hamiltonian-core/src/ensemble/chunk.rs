@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::map::Clock;
 use crate::observe::{FollowVisitor, FollowedQuantities, Observer, View};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use crate::vector::Vector;
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
@@ -77,7 +77,7 @@ pub(crate) struct Chunk<R, V: Vector<Scalar = f64>, O> {
 }
 
 /// A chunk of members of `S`.
-pub(crate) type ChunkOf<S, O> = Chunk<<S as System<f64>>::Prepared, <S as System<f64>>::Vector, O>;
+pub(crate) type ChunkOf<S, O> = Chunk<<S as System>::Prepared<f64>, VectorOf<S>, O>;
 
 impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
     pub(crate) fn new(first: usize) -> Self {
@@ -172,9 +172,9 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
 
 /// The host of a chunk, whose members advance from one number of steps to another. At each stop, `receive` is called
 /// with the member's observer and its view. It ends the member by returning `Break`.
-pub(crate) struct ChunkHost<'a, S: System<f64>, O, F> {
+pub(crate) struct ChunkHost<'a, S: System, O, F> {
     pub(crate) chunk: &'a mut ChunkOf<S, O>,
-    pub(crate) common: &'a Common<S::Vector>,
+    pub(crate) common: &'a Common<VectorOf<S>>,
     /// The number of steps at which members leave their lanes.
     pub(crate) target: u64,
     /// True if observers receive states.
@@ -189,19 +189,19 @@ pub(crate) struct ChunkHost<'a, S: System<f64>, O, F> {
 }
 
 /// The state at which an observer has ended a member; `None` for the state that it received.
-type EndOf<S> = Result<Option<State<<S as System<f64>>::Vector>>, Error>;
+type EndOf<S> = Result<Option<State<VectorOf<S>>>, Error>;
 
 /// The verdict of an observer on a view: `Break` with the final state if the member ends.
 pub(crate) type Decision<S> = ControlFlow<EndOf<S>>;
 
 /// Returns the state at which the observer ends its member, see [`EndOf`].
-pub(crate) fn end_of<S: System<f64>, O: Observer<f64, S>>(observer: &O) -> EndOf<S> {
+pub(crate) fn end_of<S: System, O: Observer<f64, S>>(observer: &O) -> EndOf<S> {
     observer.end().map(Option::<&_>::cloned)
 }
 
 impl<S, O, F> ChunkHost<'_, S, O, F>
 where
-    S: System<f64>,
+    S: System,
     O: Observer<f64, S>,
 {
     /// Returns the next stop of a member that has made `made` steps.
@@ -245,7 +245,7 @@ where
 
 impl<S, O, F> Host<f64, S> for ChunkHost<'_, S, O, F>
 where
-    S: System<f64>,
+    S: System,
     O: Observer<f64, S>,
     F: FnMut(usize, &mut O, &View<'_, f64, S>) -> Decision<S>,
 {
@@ -384,7 +384,7 @@ where
 }
 
 /// Passes a state to an observer if its number of steps is a multiple of the observer's interval.
-pub(crate) fn observe<S: System<f64>, O: Observer<f64, S>>(
+pub(crate) fn observe<S: System, O: Observer<f64, S>>(
     observer: &mut O,
     view: &View<'_, f64, S>,
 ) -> Decision<S> {

@@ -9,7 +9,7 @@ use crate::map::Map;
 use crate::state::{Carried, Point};
 use crate::vector::Vector;
 use alloc::vec::Vec;
-use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
+use hamiltonian_lanes::{Kernel, Level, Pack, Real};
 
 /// Closes a copy of the carried value and writes it to rows of lanes: coordinates, momenta, the time and
 /// the duration of a step.
@@ -23,9 +23,8 @@ pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Re
     pub(crate) rows: &'a mut Vec<T>,
 }
 
-impl<L, R, T, P> KernelAt<L> for Close<'_, R, T, P>
+impl<R, T, P> Kernel for Close<'_, R, T, P>
 where
-    L: Level,
     R: Map<Carried: Carried<Scalar = T::Over<P>>>,
     T: Real,
     P: Pack,
@@ -34,7 +33,7 @@ where
     type Output = (bool, <T::Over<P> as Real>::Mask);
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<L: Level>(self) -> Self::Output {
         let t = self.times.at(self.made);
         self.shown.copy_from(self.carried);
         let mut work = R::Work::like(self.carried);
@@ -85,9 +84,8 @@ impl<C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> WriteRows<'_, C, T, P> {
     }
 }
 
-impl<L, C, T, P> KernelAt<L> for WriteRows<'_, C, T, P>
+impl<C, T, P> Kernel for WriteRows<'_, C, T, P>
 where
-    L: Level,
     C: Carried<Scalar = T::Over<P>>,
     T: Real,
     P: Pack,
@@ -96,7 +94,7 @@ where
     type Output = bool;
 
     #[inline(always)]
-    fn run(self) -> bool {
+    fn run<L: Level>(self) -> bool {
         self.write()
     }
 }

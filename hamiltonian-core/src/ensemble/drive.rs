@@ -9,7 +9,6 @@ mod rows;
 mod scalar;
 mod sections;
 
-use self::deviations::Deviations;
 use self::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use self::scalar::{explain, pass_to_host};
 use super::block::{Block, Followed, LaneClock, LaneSchedule, Opening};
@@ -20,10 +19,9 @@ use super::occupants::Occupants;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
 use crate::observe::{LaneDrift, LaneSection, MemberSection, Quantity};
-use crate::scheme::Scheme;
+use crate::scheme::{CarriedBy, Scheme};
 use crate::state::Carried;
 use crate::system::System;
-use crate::system::gather::{Gather, VectorOver};
 use crate::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -32,124 +30,102 @@ use hamiltonian_lanes::{Level, Mask, Pack, Real};
 /// The number of steps between two checks that all numbers are finite, as in a single run.
 const BLOCK: u64 = 1024;
 
-/// A scheme that drives members of `S` in the lanes of `P`.
-pub trait PackScheme<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
-    /// Drives all members of the host to their ends, inside the level `L` of the pack.
-    fn drive<L: Level>(&self, host: &mut dyn Host<T, S>);
-    /// Advances members with deviations to their ends, inside the level `L` of the pack.
-    fn deviate<L: Level>(&self, all: &mut Deviations<'_, T, S>);
-}
-
 /// The map of a scheme over the lanes of `P`.
-pub(super) type MapIn<T, S, P, M> = <M as Scheme<<T as Real>::Over<P>, S>>::Map;
+pub(super) type MapIn<T, S, P, M> = <M as Scheme<S>>::Map<<T as Real>::Over<P>>;
 /// The value that such a map carries.
-pub(super) type CarriedIn<T, S, P, M> = <MapIn<T, S, P, M> as Map>::Carried;
+pub(super) type CarriedIn<T, S, P, M> = CarriedBy<M, S, <T as Real>::Over<P>>;
 /// The lane mask of the scalar.
 type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;
 
-impl<T, S, P, M> PackScheme<T, S, P> for M
-where
-    T: Real,
-    P: Pack,
-    S: System<T, Prepared: Gather<T>>
-        + System<
-            T::Over<P>,
-            Vector = VectorOver<<S as System<T>>::Vector, P>,
-            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
-        >,
-    M: Scheme<T, S> + Scheme<T::Over<P>, S>,
-{
-    #[inline(always)]
-    fn deviate<L: Level>(&self, all: &mut Deviations<'_, T, S>) {
-        deviations::advance::<L, T, S, P, M>(self, all);
+/// Drives all members of the host to their ends, inside the level `L` of the pack.
+#[inline(always)]
+pub(super) fn drive<L: Level, T: Real, S: System, P: Pack, M: Scheme<S>>(
+    scheme: &M,
+    host: &mut dyn Host<T, S>,
+) {
+    let mut occupants = Occupants::<T, S>::new(P::LANES as usize);
+    if !occupants.fill(host) {
+        return;
     }
-
-    #[inline(always)]
-    fn drive<L: Level>(&self, host: &mut dyn Host<T, S>) {
-        let mut occupants = Occupants::<T, S>::new(P::LANES as usize);
-        if !occupants.fill(host) {
-            return;
+    let mut lanes = Lanes::<T, S, P, M>::new::<L>(scheme, &occupants);
+    while !host.is_cancelled() {
+        lanes.load_lanes::<L>(scheme, &mut occupants);
+        // The first value of a drift is that at the start, so a block without steps evaluates it.
+        let attach = lanes.attach.take();
+        let n = match attach {
+            Some(_) => 0,
+            None => occupants.steps(BLOCK, host),
+        };
+        lanes.before.copy_from(&lanes.carried);
+        lanes.drifts_before.copy_from_slice(&lanes.drifts);
+        let has_sections = !lanes.sections.is_empty();
+        if has_sections {
+            lanes.sections_before.copy_from_slice(&lanes.sections);
+            lanes.marks.copy_last(&mut lanes.last_three);
+            lanes.marks.steps.clear();
         }
-        let mut lanes = Lanes::<T, S, P, M>::new::<L>(self, &occupants);
-        while !host.is_cancelled() {
-            lanes.load_lanes::<L>(self, &mut occupants);
-            // The first value of a drift is that at the start, so a block without steps evaluates it.
-            let attach = lanes.attach.take();
-            let n = match attach {
-                Some(_) => 0,
-                None => occupants.steps(BLOCK, host),
-            };
-            lanes.before.copy_from(&lanes.carried);
-            lanes.drifts_before.copy_from_slice(&lanes.drifts);
-            let has_sections = !lanes.sections.is_empty();
-            if has_sections {
-                lanes.sections_before.copy_from_slice(&lanes.sections);
-                lanes.marks.copy_last(&mut lanes.last_three);
-                lanes.marks.steps.clear();
-            }
-            let schedule = occupants.schedule();
-            let closes = lanes.closes();
-            let energy = lanes.quantities().any(|one| one == Quantity::Energy);
-            if let Some([left, interval]) = &schedule.by_lane {
-                gather::<L, T, P>(&as_scalars(left), &mut lanes.schedule.left);
-                gather::<L, T, P>(&as_scalars(interval), &mut lanes.schedule.interval);
-            }
-            let followed: Followed<'_, T::Over<P>, S> = Followed {
-                prepared: &lanes.prepared,
-                drifts: &mut lanes.drifts,
-                sections: &mut lanes.sections,
-                section_lanes: lanes.section_lanes,
-                energy,
-                closes,
-                first: schedule.first,
-                interval: schedule.interval,
-                by_lane: schedule.by_lane.map(|_| &mut lanes.schedule),
-                attach,
-            };
-            let (mut finite, end) = L::enter_at(Block {
+        let schedule = occupants.schedule();
+        let closes = lanes.closes();
+        let energy = lanes.quantities().any(|one| one == Quantity::Energy);
+        if let Some([left, interval]) = &schedule.by_lane {
+            gather::<L, T, P>(&as_scalars(left), &mut lanes.schedule.left);
+            gather::<L, T, P>(&as_scalars(interval), &mut lanes.schedule.interval);
+        }
+        let followed: Followed<'_, T::Over<P>, S> = Followed {
+            prepared: &lanes.prepared,
+            drifts: &mut lanes.drifts,
+            sections: &mut lanes.sections,
+            section_lanes: lanes.section_lanes,
+            energy,
+            closes,
+            first: schedule.first,
+            interval: schedule.interval,
+            by_lane: schedule.by_lane.map(|_| &mut lanes.schedule),
+            attach,
+        };
+        let (mut finite, end) = L::enter(Block {
+            map: &lanes.map,
+            times: &lanes.times,
+            made: lanes.made,
+            n,
+            opening: lanes.opening,
+            carried: &mut lanes.carried,
+            shown: &mut lanes.shown,
+            spare: &mut lanes.passed,
+            work: &mut lanes.work,
+            followed,
+            marks: &mut lanes.marks,
+        });
+        if !closes && end < lanes.made + n {
+            (_, finite) = L::enter(Close::<'_, _, T, P> {
                 map: &lanes.map,
                 times: &lanes.times,
-                made: lanes.made,
-                n,
-                opening: lanes.opening,
-                carried: &mut lanes.carried,
+                made: end,
+                carried: &lanes.carried,
                 shown: &mut lanes.shown,
-                spare: &mut lanes.passed,
-                work: &mut lanes.work,
-                followed,
-                marks: &mut lanes.marks,
+                rows: &mut lanes.passed_rows,
             });
-            if !closes && end < lanes.made + n {
-                (_, finite) = L::enter_at(Close::<'_, _, T, P> {
-                    map: &lanes.map,
-                    times: &lanes.times,
-                    made: end,
-                    carried: &lanes.carried,
-                    shown: &mut lanes.shown,
-                    rows: &mut lanes.passed_rows,
-                });
-            }
-            let n = end - lanes.made;
-            let numbers = finite;
-            if n > 0 {
-                lanes.opening = Opening::Join;
-                finite = finite & lanes.inside::<L>(end, &occupants);
-            }
-            if attach.is_some() {
-                occupants.begin_drifts();
-            }
-            if !finite.all() {
-                lanes.remove_failed::<L>(self, [numbers, finite], &mut occupants, host);
-            }
-            if has_sections {
-                lanes.pass_marked::<L>(self, n, &mut occupants, host);
-            }
-            occupants.made(n);
-            lanes.made += n;
-            lanes.pass_due::<L>(self, &mut occupants, host);
-            if !occupants.fill(host) {
-                return;
-            }
+        }
+        let n = end - lanes.made;
+        let numbers = finite;
+        if n > 0 {
+            lanes.opening = Opening::Join;
+            finite = finite & lanes.inside::<L>(end, &occupants);
+        }
+        if attach.is_some() {
+            occupants.begin_drifts();
+        }
+        if !finite.all() {
+            lanes.remove_failed::<L>(scheme, [numbers, finite], &mut occupants, host);
+        }
+        if has_sections {
+            lanes.pass_marked::<L>(scheme, n, &mut occupants, host);
+        }
+        occupants.made(n);
+        lanes.made += n;
+        lanes.pass_due::<L>(scheme, &mut occupants, host);
+        if !occupants.fill(host) {
+            return;
         }
     }
 }
@@ -159,10 +135,10 @@ struct Lanes<T, S, P, M>
 where
     T: Real,
     P: Pack,
-    S: System<T> + System<T::Over<P>>,
-    M: Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
-    prepared: <S as System<T::Over<P>>>::Prepared,
+    prepared: S::Prepared<T::Over<P>>,
     map: MapIn<T, S, P, M>,
     work: <MapIn<T, S, P, M> as Map>::Work,
     carried: CarriedIn<T, S, P, M>,
@@ -210,13 +186,8 @@ impl<T, S, P, M> Lanes<T, S, P, M>
 where
     T: Real,
     P: Pack,
-    S: System<T, Prepared: Gather<T>>
-        + System<
-            T::Over<P>,
-            Vector = VectorOver<<S as System<T>>::Vector, P>,
-            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
-        >,
-    M: Scheme<T, S> + Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     /// Allocates lanes in the shape of the first occupants, which are loaded afterwards.
     #[inline(always)]
@@ -224,9 +195,9 @@ where
         let runs = occupants.runs();
         let steps = number_of_each(&runs, |run| run.step);
         let systems: Vec<_> = runs.iter().map(|run| &run.prepared).collect();
-        let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
+        let (prepared, map) = L::enter(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
         let begin = Begin::<T, S, P, M>::new(scheme, &prepared, &runs[0].state, &steps);
-        let carried = L::enter_at(begin);
+        let carried = L::enter(begin);
         let mut lanes = Lanes {
             map,
             work: Scratch::like(&carried),
@@ -262,7 +233,7 @@ where
     /// Sets `uniform` by comparing the parameters of all runs.
     fn compare(&mut self, runs: &[&MemberRun<T, S>]) {
         let mut pairs = runs.windows(2);
-        self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
+        self.uniform = pairs.all(|pair| S::equals(&pair[0].prepared, &pair[1].prepared));
     }
 
     /// Loads occupants that have changed into the lanes.
@@ -282,7 +253,7 @@ where
             let steps: Vec<T> = steps.collect();
             let systems: Vec<_> = runs.iter().map(|run| &run.prepared).collect();
             (self.prepared, self.map) =
-                L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
+                L::enter(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
             self.steps = steps;
             self.compare(&runs);
         }
@@ -328,7 +299,7 @@ where
     fn closes(&self) -> bool {
         let closing = self.map.closing();
         self.quantities().any(|quantity| {
-            let reads = quantity.reads::<T, S>();
+            let reads = quantity.reads::<S>();
             (0..2).any(|half| closing[half] && reads[half])
         })
     }
@@ -394,7 +365,7 @@ where
     /// which the block evaluated H.
     #[inline(always)]
     fn inside<L: Level>(&mut self, made: u64, occupants: &Occupants<T, S>) -> MaskIn<T, P> {
-        L::enter_at(WriteRows::<'_, _, T, P> {
+        L::enter(WriteRows::<'_, _, T, P> {
             times: &self.times,
             made,
             carried: &self.carried,
@@ -429,7 +400,7 @@ where
         let mut before = vec![T::default(); self.rows.len()];
         store::<L, T, P, _>(&self.before, &mut before);
         let (mut shown, size) = (Vec::new(), self.shown.point().q.len());
-        L::enter_at(WriteRows::<'_, _, T, P> {
+        L::enter(WriteRows::<'_, _, T, P> {
             times: &self.times,
             made: self.made + 1,
             carried: &self.carried,
@@ -492,7 +463,7 @@ where
         }
         if host.observes() {
             let size = self.shown.point().q.len();
-            let carries_duration = L::enter_at(WriteRows::<'_, _, T, P> {
+            let carries_duration = L::enter(WriteRows::<'_, _, T, P> {
                 times: &self.times,
                 made: self.made,
                 carried: &self.carried,
@@ -522,7 +493,7 @@ where
 }
 
 /// Returns a number of each run.
-fn number_of_each<T: Real, S: System<T>>(
+fn number_of_each<T: Real, S: System>(
     runs: &[&MemberRun<T, S>],
     of: impl Fn(&MemberRun<T, S>) -> T,
 ) -> Vec<T> {

@@ -3,7 +3,7 @@
 //! Input: a member's system, start and step. Output: 64 bits. Invariant: equal on every machine.
 
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use crate::vector::Vector;
 use core::fmt::Write;
 
@@ -32,12 +32,12 @@ impl Write for Hash {
 
 /// Returns a hash of a member's parameters, start and step. A handwritten system may have parameters without
 /// describing them: if none are described, its prepared form is hashed in full.
-pub(crate) fn hash_of<S: System<f64>>(system: &S, start: &State<S::Vector>, step: f64) -> u64 {
+pub(crate) fn hash_of<S: System>(system: &S, start: &State<VectorOf<S>>, step: f64) -> u64 {
     let mut hash = Hash::new();
     // Writing to a hash does not fail.
     let _ = system.describe_parameters(&mut hash);
     if hash.0 == Hash::new().0 {
-        let _ = write!(hash, "{:?}", system.prepare());
+        let _ = write!(hash, "{:?}", system.prepare::<f64>());
     }
     hash.word(start.t.to_bits());
     for number in start.q.components().chain(start.p.components()) {

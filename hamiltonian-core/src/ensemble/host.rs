@@ -8,16 +8,16 @@ use crate::error::Error;
 use crate::map::Clock;
 use crate::observe::{FollowedQuantities, View};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
 /// The run of a member, with all that is needed to continue it in any lane.
-pub struct MemberRun<T: Real, S: System<T>> {
+pub struct MemberRun<T: Real, S: System> {
     /// The number of the member in its host.
     pub(crate) key: usize,
     /// The prepared system.
-    pub(crate) prepared: S::Prepared,
+    pub(crate) prepared: S::Prepared<T>,
     /// True if the system may differ from that of the previous run in this lane.
     pub(crate) system_changed: bool,
     /// The size of a step.
@@ -39,11 +39,11 @@ pub struct MemberRun<T: Real, S: System<T>> {
     /// The number of steps made when the observer last received a state, if lanes follow signs for it.
     pub(crate) received: u64,
     /// The start when the member is loaded; the state when the host receives it.
-    pub(crate) state: State<S::Vector>,
+    pub(crate) state: State<VectorOf<S, T>>,
 }
 
 /// The owner of members, which begins their runs and receives their states at stops.
-pub trait Host<T: Real, S: System<T>> {
+pub trait Host<T: Real, S: System> {
     /// Loads the run of the next member into a slot. A run that is already there has ended, and its storage may
     /// be reused. Returns false if there is no next member.
     fn load(&mut self, slot: &mut Option<MemberRun<T, S>>) -> bool;

@@ -3,7 +3,7 @@
 //! Input: a system and a start for each index, a scheme, a step. Output: the members after a number of steps.
 
 use super::Member;
-use super::bound::{Ensembles, ErasedScheme};
+use super::bound::{self, ErasedScheme};
 use super::chunk::{Chunk, ChunkHost, ChunkOf, Common, Decision, Finished, end_of, observe};
 use super::guard::guard;
 use super::rounding::{Fused, Rounding, Unfused};
@@ -12,8 +12,9 @@ use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::observe::{Observer, Unobserved, Verdict, View};
+use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -47,10 +48,10 @@ use core::ops::ControlFlow;
 ///
 /// The rounding is a type, so that a program contains the code of the ensembles that it advances, and no other:
 /// `Ensemble<S, M>` fuses, `Ensemble<S, M, (), Unfused>` is reproducible.
-pub struct Ensemble<S: System<f64>, M, O = (), A = Fused> {
+pub struct Ensemble<S: System, M, O = (), A = Fused> {
     pub(crate) scheme: Arc<M>,
     pub(crate) chunks: Vec<ChunkOf<S, O>>,
-    pub(crate) common: Common<S::Vector>,
+    pub(crate) common: Common<VectorOf<S>>,
     threads: usize,
     rounding: PhantomData<A>,
     /// The saved data of observers, until they are attached to a resumed ensemble.
@@ -62,7 +63,7 @@ const LANES: usize = 192;
 /// The largest number of members in a chunk.
 const CHUNK: usize = 10 * LANES;
 
-impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
+impl<S: System, M: Scheme<S>> Ensemble<S, M> {
     /// Creates an ensemble of `count` members. `make` makes the system and the start of each. All members have the step
     /// `step`, which is negative to integrate backwards.
     ///
@@ -72,7 +73,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     /// [`Error::NoMembers`], [`Error::Step`].
     pub fn new(
         count: usize,
-        mut make: impl FnMut(Member) -> (S, State<S::Vector>),
+        mut make: impl FnMut(Member) -> (S, State<VectorOf<S>>),
         scheme: M,
         step: f64,
     ) -> Result<Self, Error> {
@@ -86,7 +87,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     /// Those of [`new`](Ensemble::new).
     pub fn try_new(
         count: usize,
-        mut make: impl FnMut(Member) -> Result<(S, State<S::Vector>), Error>,
+        mut make: impl FnMut(Member) -> Result<(S, State<VectorOf<S>>), Error>,
         scheme: M,
         step: f64,
     ) -> Result<Self, Error> {
@@ -104,7 +105,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
             varies: false,
             steps: 0,
         };
-        let mut first_of_all: Option<S::Prepared> = None;
+        let mut first_of_all: Option<S::Prepared<f64>> = None;
         let size = count.div_ceil(64).next_multiple_of(LANES).min(CHUNK);
         let mut chunks = Vec::with_capacity(count.div_ceil(size));
         for first in (0..count).step_by(size) {
@@ -116,7 +117,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
                 let begun = made.and_then(|(system, start)| {
                     let prepared = check_start(&system, &start)?;
                     if let Some(first) = &first_of_all
-                        && !scheme.fits(first, &prepared)
+                        && !S::fits(first, &prepared)
                     {
                         return Err(Error::OtherSizes { system: S::NAME });
                     }
@@ -135,7 +136,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
                     }
                     (prepared, t)
                 });
-                chunk.push(member, |a, b| scheme.equals(a, b));
+                chunk.push(member, |a, b| S::equals(a, b));
             }
             chunk.words.resize(chunk.count * common.width, 0.0);
             chunk.words.shrink_to_fit();
@@ -153,7 +154,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
+impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Attaches an observer to each member, made from its index.
     ///
     /// An observer receives the present state at once, and from then on the states of its member as in a single run. An
@@ -231,9 +232,7 @@ impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S> + Send, A: Rounding>
-    Ensemble<S, M, O, A>
-{
+impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<S, M, O, A> {
     /// Makes `n` steps of every member that has neither failed nor been ended by its observer.
     pub fn advance(&mut self, n: u64) -> &mut Self {
         let target = self.common.steps.saturating_add(n);
@@ -273,7 +272,7 @@ impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S> + Send, A: Rounding>
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
+impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
     /// in a rayon pool gets those of the pool, and no others.
     #[must_use]
@@ -321,12 +320,12 @@ impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     ///
     /// # Errors
     /// [`Error::Member`] with the index and the error of the member.
-    pub fn states(&self) -> impl Iterator<Item = Result<State<S::Vector>, Error>> {
+    pub fn states(&self) -> impl Iterator<Item = Result<State<VectorOf<S>>, Error>> {
         (0..self.chunks.len()).flat_map(|number| self.closed(number, 0..usize::MAX, None))
     }
 
     /// The state of one member, see [`states`](Ensemble::states); `None` if there is no such index.
-    pub fn at(&self, index: usize) -> Option<Result<State<S::Vector>, Error>> {
+    pub fn at(&self, index: usize) -> Option<Result<State<VectorOf<S>>, Error>> {
         let number = self
             .chunks
             .partition_point(|chunk| chunk.first + chunk.count <= index);
@@ -352,10 +351,10 @@ impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         number: usize,
         keys: core::ops::Range<usize>,
         t: Option<f64>,
-    ) -> Vec<Result<State<S::Vector>, Error>> {
+    ) -> Vec<Result<State<VectorOf<S>>, Error>> {
         let chunk = &self.chunks[number];
         let keys = keys.start..keys.end.min(chunk.count);
-        let mut states: Vec<Option<Result<State<S::Vector>, Error>>> =
+        let mut states: Vec<Option<Result<State<VectorOf<S>>, Error>>> =
             alloc::vec![None; chunk.count];
         let mut copy = chunk.unobserved(keys.end, self.common.width);
         let mut host = ChunkHost {
@@ -376,7 +375,7 @@ impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         };
         let scheme = &*self.scheme;
         threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
-            Ensembles::<S>::drive::<A>(scheme, host);
+            bound::drive::<f64, S, M, A>(scheme, host);
         });
         let member = |key: usize, error: Error| Error::Member {
             index: chunk.first + key,
@@ -420,7 +419,7 @@ impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
             };
             let scheme = &*self.scheme;
             threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
-                Ensembles::<S>::drive::<A>(scheme, host);
+                bound::drive::<f64, S, M, A>(scheme, host);
             });
             chunk.finished.extend(finished);
         }
@@ -448,12 +447,12 @@ impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
                 next: 0,
                 receive: &receive,
             };
-            Ensembles::<S>::drive::<A>(scheme, &mut host);
+            bound::drive::<f64, S, M, A>(scheme, &mut host);
         });
     }
 }
 
-impl<S: System<f64>, M, O: Clone, A> Clone for Ensemble<S, M, O, A> {
+impl<S: System, M, O: Clone, A> Clone for Ensemble<S, M, O, A> {
     fn clone(&self) -> Self {
         Ensemble {
             scheme: Arc::clone(&self.scheme),
@@ -466,7 +465,7 @@ impl<S: System<f64>, M, O: Clone, A> Clone for Ensemble<S, M, O, A> {
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> fmt::Debug for Ensemble<S, M, O, A> {
+impl<S: System, M: Scheme<S>, O, A: Rounding> fmt::Debug for Ensemble<S, M, O, A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
             .field("system", &S::NAME)

@@ -3,7 +3,7 @@
 //! Input: a system and a start for each index, a scheme, a step. Output: the Lyapunov exponents, MEGNO or GALI of each
 //! member. Invariant: neither the number of threads nor the other members change a bit of a member.
 
-use super::bound::Ensembles;
+use super::bound;
 use super::drive::deviations::{DeviatedMember, Deviations, Indicator};
 use super::guard::guard;
 use super::ordered::in_order;
@@ -12,8 +12,9 @@ use super::threads;
 use super::{MakeMember, Member};
 use crate::error::Error;
 use crate::integrator::{check_scheme, check_start, check_step, duration};
+use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use crate::tangent::{aslant, check_deviations, lifted, towards};
 use crate::vector::Vector;
 use alloc::boxed::Box;
@@ -56,7 +57,7 @@ type D = Dual<f64>;
 /// As for an [`Ensemble`](crate::Ensemble), neither the number of threads nor the other members change a bit of a
 /// member. With [`reproducible`](Lyapunov::reproducible), each member has the bits of a single
 /// [`Tangent`](crate::tangents::Tangent) on every CPU.
-pub struct Lyapunov<'a, S: System<f64>, M, A = Fused> {
+pub struct Lyapunov<'a, S: System, M, A = Fused> {
     count: usize,
     make: MakeMember<'a, S>,
     scheme: M,
@@ -70,12 +71,12 @@ pub struct Lyapunov<'a, S: System<f64>, M, A = Fused> {
     progress: Option<Box<dyn Fn(usize, usize) + Send + Sync + 'a>>,
 }
 
-impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
+impl<'a, S: System, M: Scheme<S>> Lyapunov<'a, S, M> {
     /// Describes a computation for `count` members with the step `step`; [`steps`](Lyapunov::steps) sets its length.
     /// `make` makes the system and the start of a member, on any thread.
     pub fn new(
         count: usize,
-        make: impl Fn(Member) -> (S, State<<S as System<f64>>::Vector>) + Send + Sync + 'a,
+        make: impl Fn(Member) -> (S, State<VectorOf<S>>) + Send + Sync + 'a,
         scheme: M,
         step: f64,
     ) -> Self {
@@ -86,10 +87,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     /// member.
     pub fn try_new(
         count: usize,
-        make: impl Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error>
-        + Send
-        + Sync
-        + 'a,
+        make: impl Fn(Member) -> Result<(S, State<VectorOf<S>>), Error> + Send + Sync + 'a,
         scheme: M,
         step: f64,
     ) -> Self {
@@ -109,7 +107,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     }
 }
 
-impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>, A: Rounding> Lyapunov<'a, S, M, A> {
+impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Sets the number of steps.
     #[must_use]
     pub fn steps(mut self, n: u64) -> Self {
@@ -294,7 +292,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>, A: Rounding> Lyapunov<'
                 Err(error) => errors.push(Some(error)),
             }
         }
-        Ensembles::<S, D>::deviate::<A>(&self.scheme, &mut all);
+        bound::deviate::<D, S, M, A>(&self.scheme, &mut all);
         if all.is_cancelled() {
             return None;
         }
@@ -323,11 +321,9 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>, A: Rounding> Lyapunov<'
         let lifted = lifted::<f64, S>(&system, &start)?;
         check_deviations(count, lifted.q.len())?;
         let prepared = check_start::<D, S>(&system, &lifted)?;
-        let fits = |other: &DeviatedMember<D, S>| {
-            Ensembles::<S, D>::fits(&self.scheme, &other.prepared, &prepared)
-        };
+        let fits = |other: &DeviatedMember<D, S>| S::fits(&other.prepared, &prepared);
         if !other.is_none_or(fits) {
-            let system = <S as System<f64>>::NAME;
+            let system = S::NAME;
             return Err(Error::OtherSizes { system });
         }
         let mut words = Vec::new();
@@ -350,7 +346,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>, A: Rounding> Lyapunov<'
     }
 }
 
-impl<S: System<f64>, M: fmt::Debug, A> fmt::Debug for Lyapunov<'_, S, M, A> {
+impl<S: System, M: fmt::Debug, A> fmt::Debug for Lyapunov<'_, S, M, A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Lyapunov")
             .field("system", &S::NAME)

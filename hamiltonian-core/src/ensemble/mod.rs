@@ -37,7 +37,6 @@ mod sweep;
 mod threads;
 mod until;
 
-pub use bound::Ensembles;
 pub use in_memory::Ensemble;
 pub use lyapunov::Lyapunov;
 pub use record::{End, Record, Row, Status};
@@ -46,7 +45,7 @@ pub use sweep::Sweep;
 
 use crate::error::Error;
 use crate::state::State;
-use crate::system::System;
+use crate::system::VectorOf;
 use alloc::boxed::Box;
 
 /// A member of an ensemble: its index and its seed, from which its system and its start are made.
@@ -82,7 +81,7 @@ impl Member {
 
 /// Makes the system and the start of a member.
 type MakeMember<'a, S> =
-    Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
+    Box<dyn Fn(Member) -> Result<(S, State<VectorOf<S>>), Error> + Send + Sync + 'a>;
 
 /// The odd number nearest to 2⁶⁴ divided by the golden ratio.
 const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -8,12 +8,12 @@ use super::host::{Host, MemberRun};
 use crate::domain::inside;
 use crate::observe::Deviation;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
 /// The members in the lanes of a pack, and those that will be replayed.
-pub(crate) struct Occupants<T: Real, S: System<T>> {
+pub(crate) struct Occupants<T: Real, S: System> {
     runs: Vec<Option<MemberRun<T, S>>>,
     status: Vec<LaneStatus>,
     /// Members that failed in a block of steps and will be replayed.
@@ -74,7 +74,7 @@ pub(crate) struct OccupantChange {
     pub(crate) all_at_start: bool,
 }
 
-impl<T: Real, S: System<T>> Occupants<T, S> {
+impl<T: Real, S: System> Occupants<T, S> {
     pub(crate) fn new(lanes: usize) -> Self {
         Occupants {
             runs: (0..lanes).map(|_| None).collect(),
@@ -351,7 +351,7 @@ impl<T: Real, S: System<T>> Occupants<T, S> {
     pub(crate) fn write_states(
         &mut self,
         numbers: &[T],
-        to: impl Fn(&mut State<S::Vector>) -> &mut T,
+        to: impl Fn(&mut State<VectorOf<S, T>>) -> &mut T,
     ) {
         for ((run, status), number) in self.runs.iter_mut().zip(&self.status).zip(numbers) {
             let running = run.as_mut().filter(|_| *status == LaneStatus::Running);

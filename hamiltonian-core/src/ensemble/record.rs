@@ -5,27 +5,27 @@
 use super::Member;
 use crate::error::Error;
 use crate::state::State;
-use crate::system::{Dynamics, System, declared_energy};
+use crate::system::{Dynamics, System, VectorOf, declared_energy};
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 /// A member at its end, or at a time at which it is recorded.
-pub struct End<'v, S: System<f64>, O> {
+pub struct End<'v, S: System, O> {
     /// The member.
     pub member: Member,
     /// Its state.
-    pub state: &'v State<S::Vector>,
+    pub state: &'v State<VectorOf<S>>,
     /// Its observer.
     pub observer: &'v O,
     /// The number of whole steps made.
     pub steps: u64,
     /// True if its observer has ended it.
     pub stopped: bool,
-    pub(crate) prepared: &'v S::Prepared,
+    pub(crate) prepared: &'v S::Prepared<f64>,
 }
 
-impl<S: System<f64>, O> End<'_, S, O> {
+impl<S: System, O> End<'_, S, O> {
     /// The declared H at this state.
     pub fn energy(&self) -> f64 {
         declared_energy::<f64, S>(self.prepared, self.state)
@@ -42,7 +42,7 @@ impl<S: System<f64>, O> End<'_, S, O> {
 pub(crate) type Write<'a, S, O> = Box<dyn Fn(&End<'_, S, O>, &mut Vec<f64>) + Send + Sync + 'a>;
 
 /// The record of a sweep: its columns and the closure that computes them.
-pub struct Record<'a, S: System<f64>, O> {
+pub struct Record<'a, S: System, O> {
     pub(crate) columns: Vec<String>,
     /// True if a member may have any number of rows; false if it has one.
     pub(crate) several: bool,
@@ -51,7 +51,7 @@ pub struct Record<'a, S: System<f64>, O> {
     pub(crate) write: Write<'a, S, O>,
 }
 
-impl<S: System<f64>, O> Record<'_, S, O> {
+impl<S: System, O> Record<'_, S, O> {
     /// The number of rows of each member; `None` if it may be any.
     pub(crate) fn rows_each(&self) -> Option<usize> {
         match &self.times {

@@ -4,7 +4,6 @@
 //! from it. Invariant: a checkpoint of other members, of another scheme or of another step is refused.
 
 use super::Member;
-use super::bound::Ensembles;
 use super::chunk::Finished;
 use super::hash::Hash;
 use super::in_memory::Ensemble;
@@ -12,8 +11,9 @@ use super::rounding::{Rounding, Unfused};
 use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::{CheckpointError, Error};
 use crate::observe::Observer;
+use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use alloc::borrow::ToOwned;
 use alloc::boxed::Box;
 use alloc::format;
@@ -26,7 +26,7 @@ const ON: u64 = 0;
 const FAILED: u64 = 1;
 const ENDED: u64 = 2;
 
-impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
+impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Returns the text of the system and the number of members.
     fn formula(&self) -> String {
         let name = S::NAME;
@@ -44,7 +44,7 @@ impl<S: System<f64>, M: Ensembles<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O, A> {
+impl<S: System, M: Scheme<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O, A> {
     /// Returns a checkpoint of the ensemble and its observers.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
@@ -86,7 +86,7 @@ impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S>, A: Rounding> Ensemble
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
+impl<S: System, M: Scheme<S>> Ensemble<S, M> {
     /// Continues a saved ensemble with the same bits. The same closure must make its members.
     ///
     /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. A member
@@ -115,7 +115,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     /// [`resume_reproducible`](Ensemble::resume_reproducible) continues.
     pub fn resume(
         count: usize,
-        make: impl FnMut(Member) -> (S, State<S::Vector>),
+        make: impl FnMut(Member) -> (S, State<VectorOf<S>>),
         scheme: M,
         checkpoint: Checkpoint,
     ) -> Result<Self, Error> {
@@ -129,7 +129,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     /// Those of [`resume`](Ensemble::resume); [`CheckpointError::Other`] if the ensemble was not reproducible.
     pub fn resume_reproducible(
         count: usize,
-        make: impl FnMut(Member) -> (S, State<S::Vector>),
+        make: impl FnMut(Member) -> (S, State<VectorOf<S>>),
         scheme: M,
         checkpoint: Checkpoint,
     ) -> Result<Ensemble<S, M, (), Unfused>, Error> {
@@ -139,7 +139,7 @@ impl<S: System<f64>, M: Ensembles<S>> Ensemble<S, M> {
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>, A: Rounding> Ensemble<S, M, (), A> {
+impl<S: System, M: Scheme<S>, A: Rounding> Ensemble<S, M, (), A> {
     /// The saved members in place of those at their starts.
     fn restored(self, checkpoint: Checkpoint) -> Result<Self, Error> {
         let mut swarm = self;

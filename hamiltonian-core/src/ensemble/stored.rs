@@ -4,7 +4,6 @@
 //! that is present was written by the same sweep, from the same members.
 
 use super::Member;
-use super::bound::Ensembles;
 use super::guard::guard;
 use super::hash::{Hash, hash_of};
 use super::record::{Batch, Record, Status};
@@ -12,6 +11,7 @@ use super::rounding::Rounding;
 use super::sweep::{EndPoint, Sweep};
 use crate::error::Error;
 use crate::observe::Observer;
+use crate::scheme::Scheme;
 use crate::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
 use crate::system::System;
 use alloc::format;
@@ -24,8 +24,8 @@ use std::path::Path;
 
 impl<'a, S, M, O, A> Sweep<'a, S, M, O, Record<'a, S, O>, A>
 where
-    S: System<f64>,
-    M: Ensembles<S>,
+    S: System,
+    M: Scheme<S>,
     A: Rounding,
     O: Observer<f64, S>,
 {

@@ -5,7 +5,7 @@
 
 mod host;
 
-use super::bound::{Ensembles, ErasedScheme};
+use super::bound::ErasedScheme;
 use super::ordered::in_order;
 use super::record::{Batch, End, Record, Row};
 use super::rounding::{Fused, Rounding, Unfused};
@@ -13,9 +13,10 @@ use super::threads;
 use super::{MakeMember, Member};
 use crate::error::Error;
 use crate::observe::{Observer, Unobserved};
+use crate::scheme::Scheme;
 use crate::shard::Shard;
 use crate::state::State;
-use crate::system::{System, clock};
+use crate::system::{System, VectorOf, clock};
 use crate::table::Table;
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -66,7 +67,7 @@ pub(crate) enum EndPoint<'a> {
 /// [`reproducible`](Sweep::reproducible), a member has the bits of a single run on every CPU. The part of a step before
 /// the end is computed over `f64` without fused products, in both modes. So are the values of observers, except those
 /// of [`EnergyDrift`](crate::observers::EnergyDrift) and [`Monitors`](crate::observers::Monitors).
-pub struct Sweep<'a, S: System<f64>, M, O = (), R = (), A = Fused> {
+pub struct Sweep<'a, S: System, M, O = (), R = (), A = Fused> {
     pub(crate) count: usize,
     pub(crate) scheme: M,
     pub(crate) make: MakeMember<'a, S>,
@@ -89,12 +90,12 @@ const CHUNK: usize = 4800;
 /// The smallest default number, the lanes of the widest pack.
 const LANES: usize = 80;
 
-impl<'a, S: System<f64>, M: Ensembles<S>> Sweep<'a, S, M> {
+impl<'a, S: System, M: Scheme<S>> Sweep<'a, S, M> {
     /// Describes a sweep over `count` members with the step `step`, which still needs an end and a record. `make` makes
     /// the system and the start of a member, on any thread.
     pub fn new(
         count: usize,
-        make: impl Fn(Member) -> (S, State<S::Vector>) + Send + Sync + 'a,
+        make: impl Fn(Member) -> (S, State<VectorOf<S>>) + Send + Sync + 'a,
         scheme: M,
         step: f64,
     ) -> Self {
@@ -105,7 +106,7 @@ impl<'a, S: System<f64>, M: Ensembles<S>> Sweep<'a, S, M> {
     /// member.
     pub fn try_new(
         count: usize,
-        make: impl Fn(Member) -> Result<(S, State<S::Vector>), Error> + Send + Sync + 'a,
+        make: impl Fn(Member) -> Result<(S, State<VectorOf<S>>), Error> + Send + Sync + 'a,
         scheme: M,
         step: f64,
     ) -> Self {
@@ -129,7 +130,7 @@ impl<'a, S: System<f64>, M: Ensembles<S>> Sweep<'a, S, M> {
     }
 }
 
-impl<'a, S: System<f64>, M: Ensembles<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
+impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
     /// Attaches an observer to each member, as in a single run. An observer that ends its member ends no other.
     ///
     /// Call `observe` once. For several observers, return a tuple.
@@ -201,7 +202,7 @@ impl<'a, S: System<f64>, M: Ensembles<S>, O, A: Rounding> Sweep<'a, S, M, O, (),
     }
 }
 
-impl<'a, S: System<f64>, M: Ensembles<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
+impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     /// Replaces the observer and the record.
     fn with<N, Q>(
         self,
@@ -356,8 +357,8 @@ impl<'a, S: System<f64>, M: Ensembles<S>, O, R, A: Rounding> Sweep<'a, S, M, O, 
 
 impl<'a, S, M, O, A> Sweep<'a, S, M, O, Record<'a, S, O>, A>
 where
-    S: System<f64>,
-    M: Ensembles<S>,
+    S: System,
+    M: Scheme<S>,
     A: Rounding,
     O: Observer<f64, S>,
 {
@@ -453,7 +454,7 @@ where
     /// Checks that times are finite, and in the direction of the common step. If each member has its own step, any
     /// direction is accepted here, and members that run in the other one fail.
     fn check_times(&self, times: &[f64]) -> Result<(), Error> {
-        let clock = clock::<f64, S>();
+        let clock = clock::<S>();
         if let Some(&target) = times.iter().find(|t| !t.is_finite()) {
             return Err(Error::Unreachable { clock, target });
         }
@@ -504,9 +505,7 @@ where
     }
 }
 
-impl<S: System<f64>, M: Ensembles<S>, O, R, A: Rounding> core::fmt::Debug
-    for Sweep<'_, S, M, O, R, A>
-{
+impl<S: System, M: Scheme<S>, O, R, A: Rounding> core::fmt::Debug for Sweep<'_, S, M, O, R, A> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Sweep")
             .field("system", &S::NAME)

@@ -3,19 +3,17 @@
 //! Input: an ensemble and a time. Output: the states of its members at that time. Invariant: only whole steps change
 //! members. A state between two steps is computed on a copy, by a part of a step.
 
-use super::bound::Ensembles;
 use super::chunk::Shared;
 use super::in_memory::Ensemble;
 use super::rounding::Rounding;
 use crate::error::Error;
 use crate::map::Clock;
 use crate::observe::Observer;
+use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::{System, clock};
+use crate::system::{System, VectorOf, clock};
 
-impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S> + Send, A: Rounding>
-    Ensemble<S, M, O, A>
-{
+impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<S, M, O, A> {
     /// Advances all members to the time `t` by a whole number of steps, as
     /// [`Integrator::advance_to`](crate::Integrator::advance_to) does.
     ///
@@ -37,10 +35,10 @@ impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S> + Send, A: Rounding>
             return Ok(self);
         };
         let made = self.common.steps;
-        match time.whole_steps(made, t, clock::<f64, S>())? {
+        match time.whole_steps(made, t, clock::<S>())? {
             (None, steps) => Ok(self.advance(steps)),
             (Some(before), after) => Err(Error::OffGrid {
-                clock: clock::<f64, S>(),
+                clock: clock::<S>(),
                 target: t,
                 before: time.at(made + before),
                 after: time.at(made + after),
@@ -74,10 +72,10 @@ impl<S: System<f64>, M: Ensembles<S>, O: Observer<f64, S> + Send, A: Rounding>
     pub fn advance_until(
         &mut self,
         t: f64,
-    ) -> Result<impl Iterator<Item = Result<State<S::Vector>, Error>>, Error> {
+    ) -> Result<impl Iterator<Item = Result<State<VectorOf<S>>, Error>>, Error> {
         let mut between = None;
         if let Some(time) = self.clock()? {
-            let (before, after) = time.whole_steps(self.common.steps, t, clock::<f64, S>())?;
+            let (before, after) = time.whole_steps(self.common.steps, t, clock::<S>())?;
             between = before.map(|_| t);
             self.advance(before.unwrap_or(after));
         }

@@ -12,7 +12,7 @@ use crate::failed::Failed;
 use crate::map::{Clock, Map, ScalarOf};
 use crate::observe::{Observer, View};
 use crate::state::{Carried, State};
-use crate::system::{System, clock};
+use crate::system::{System, VectorOf, clock};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -27,14 +27,14 @@ fn next_multiple(steps: u64, interval: u64) -> u64 {
         .saturating_mul(interval)
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// Makes `n` steps and returns the state after them. If an observer ends the run, there are fewer steps.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Solve`]. Then [`state`](Integrator::state) is the last finite state. H is
     /// evaluated at the end of blocks, see [Blocks](Integrator#blocks). For a
     /// resumed run, [`Error::Checkpoint`] if its observers are not those that were saved.
-    pub fn advance(&mut self, n: u64) -> Result<&State<S::Vector>, Error> {
+    pub fn advance(&mut self, n: u64) -> Result<&State<VectorOf<S, T>>, Error> {
         if let Some(error) = &self.refused {
             return Err(error.clone());
         }
@@ -157,7 +157,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             let failed = Failed {
                 step: self.steps + 1,
                 lane,
-                clock: clock::<T, S>(),
+                clock: clock::<S>(),
                 begin: begin.to_f64(),
                 end: self.state.t.to_f64(),
                 q: numbers(&self.state.q),
@@ -172,7 +172,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// The states after `every`, 2·`every`, … further steps (0 counts as 1). The iterator ends when an observer ends
     /// the run; otherwise it is infinite. The first error is the last item.
     pub fn states(&mut self, every: u64) -> States<'_, T, S, R, O> {
@@ -256,14 +256,14 @@ impl<R: Map> Steps<'_, R> {
 }
 
 /// The iterator of [`Integrator::states`].
-pub struct States<'a, T: Real, S: System<T>, R: MapOf<T, S>, O> {
+pub struct States<'a, T: Real, S: System, R: MapOf<T, S>, O> {
     run: &'a mut Integrator<T, S, R, O>,
     every: u64,
     failed: bool,
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Iterator for States<'_, T, S, R, O> {
-    type Item = Result<State<S::Vector>, Error>;
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Iterator for States<'_, T, S, R, O> {
+    type Item = Result<State<VectorOf<S, T>>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed || self.run.has_ended() {

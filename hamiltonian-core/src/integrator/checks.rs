@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::output::names;
 use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::{Dynamics, System, clock, declared_energy};
+use crate::system::{Dynamics, System, VectorOf, clock, declared_energy};
 use crate::vector::Vector;
 use alloc::format;
 use hamiltonian_lanes::{Mask, Real};
@@ -24,16 +24,16 @@ pub(crate) fn check_step<T: Real>(step: T) -> Result<(), Error> {
 }
 
 /// Returns an error for a state of another shape, or with a NaN or an infinity.
-pub(crate) fn check_state<T: Real, S: System<T>>(
+pub(crate) fn check_state<T: Real, S: System>(
     system: &S,
-    state: &State<S::Vector>,
+    state: &State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
     system.check_shape(state)?;
     if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
         return Ok(());
     }
     Err(Error::Start {
-        clock: clock::<T, S>(),
+        clock: clock::<S>(),
         time: state.t.to_f64(),
         q: numbers(&state.q),
         p: numbers(&state.p),
@@ -41,10 +41,10 @@ pub(crate) fn check_state<T: Real, S: System<T>>(
 }
 
 /// Prepares the system of a run from a start, or returns an error for a start that is refused.
-pub(crate) fn check_start<T: Real, S: System<T>>(
+pub(crate) fn check_start<T: Real, S: System>(
     system: &S,
-    start: &State<S::Vector>,
-) -> Result<S::Prepared, Error> {
+    start: &State<VectorOf<S, T>>,
+) -> Result<S::Prepared<T>, Error> {
     check_state(system, start)?;
     let prepared = system.prepare();
     check_values(system, &prepared, start)?;
@@ -52,10 +52,10 @@ pub(crate) fn check_start<T: Real, S: System<T>>(
 }
 
 /// Returns an error for a scheme that cannot integrate this system from this state.
-pub(crate) fn check_scheme<T: Real, S: System<T>, M: Scheme<T, S>>(
+pub(crate) fn check_scheme<T: Real, S: System, M: Scheme<S>>(
     scheme: &M,
-    prepared: &S::Prepared,
-    start: &State<S::Vector>,
+    prepared: &S::Prepared<T>,
+    start: &State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
     /// Sums of weights are rounded.
     const ROUNDING: f64 = 1e-9;
@@ -71,10 +71,10 @@ pub(crate) fn check_scheme<T: Real, S: System<T>, M: Scheme<T, S>>(
 
 /// Returns an error if H or a first derivative is not finite, or if the start is off the shell of
 /// another time.
-fn check_values<T: Real, S: System<T>>(
+fn check_values<T: Real, S: System>(
     system: &S,
-    prepared: &S::Prepared,
-    start: &State<S::Vector>,
+    prepared: &S::Prepared<T>,
+    start: &State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
     let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
     let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
@@ -96,7 +96,7 @@ fn check_values<T: Real, S: System<T>>(
             value: found,
             lane: (T::LANES > 1).then_some(lane),
             parameter: parameter_without_value(&parameters(system)),
-            clock: clock::<T, S>(),
+            clock: clock::<S>(),
             time: start.t.to_f64(),
             q: numbers(&start.q).into(),
             p: numbers(&start.p).into(),

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Clock, Step};
 use crate::state::{Carried, State};
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use crate::vector::Vector;
 use alloc::sync::Arc;
 use hamiltonian_lanes::Real;
@@ -42,7 +42,7 @@ fn extrapolated(a: f64, b: f64) -> (f64, f64) {
     (error, Real::ln(a / b) / core::f64::consts::LN_2)
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Estimates the error of the next `n` steps. It makes them on a copy, then 2n steps of half the size and 4n
     /// of a quarter, all from the present state. This takes seven times as long as the steps themselves. The run does
     /// not change.
@@ -72,11 +72,11 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// # Errors
     /// [`Error::Uneven`] for a scheme whose steps vary in time; those of
     /// [`advance`](Integrator::advance).
-    pub fn estimate_error(&self, n: u64) -> Result<ErrorEstimate<S::Vector>, Error> {
+    pub fn estimate_error(&self, n: u64) -> Result<ErrorEstimate<VectorOf<S, T>>, Error> {
         if self.carried.duration(self.clock.interval).is_some() {
             return Err(Error::Uneven);
         }
-        let part = |parts: u32| -> Result<(State<S::Vector>, T), Error> {
+        let part = |parts: u32| -> Result<(State<VectorOf<S, T>>, T), Error> {
             let step = self.step / T::constant(f64::from(parts), 0.0);
             let mut run = self.restarted(step);
             run.advance(n.saturating_mul(u64::from(parts)))?;

@@ -8,13 +8,13 @@ use crate::map::Map;
 use crate::scheme::Entry;
 use crate::schemes::inside::Copies;
 use crate::state::{Point, State};
-use crate::system::{Dynamics, System, declared_energy};
+use crate::system::{Dynamics, System, VectorOf, declared_energy};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// The current state: time, coordinates and momenta, all at the same time.
-    pub fn state(&self) -> &State<S::Vector> {
+    pub fn state(&self) -> &State<VectorOf<S, T>> {
         &self.state
     }
 
@@ -54,7 +54,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     }
 
     /// The prepared system.
-    pub fn prepared(&self) -> &S::Prepared {
+    pub fn prepared(&self) -> &S::Prepared<T> {
         &self.prepared
     }
 
@@ -78,13 +78,13 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.observer
     }
 }
-impl<T: Real, S: System<T>, R, O> Integrator<T, S, R, O>
+impl<T: Real, S: System, R, O> Integrator<T, S, R, O>
 where
-    R: MapOf<T, S> + Map<Carried = Copies<S::Vector>>,
+    R: MapOf<T, S> + Map<Carried = Copies<VectorOf<S, T>>>,
 {
     /// The second copy (q̃, p̃) at the current time, or the second point of a scheme that carries
     /// two; the first is [`state`](Integrator::state).
-    pub fn copy(&self) -> Point<S::Vector> {
+    pub fn copy(&self) -> Point<VectorOf<S, T>> {
         self.shown.y.clone()
     }
 

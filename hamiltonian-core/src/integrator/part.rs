@@ -12,7 +12,7 @@ use crate::map::{Clock, Map, Step};
 use crate::observe::{Between, Observer};
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
-use crate::system::{System, clock};
+use crate::system::{System, VectorOf, clock};
 use crate::vector::Vector;
 use alloc::format;
 use alloc::string::String;
@@ -20,32 +20,37 @@ use hamiltonian_lanes::{Mask, Real};
 
 /// The scheme of a run without its type, which makes maps. (The type of a run contains only the
 /// map: with the scheme in it, rustc would report a wrong pairing at every call.)
-pub(crate) trait Recipe<T: Real, S: System<T>, R: Map>: Send + Sync {
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> R;
-    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> R::Carried;
-    fn start_alone(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> R::Carried;
+pub(crate) trait Recipe<T: Real, S: System, R: Map>: Send + Sync {
+    fn prepare(&self, prepared: &S::Prepared<T>, step: Step<T>) -> R;
+    fn start(&self, prepared: &S::Prepared<T>, state: &State<VectorOf<S, T>>, h: T) -> R::Carried;
+    fn start_alone(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> R::Carried;
     /// The scheme with all its choices.
     fn describe(&self) -> String;
 }
 
-impl<T: Real, S: System<T>, M: Scheme<T, S>> Recipe<T, S, M::Map> for M {
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> M::Map {
+impl<T: Real, S: System, M: Scheme<S>> Recipe<T, S, M::Map<T>> for M {
+    fn prepare(&self, prepared: &S::Prepared<T>, step: Step<T>) -> M::Map<T> {
         Scheme::prepare(self, prepared, step)
     }
     fn start(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> <M::Map as Map>::Carried {
+    ) -> <M::Map<T> as Map>::Carried {
         Scheme::start(self, prepared, state, h)
     }
     fn start_alone(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> <M::Map as Map>::Carried {
+    ) -> <M::Map<T> as Map>::Carried {
         Scheme::start_alone(self, prepared, state, h)
     }
     fn describe(&self) -> String {
@@ -55,18 +60,18 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Recipe<T, S, M::Map> for M {
 }
 
 /// Ingredients of a part of a step.
-pub(crate) struct Part<'a, T: Real, S: System<T>, R> {
-    pub(crate) prepared: &'a S::Prepared,
+pub(crate) struct Part<'a, T: Real, S: System, R> {
+    pub(crate) prepared: &'a S::Prepared<T>,
     pub(crate) recipe: &'a dyn Recipe<T, S, R>,
-    pub(crate) state: &'a State<S::Vector>,
+    pub(crate) state: &'a State<VectorOf<S, T>>,
     pub(crate) step: T,
     pub(crate) clock: Clock<T>,
     /// The approximate length of the next step, if it is not the interval of the clock.
     pub(crate) duration: Option<T>,
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S, R> {
-    fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
+impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T, S, R> {
+    fn state_at(&self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         let now = self.state.t;
         // If durations are carried, the previous and the next step have other lengths.
         let (step, most) = match self.duration {
@@ -77,7 +82,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S
         let is_near = ((t - now) / step).magnitude() <= most + self.rounding(now, t);
         if !is_near {
             return Err(Error::Far {
-                clock: clock::<T, S>(),
+                clock: clock::<S>(),
                 target: t.to_f64(),
                 from: (now - step).to_f64(),
                 to: (now + step).to_f64(),
@@ -86,7 +91,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S
         self.at(self.state, t, (t - now) / self.clock.interval)
     }
 
-    fn part(&self, from: &State<S::Vector>, time: T) -> Result<State<S::Vector>, Error> {
+    fn part(&self, from: &State<VectorOf<S, T>>, time: T) -> Result<State<VectorOf<S, T>>, Error> {
         self.at(from, from.t + time, time / self.clock.interval)
     }
 
@@ -106,7 +111,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
+impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
     /// The rounding of two times in units of the interval: they are sums and products.
     fn rounding(&self, a: T, b: T) -> f64 {
         4.0 * T::epsilon() * (a.magnitude() + b.magnitude()) / self.clock.interval.magnitude()
@@ -114,7 +119,12 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
 
     /// The state at `t` by a step of a copy that starts at `from`: by that `part` of the step, or, for a
     /// scheme that carries the time, by the step that leads to `t`.
-    fn at(&self, from: &State<S::Vector>, t: T, mut part: T) -> Result<State<S::Vector>, Error> {
+    fn at(
+        &self,
+        from: &State<VectorOf<S, T>>,
+        t: T,
+        mut part: T,
+    ) -> Result<State<VectorOf<S, T>>, Error> {
         /// The time is nearly proportional to the step.
         const MOST: u32 = 60;
         if part.equals(T::zero()).all() {
@@ -150,7 +160,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
         Err(Error::Solve {
             step: 1,
             lane: None,
-            clock: clock::<T, S>(),
+            clock: clock::<S>(),
             time: from.t.to_f64(),
             residual: missed,
             iterations: MOST,
@@ -159,7 +169,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
 
     /// The error of the step of size `h` from `from` that led to `carried`.
     #[cold]
-    fn explain(&self, map: &R, from: &State<S::Vector>, h: T, t: T, carried: &R::Carried) -> Error {
+    fn explain(
+        &self,
+        map: &R,
+        from: &State<VectorOf<S, T>>,
+        h: T,
+        t: T,
+        carried: &R::Carried,
+    ) -> Error {
         let mut repeated = self.recipe.start_alone(self.prepared, from, h);
         let mut work = Scratch::like(&repeated);
         let cause = map.explain(from.t, t, true, &mut repeated, &mut work);
@@ -176,7 +193,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
         let failed = Failed {
             step: 1,
             lane: (T::LANES > 1).then(|| bad.unwrap_or(0)),
-            clock: clock::<T, S>(),
+            clock: clock::<S>(),
             begin: from.t.to_f64(),
             end: t.to_f64(),
             q: numbers(&point.q),
@@ -230,7 +247,7 @@ impl<T: Real> Clock<T> {
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// The state at a time at most one step before or after the present one, by a shorter step of a copy. Its error
     /// has the order of the scheme, and the run does not change.
     ///
@@ -248,12 +265,12 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// # Errors
     /// [`Error::Far`] for a time further away; [`Error::NotFinite`] and [`Error::Solve`], in which the step has the
     /// number 1.
-    pub fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
+    pub fn state_at(&self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         self.part().state_at(t)
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// Makes all whole steps up to `t`, and returns the state at `t`, which may be any later time. The rest of the time is
     /// one shorter step on a copy. Observers receive the states after whole steps only. An event in the shorter step is
     /// located by the next whole step.
@@ -267,7 +284,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// # Errors
     /// [`Error::Behind`], [`Error::Unreachable`]; those of
     /// [`advance`](Integrator::advance) and of [`state_at`](Integrator::state_at).
-    pub fn advance_until(&mut self, t: T) -> Result<State<S::Vector>, Error> {
+    pub fn advance_until(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         if self.varies() {
             return self.past(t);
         }
@@ -287,10 +304,10 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     }
 
     /// Makes steps of unknown duration until `t` is passed.
-    fn past(&mut self, t: T) -> Result<State<S::Vector>, Error> {
+    fn past(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         if !t.is_finite() {
             return Err(Error::Unreachable {
-                clock: clock::<T, S>(),
+                clock: clock::<S>(),
                 target: t.to_f64(),
             });
         }
@@ -318,7 +335,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// [`Error::OffGrid`] with the reachable times on both sides, [`Error::Behind`],
     /// [`Error::Unreachable`], [`Error::Uneven`] where steps have no known duration; those of
     /// [`advance`](Integrator::advance).
-    pub fn advance_to(&mut self, t: T) -> Result<&State<S::Vector>, Error> {
+    pub fn advance_to(&mut self, t: T) -> Result<&State<VectorOf<S, T>>, Error> {
         if self.varies() {
             return Err(Error::Uneven);
         }
@@ -327,7 +344,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             (Some(before), after) => {
                 let made = self.steps - self.began;
                 Err(Error::OffGrid {
-                    clock: clock::<T, S>(),
+                    clock: clock::<S>(),
                     target: t.to_f64(),
                     before: self.clock.at(made + before).to_f64(),
                     after: self.clock.at(made + after).to_f64(),
@@ -339,7 +356,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// The number of steps to `t`, as in [`Clock::whole_steps`].
     fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), Error> {
         self.clock
-            .whole_steps(self.steps - self.began, t, clock::<T, S>())
+            .whole_steps(self.steps - self.began, t, clock::<S>())
     }
 
     /// The states at the given times, which are in the order of the run, independent of the step. The iterator ends if an
@@ -359,7 +376,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     pub fn states_at<I: IntoIterator<Item = T>>(
         &mut self,
         times: I,
-    ) -> impl Iterator<Item = Result<State<S::Vector>, Error>> {
+    ) -> impl Iterator<Item = Result<State<VectorOf<S, T>>, Error>> {
         let mut times = times.into_iter();
         let mut failed = false;
         core::iter::from_fn(move || {

@@ -53,7 +53,7 @@ impl<T: Real> EnergyDrift<T> {
     }
 }
 
-impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
+impl<T: Real, S: System> Observer<T, S> for EnergyDrift<T> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         one_trajectory::<T>();
         self.drift = None;
@@ -126,7 +126,7 @@ impl<T: Real> Monitors<T> {
     }
 }
 
-impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
+impl<T: Real, S: System> Observer<T, S> for Monitors<T> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         one_trajectory::<T>();
         self.monitors = (0..)

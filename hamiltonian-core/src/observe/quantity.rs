@@ -1,7 +1,6 @@
 //! A function of the state whose drift lanes follow: H or an observable.
 
 use crate::system::System;
-use hamiltonian_lanes::Real;
 
 /// A function of the state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,7 +13,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Returns whether it depends on coordinates, and whether it depends on momenta.
-    pub(crate) fn reads<T: Real, S: System<T>>(self) -> [bool; 2] {
+    pub(crate) fn reads<S: System>(self) -> [bool; 2] {
         let Quantity::Observable(index) = self else {
             return [true; 2];
         };

@@ -16,7 +16,7 @@ use crate::scheme::Scheme;
 use crate::state::{Gradient, State};
 use crate::system::System;
 use crate::tangent::{Tangent, lifted};
-use crate::vector::Vector;
+use crate::vector::{Shape, Vector};
 use alloc::vec;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Dual, Real};
@@ -103,8 +103,8 @@ fn values<V: Vector<Scalar = Dual<f64>>>(state: &State<V>) -> impl Iterator<Item
 impl<S, M, V> Shooting<'_, S, M, V>
 where
     V: Vector<Scalar = f64>,
-    S: System<f64, Vector = V> + System<Dual<f64>>,
-    M: Scheme<Dual<f64>, S>,
+    S: System<Shape: Shape<Vector<f64> = V>>,
+    M: Scheme<S>,
 {
     /// The number of steps before an arc.
     fn before(&self, arc: usize) -> u64 {
@@ -289,13 +289,13 @@ where
         let start = self.state(&nodes.points[0], 0, 0.0);
         // Values and gradients of the section and of H: in units of a length, by the gradient at the start.
         let section = self.section.and_then(|name| {
-            let value = System::<f64>::observable_named(self.system, name, &start)?;
-            let gradient = System::<f64>::observable_gradient(self.system, name, &start)?;
+            let value = self.system.observable_named::<f64>(name, &start)?;
+            let gradient = self.system.observable_gradient::<f64>(name, &start)?;
             Some((value, 0.0, gradient))
         });
         let energy = self.energy.map(|energy| {
-            let value = System::<f64>::energy(self.system, &start) - energy;
-            (value, energy, System::<f64>::gradient(self.system, &start))
+            let value = self.system.energy::<f64>(&start) - energy;
+            (value, energy, self.system.gradient::<f64>(&start))
         });
         for (row, (value, level, gradient)) in
             (closing.len()..).zip(section.into_iter().chain(energy))

@@ -7,8 +7,7 @@
 //!
 //! A **system** written by hand implements [`System`](crate::System) and, for its prepared values, [`Dynamics`]:
 //! the gradient as a [`VectorField`] and, if it has them, kicks and drifts or exact flows as [`Piece`]s.
-//! [`check_derivatives`] compares given derivatives of a function with exact ones. With [`Gather`], members of an
-//! ensemble may have different parameters.
+//! [`check_derivatives`] compares given derivatives of a function with exact ones.
 //!
 //! ```
 //! use hamiltonian::schemes::author::{Listed, catalogue};
@@ -23,9 +22,9 @@ pub use crate::flow::{Flow, Nothing, Piece, Pieces, Scratch, VectorField};
 pub use crate::integrator::MapOf;
 pub use crate::map::{Cause, Clock, Map, ScalarOf, Step};
 pub use crate::observed::Observed;
-pub use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Symmetric};
-pub use crate::state::{Carried, Pair, Point};
-pub use crate::system::gather::{self, Gather, InLanes, InPack, Kept};
+pub use crate::scheme::{CarriedBy, Entry, Form, Listed, Needs, OneStep, Symmetric};
+pub use crate::state::{Carried, CarriedShape, Pair, Point};
+pub use crate::system::gather::{self, InLanes, InPack, Kept};
 pub use crate::system::{Arithmetic, Cyclic, Dynamics, Group, Observable, ObservableKind};
 pub use crate::transformed::WithTime;
 

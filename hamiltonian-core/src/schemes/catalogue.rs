@@ -19,16 +19,15 @@ use crate::system::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
 };
 use crate::transformed::TimeTransformed;
-use hamiltonian_lanes::Real;
 
 /// A visitor of the schemes of the catalogue.
-pub trait Visitor<T: Real, S: System<T>> {
+pub trait Visitor<S: System> {
     /// Visits a scheme.
-    fn visit<M: Scheme<T, S>>(&mut self, scheme: M);
+    fn visit<M: Scheme<S>>(&mut self, scheme: M);
     /// Visits a scheme that has an adjoint, like any other by default.
     fn visit_one_step<M>(&mut self, scheme: M)
     where
-        M: Scheme<T, S> + OneStep<Adjoint: Scheme<T, S>>,
+        M: Scheme<S> + OneStep<Adjoint: Scheme<S>>,
     {
         self.visit(scheme);
     }
@@ -67,70 +66,69 @@ macro_rules! catalogue {
         }
 
         /// Visits the schemes for any H, with forces.
-        pub fn visit_any<T: Real, S: System<T>>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_any<S: System>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $any);)+
         }
 
         /// Visits the schemes that require the absence of forces.
-        pub fn visit_unforced<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_unforced<S: System + Unforced>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $($unforced_kind)? $unforced);)+
         }
 
         /// Visits the schemes that require pieces.
-        pub fn visit_split<T: Real, S: Split<T>>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_split<S: Split>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $split);)+
         }
 
         /// Visits the schemes that require pieces with exact flows only.
-        pub fn visit_exact<T: Real, S: Split<T> + Exact>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_exact<S: Split + Exact>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $($exact_kind)? $exact);)+
         }
 
         /// Visits the schemes that require H = T(p, t) + V(q, t).
-        pub fn visit_separable<T: Real, S: Separable<T>>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_separable<S: Separable>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $separable);)+
         }
 
         /// Visits the schemes that require H = A(q, p) + V(q, t), A at most quadratic in p.
-        pub fn visit_nystrom<T: Real, S: Nystrom<T>>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_nystrom<S: Nystrom>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $nystrom);)+
         }
 
         /// Visits the schemes with the stages of a quadrature, for any H, with forces.
-        pub fn visit_implicit<T: Real, S: System<T>>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_implicit<S: System>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $implicit);)+
         }
 
         /// Visits the schemes that preserve H; they require the absence of forces.
-        pub fn visit_energy<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_energy<S: System + Unforced>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $energy);)+
         }
 
         /// Visits the schemes by tables on two copies.
-        pub fn visit_doubled<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_doubled<S: System + Unforced>(visitor: &mut impl Visitor<S>) {
             $(visit!(visitor, $($doubled_kind)? $doubled);)+
         }
 
         /// Visits the compensated schemes.
-        pub fn visit_compensated<T: Real, S: Separable<T> + Unforced>(
-            visitor: &mut impl Visitor<T, S>,
+        pub fn visit_compensated<S: Separable + Unforced>(
+            visitor: &mut impl Visitor<S>,
         ) {
             $(visit!(visitor, $compensated);)+
         }
 
         /// Visits the schemes that require H = ½ pᵀM⁻¹p + V(q) in the time of a monitor function.
-        pub fn visit_transformed<T, S, G>(visitor: &mut impl Visitor<T, TimeTransformed<S, G>>)
+        pub fn visit_transformed<S, G>(visitor: &mut impl Visitor<TimeTransformed<S, G>>)
         where
-            T: Real,
-            S: Separable<T> + QuadraticKinetic + Unforced + Autonomous,
-            G: System<T, Vector = S::Vector> + Unforced + Autonomous,
+            S: Separable + QuadraticKinetic + Unforced + Autonomous,
+            G: System<Shape = S::Shape> + Unforced + Autonomous,
         {
             $(visit!(visitor, $transformed);)+
         }
 
         /// Visits the schemes that require H = ½ pᵀM⁻¹p + V(q, t) with constant M.
-        pub fn visit_quadratic<T: Real, S: Separable<T> + QuadraticKinetic + Unforced>(
-            visitor: &mut impl Visitor<T, S>,
+        pub fn visit_quadratic<S: Separable + QuadraticKinetic + Unforced>(
+            visitor: &mut impl Visitor<S>,
         ) {
             $(visit!(visitor, $quadratic);)+
         }

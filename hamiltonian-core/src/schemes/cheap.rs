@@ -11,7 +11,7 @@ use crate::flow::{Flow, Pieces};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Carried, Point, State};
-use crate::system::{Exact, Split};
+use crate::system::{Exact, Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// A [`Processed`] scheme whose observed states are means instead of images under π:
@@ -71,32 +71,37 @@ impl<K: Splitting, P: Splitting, R: Splitting> Listed for CheapProcessed<K, P, R
     }
 }
 
-impl<T, S, K, P, R> Scheme<T, S> for CheapProcessed<K, P, R>
+impl<S, K, P, R> Scheme<S> for CheapProcessed<K, P, R>
 where
-    T: Real,
-    S: Split<T> + Exact,
+    S: Split + Exact,
     K: Splitting,
     P: Splitting,
     R: Splitting,
 {
-    type Map = ProcessedMap<
-        Point<S::Vector>,
-        <S::Pieces as Pieces<T, S::Prepared>>::Outer,
-        <S::Pieces as Pieces<T, S::Prepared>>::Inner,
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = ProcessedMap<
+        Point<VectorOf<S, T>>,
+        <S::Pieces<T> as Pieces<T, S::Prepared<T>>>::Outer,
+        <S::Pieces<T> as Pieces<T, S::Prepared<T>>>::Inner,
         K,
         P,
-        Mean<ZigzagOf<T, S, S::Pieces, R>, ZigzagOf<T, S, S::Pieces, Negated<R>>>,
+        Mean<ZigzagOf<T, S, S::Pieces<T>, R>, ZigzagOf<T, S, S::Pieces<T>, Negated<R>>>,
     >;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        let (pieces, whole) = (&S::PIECES, Step::of(step.h));
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        let (pieces, whole) = (&S::pieces::<T>(), Step::of(step.h));
         let mean = Mean {
             forward: Zigzag::new(&self.mean_of, pieces, prepared, whole),
             backward: Zigzag::new(&Negated(self.mean_of), pieces, prepared, whole),
         };
         ProcessedMap::new(&self.processed, mean, pieces, prepared, step)
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

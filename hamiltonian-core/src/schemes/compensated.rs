@@ -13,7 +13,7 @@ use crate::flow::{Flow, Piece, Pieces, Scratch};
 use crate::map::Step;
 use crate::scheme::{Entry, Listed, Needs, Scheme, Symmetric};
 use crate::state::{Pair, Point, State};
-use crate::system::{Separable, Unforced};
+use crate::system::{Separable, Unforced, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -47,8 +47,8 @@ use hamiltonian_lanes::Real;
 /// use hamiltonian::{Scheme, Separable};
 /// use hamiltonian::prelude::*;
 ///
-/// fn takes<S: Separable<f64>>() where Compensated<Strang>: Scheme<f64, S> {}
-/// fn with_or_without_a_force<S: Separable<f64>>() { takes::<S>() }
+/// fn takes<S: Separable>() where Compensated<Strang>: Scheme<S> {}
+/// fn with_or_without_a_force<S: Separable>() { takes::<S>() }
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Compensated<M>(pub M);
@@ -135,23 +135,29 @@ where
 
 /// Kick and drift of a system with low words.
 type KickAndDrift<T, S> = (
-    Carrying<<S as Separable<T>>::Kick, true>,
-    Carrying<<S as Separable<T>>::Drift, false>,
+    Carrying<<S as Separable>::Kick<T>, true>,
+    Carrying<<S as Separable>::Drift<T>, false>,
 );
 
-impl<T: Real, S: Separable<T> + Unforced, M: Splitting> Scheme<T, S> for Compensated<M> {
-    type Map = Zigzag<
-        Words<S::Vector>,
-        <KickAndDrift<T, S> as Pieces<T, S::Prepared>>::Outer,
-        <KickAndDrift<T, S> as Pieces<T, S::Prepared>>::Inner,
+impl<S: Separable + Unforced, M: Splitting> Scheme<S> for Compensated<M> {
+    type Carried = Words<S::Shape>;
+    type Map<T: Real> = Zigzag<
+        Words<VectorOf<S, T>>,
+        <KickAndDrift<T, S> as Pieces<T, S::Prepared<T>>>::Outer,
+        <KickAndDrift<T, S> as Pieces<T, S::Prepared<T>>>::Inner,
         M,
     >;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        let halves = (Carrying(S::KICK), Carrying(S::DRIFT));
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        let halves = (Carrying(S::kick::<T>()), Carrying(S::drift::<T>()));
         Zigzag::exact(&self.0, &halves, prepared, step)
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Words<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Words<VectorOf<S, T>> {
         let point = state.point();
         Pair {
             y: point.zeros_like(),

@@ -11,7 +11,7 @@ use crate::flow::Scratch;
 use crate::map::{Cause, Either, Map, ScalarOf, Step};
 use crate::scheme::{Entry, Listed, OneStep, Scheme, Symmetric};
 use crate::state::{Point, State};
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -146,14 +146,15 @@ impl<M: OneStep, const S: usize, const SYMMETRIC: bool> OneStep for Composition<
 
 impl<M: OneStep<Adjoint = M>, const S: usize> Symmetric for Composition<M, S> {}
 
-impl<T, S, M, const STAGES: usize, const SYMMETRIC: bool> Scheme<T, S>
+impl<S, M, const STAGES: usize, const SYMMETRIC: bool> Scheme<S>
     for Composition<M, STAGES, SYMMETRIC>
 where
-    T: Real,
-    S: System<T>,
-    M: OneStep + Scheme<T, S>,
+    S: System,
+    M: OneStep + Scheme<S>,
 {
-    type Map = Either<Composed<M::Map, STAGES, true>, Composed<M::Map, STAGES, false>>;
+    type Carried = M::Carried;
+    type Map<T: Real> =
+        Either<Composed<M::Map<T>, STAGES, true>, Composed<M::Map<T>, STAGES, false>>;
     fn times_of_jumps(&self) -> [f64; 2] {
         let mut times = [f64::INFINITY, f64::NEG_INFINITY];
         let mut at = 0.0;
@@ -168,11 +169,15 @@ where
         }
         times
     }
-    fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
+    fn check<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+    ) -> Result<(), Error> {
         self.stages[0].0.check(prepared, state)
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (last, weight) = &self.stages[STAGES - 1];
         let mut previous = last;
         let mut before = weight.to::<T>() * step.before;
@@ -200,12 +205,12 @@ where
             Either::Second(Composed { stages })
         }
     }
-    fn start(
+    fn start<T: Real>(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> <Self::Map as Map>::Carried {
+    ) -> <Self::Map<T> as Map>::Carried {
         let (first, weight) = &self.stages[0];
         first.start(prepared, state, weight.to::<T>() * h)
     }
@@ -350,24 +355,35 @@ impl<M: OneStep> OneStep for Adjoint<M> {
     }
 }
 
-impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>> Scheme<T, S> for Adjoint<M>
+impl<S, M> Scheme<S> for Adjoint<M>
 where
-    M::Map: Map<Carried = Point<S::Vector>>,
+    S: System,
+    M: OneStep + Scheme<S, Carried = Point<S::Shape>>,
 {
-    type Map = Inverted<M::Map>;
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = Inverted<M::Map<T>>;
     fn times_of_jumps(&self) -> [f64; 2] {
         let [first, last] = self.0.times_of_jumps();
         [1.0 - last, 1.0 - first]
     }
-    fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
+    fn check<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+    ) -> Result<(), Error> {
         self.0.check(prepared, state)
     }
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Inverted {
             back: self.0.prepare(prepared, Step::of(-step.h)),
         }
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

@@ -8,7 +8,7 @@ use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System, Unforced};
+use crate::system::{Dynamics, System, Unforced, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -65,12 +65,13 @@ impl Listed for DiscreteGradient {
 
 symmetric!(DiscreteGradient);
 
-impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for DiscreteGradient {
-    type Map = EnergyKeeping<T, S::Prepared>;
+impl<S: System + Unforced> Scheme<S> for DiscreteGradient {
+    type Carried = Pair<Point<S::Shape>, Point<S::Shape>>;
+    type Map<T: Real> = EnergyKeeping<T, S::Prepared<T>>;
     fn times_of_jumps(&self) -> [f64; 2] {
         [0.5; 2]
     }
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         EnergyKeeping {
             dynamics: prepared.clone(),
             h: step.h,
@@ -78,12 +79,12 @@ impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for DiscreteGradient {
             limit: self.max_iterations,
         }
     }
-    fn start(
+    fn start<T: Real>(
         &self,
-        _: &S::Prepared,
-        state: &State<S::Vector>,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         _: T,
-    ) -> Pair<Point<S::Vector>, Point<S::Vector>> {
+    ) -> Pair<Point<VectorOf<S, T>>, Point<VectorOf<S, T>>> {
         let point = state.point();
         let slope = point.zeros_like();
         Pair { x: point, y: slope }

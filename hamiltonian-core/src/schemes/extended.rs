@@ -10,7 +10,7 @@ use crate::flow::{Flow, Piece, Pieces, VectorField};
 use crate::map::{Either, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System, Unforced};
+use crate::system::{Dynamics, System, Unforced, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -117,19 +117,20 @@ impl<T: Real, P: Dynamics<T>, const FIRST: bool> Piece<T, P> for Cross<FIRST> {
 
 /// The map of a table on H(q, p̃) + H(q̃, p), with `A` outermost.
 pub(super) type Doubled<T, S, A, B, W> = Zigzag<
-    Copies<<S as System<T>>::Vector>,
-    <(A, B) as Pieces<T, <S as System<T>>::Prepared>>::Outer,
-    <(A, B) as Pieces<T, <S as System<T>>::Prepared>>::Inner,
+    Copies<VectorOf<S, T>>,
+    <(A, B) as Pieces<T, <S as System>::Prepared<T>>>::Outer,
+    <(A, B) as Pieces<T, <S as System>::Prepared<T>>>::Inner,
     W,
 >;
 
-impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for Pihajoki {
-    type Map = Either<
+impl<S: System + Unforced> Scheme<S> for Pihajoki {
+    type Carried = Copies<S::Shape>;
+    type Map<T: Real> = Either<
         Doubled<T, S, Cross<false>, Cross<true>, Strang>,
         Doubled<T, S, Cross<true>, Cross<false>, Strang>,
     >;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (first, second) = (Cross::<true>, Cross::<false>);
         match self {
             Pihajoki::CoordinateFirst => {
@@ -140,7 +141,12 @@ impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for Pihajoki {
             }
         }
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Copies<VectorOf<S, T>> {
         Pair {
             x: state.point(),
             y: state.point(),

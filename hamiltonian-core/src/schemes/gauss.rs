@@ -8,7 +8,7 @@ use super::stages::{Carries, Collocated, at_rest, of_fixed_point};
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::State;
-use crate::system::{Dynamics, System};
+use crate::system::{Dynamics, System, VectorOf};
 use core::fmt;
 use hamiltonian_lanes::Real;
 
@@ -140,13 +140,14 @@ impl<const S: usize> Listed for Gauss<S> {
 
 symmetric!(Gauss<S>, const S: usize);
 
-impl<T: Real, S: System<T>, const STAGES: usize> Scheme<T, S> for Gauss<STAGES> {
-    type Map = Collocated<T, S::Prepared, STAGES>;
+impl<S: System, const STAGES: usize> Scheme<S> for Gauss<STAGES> {
+    type Carried = Carries<S::Shape, STAGES>;
+    type Map<T: Real> = Collocated<T, S::Prepared<T>, STAGES>;
     fn times_of_jumps(&self) -> [f64; 2] {
         self.coefficients.ends()
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let integrals = self.coefficients.symplectic();
         let weights = multiples(&self.coefficients.weights, step.h);
         Collocated {
@@ -164,7 +165,12 @@ impl<T: Real, S: System<T>, const STAGES: usize> Scheme<T, S> for Gauss<STAGES> 
             limit: self.max_iterations,
         }
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Carries<S::Vector, STAGES> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Carries<VectorOf<S, T>, STAGES> {
         at_rest(state)
     }
 }

@@ -8,7 +8,7 @@ use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System};
+use crate::system::{Dynamics, System, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -69,13 +69,14 @@ impl Listed for ImplicitMidpoint {
 
 symmetric!(ImplicitMidpoint);
 
-impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
-    type Map = Midpoint<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+impl<S: System> Scheme<S> for ImplicitMidpoint {
+    type Carried = Pair<Point<S::Shape>, Point<S::Shape>>;
+    type Map<T: Real> = Midpoint<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
     fn times_of_jumps(&self) -> [f64; 2] {
         [0.5; 2]
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Midpoint {
             field: prepared.field(T::one()),
             h: step.h,
@@ -84,12 +85,12 @@ impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
         }
     }
     #[inline(always)]
-    fn start(
+    fn start<T: Real>(
         &self,
-        _: &S::Prepared,
-        state: &State<S::Vector>,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         _: T,
-    ) -> Pair<Point<S::Vector>, Point<S::Vector>> {
+    ) -> Pair<Point<VectorOf<S, T>>, Point<VectorOf<S, T>>> {
         let point = state.point();
         let slope = point.zeros_like();
         Pair { x: point, y: slope }

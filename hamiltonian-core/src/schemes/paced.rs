@@ -7,19 +7,27 @@ use crate::error::Error;
 use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, OneStep, Scheme};
-use crate::state::{Carried, Point, State};
-use crate::system::{Dynamics, System};
-use crate::vector::Vector;
+use crate::state::{Carried, CarriedShape, Point, State};
+use crate::system::{Dynamics, System, VectorOf};
+use crate::vector::{Over, Shape, Vector};
 use core::fmt::Debug;
+use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 
 /// The density of steps, Q(t, q, p) > 0, in any unit: steps are proportional to 1/Q.
 ///
 /// Its method returns the rate d ln Q/dt along the orbit, given q̇ and ṗ. For Kepler's problem with
 /// Q = r^(−3/2) it is −(3/2) q·q̇/q·q.
-pub trait Density<V: Vector>: Clone + Debug + Send + Sync + 'static {
-    /// d ln Q/dt at (t, q, p), where the velocity is (dq, dp).
-    fn rate(&self, t: V::Scalar, q: &V, p: &V, dq: &V, dp: &V) -> V::Scalar;
+pub trait Density<S: System>: Clone + Debug + Send + Sync + 'static {
+    /// d ln Q/dt at (t, q, p), where the velocity is (dq, dp). The vectors are those of the system, over any scalar.
+    fn rate<T: Real>(
+        &self,
+        t: T,
+        q: &VectorOf<S, T>,
+        p: &VectorOf<S, T>,
+        dq: &VectorOf<S, T>,
+        dp: &VectorOf<S, T>,
+    ) -> T;
 }
 
 /// A one-step scheme with variable steps, explicit and time-reversible.
@@ -66,10 +74,22 @@ pub struct Pace<V: Vector> {
     pace: [V::Scalar; 3],
 }
 
+/// The shape of a [`Pace`].
+#[derive(Debug)]
+pub struct PaceShape<H>(PhantomData<H>);
+
+impl<H: Shape> Shape for PaceShape<H> {
+    type Vector<T: Real> = Pace<H::Vector<T>>;
+}
+
+impl<H: Shape> CarriedShape<H> for PaceShape<H> {
+    type Of<T: Real> = Pace<H::Vector<T>>;
+}
+
 impl<V: Vector> Vector for Pace<V> {
     type Scalar = V::Scalar;
-    type Over<U: Real> = Pace<V::Over<U>>;
-    fn zeros_over<U: Real>(&self) -> Pace<V::Over<U>> {
+    type Shape = PaceShape<V::Shape>;
+    fn zeros_over<U: Real>(&self) -> Pace<Over<V, U>> {
         Pace {
             point: self.point.zeros_over(),
             pace: [U::zero(); 3],
@@ -124,12 +144,12 @@ impl<V: Vector> Carried for Pace<V> {
 
 /// G at a point.
 #[inline(always)]
-fn rate<T: Real, P: Dynamics<T>, G: Density<P::Vector>>(
+fn rate<T: Real, S: System, G: Density<S>>(
     density: &G,
-    field: &P::Field,
+    field: &<S::Prepared<T> as Dynamics<T>>::Field,
     t: T,
-    point: &Point<P::Vector>,
-    velocity: &mut Point<P::Vector>,
+    point: &Point<VectorOf<S, T>>,
+    velocity: &mut Point<VectorOf<S, T>>,
 ) -> T {
     velocity.set_zero();
     let Point { q: dq, p: dp } = velocity;
@@ -137,23 +157,26 @@ fn rate<T: Real, P: Dynamics<T>, G: Density<P::Vector>>(
     density.rate(t, &point.q, &point.p, dq, dp)
 }
 
-impl<T, S, M, G> Scheme<T, S> for Paced<M, G>
+impl<S, M, G> Scheme<S> for Paced<M, G>
 where
-    T: Real,
-    S: System<T>,
-    M: OneStep + Scheme<T, S>,
-    M::Map: Map<Carried = Point<S::Vector>>,
-    G: Density<S::Vector>,
+    S: System,
+    M: OneStep + Scheme<S, Carried = Point<S::Shape>>,
+    G: Density<S>,
 {
-    type Map = Pacing<T, S, M, G>;
+    type Carried = PaceShape<S::Shape>;
+    type Map<T: Real> = Pacing<T, S, M, G>;
     fn times_of_jumps(&self) -> [f64; 2] {
         self.scheme.times_of_jumps()
     }
-    fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
+    fn check<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+    ) -> Result<(), Error> {
         self.scheme.check(prepared, state)
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Pacing {
             prepared: prepared.clone(),
             field: prepared.field(T::one()),
@@ -164,11 +187,16 @@ where
         }
     }
     #[inline(always)]
-    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, _: T) -> Pace<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Pace<VectorOf<S, T>> {
         let point = state.point();
         let mut velocity = point.zeros_like();
         let field = prepared.field(T::one());
-        let rate = rate::<T, S::Prepared, G>(&self.density, &field, state.t, &point, &mut velocity);
+        let rate = rate::<T, S, G>(&self.density, &field, state.t, &point, &mut velocity);
         Pace {
             point,
             pace: [T::one(), rate, state.t],
@@ -177,9 +205,9 @@ where
 }
 
 /// The map of [`Paced`].
-pub struct Pacing<T: Real, S: System<T>, M, G> {
-    prepared: S::Prepared,
-    field: <S::Prepared as Dynamics<T>>::Field,
+pub struct Pacing<T: Real, S: System, M, G> {
+    prepared: S::Prepared<T>,
+    field: <S::Prepared<T> as Dynamics<T>>::Field,
     scheme: M,
     density: G,
     epsilon: T,
@@ -204,13 +232,12 @@ impl<V: Vector, W: Scratch<Point<V>>> Scratch<Pace<V>> for PacingWork<V, W> {
 impl<T, S, M, G> Map for Pacing<T, S, M, G>
 where
     T: Real,
-    S: System<T>,
-    M: OneStep + Scheme<T, S>,
-    M::Map: Map<Carried = Point<S::Vector>>,
-    G: Density<S::Vector>,
+    S: System,
+    M: OneStep + Scheme<S, Carried = Point<S::Shape>>,
+    G: Density<S>,
 {
-    type Carried = Pace<S::Vector>;
-    type Work = PacingWork<S::Vector, <M::Map as Map>::Work>;
+    type Carried = Pace<VectorOf<S, T>>;
+    type Work = PacingWork<VectorOf<S, T>, <M::Map<T> as Map>::Work>;
 
     #[inline(always)]
     fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
@@ -220,8 +247,7 @@ where
         let ends = [*t, *t + h];
         (self.scheme).step(&self.prepared, h, ends, &mut z.point, &mut work.inner);
         *t += h;
-        *rate_here =
-            rate::<T, S::Prepared, G>(&self.density, &self.field, *t, &z.point, &mut work.velocity);
+        *rate_here = rate::<T, S, G>(&self.density, &self.field, *t, &z.point, &mut work.velocity);
         *density += self.half * *rate_here;
         // There is no step for a density that is not positive.
         let gone = density.le(T::zero());

@@ -12,7 +12,7 @@ use crate::flow::{Flow, Pieces, Scratch};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Carried, Point, State};
-use crate::system::{Exact, Split};
+use crate::system::{Exact, Split, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -73,42 +73,47 @@ impl<K: Splitting + PartialEq, P: Splitting + PartialEq> OneStep for Processed<K
     }
 }
 
-impl<T, S, K, P> Scheme<T, S> for Processed<K, P>
+impl<S, K, P> Scheme<S> for Processed<K, P>
 where
-    T: Real,
-    S: Split<T> + Exact,
+    S: Split + Exact,
     K: Splitting,
     P: Splitting,
 {
-    type Map = ProcessedMap<
-        Point<S::Vector>,
-        <S::Pieces as Pieces<T, S::Prepared>>::Outer,
-        <S::Pieces as Pieces<T, S::Prepared>>::Inner,
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = ProcessedMap<
+        Point<VectorOf<S, T>>,
+        <S::Pieces<T> as Pieces<T, S::Prepared<T>>>::Outer,
+        <S::Pieces<T> as Pieces<T, S::Prepared<T>>>::Inner,
         K,
         P,
-        ZigzagOf<T, S, S::Pieces, P>,
+        ZigzagOf<T, S, S::Pieces<T>, P>,
     >;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let whole = Step::of(step.h);
-        let post_processor = Zigzag::new(&self.processor, &S::PIECES, prepared, whole);
-        ProcessedMap::new(self, post_processor, &S::PIECES, prepared, step)
+        let post_processor = Zigzag::new(&self.processor, &S::pieces::<T>(), prepared, whole);
+        ProcessedMap::new(self, post_processor, &S::pieces::<T>(), prepared, step)
     }
     /// Processors of different steps do not cancel.
     #[inline(always)]
-    fn prepare_after(
+    fn prepare_after<T: Real>(
         &self,
         before: &Self,
-        prepared: &S::Prepared,
+        prepared: &S::Prepared<T>,
         step: Step<T>,
-    ) -> Option<Self::Map>
+    ) -> Option<Self::Map<T>>
     where
         Self: OneStep,
     {
         let joins = self == before && step.h.equals(step.before).all();
-        joins.then(|| Scheme::<T, S>::prepare(self, prepared, step))
+        joins.then(|| Scheme::<S>::prepare(self, prepared, step))
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

@@ -12,16 +12,16 @@ use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
 use crate::state::{Carried, Pair, Point, State};
-use crate::system::{System, Unforced};
+use crate::system::{System, Unforced, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
 /// The splitting of H(q, p̃) + H(q̃, p) by the table `W`.
 type Inner<T, S, W> = Doubled<T, S, Cross<false>, Cross<true>, W>;
 
-fn inner<T: Real, S: System<T>, W: Splitting>(
+fn inner<T: Real, S: System, W: Splitting>(
     table: &W,
-    prepared: &S::Prepared,
+    prepared: &S::Prepared<T>,
     h: T,
 ) -> Inner<T, S, W> {
     Zigzag::new(
@@ -106,13 +106,19 @@ impl<M: Splitting + Symmetric> OneStep for MidpointProjected<M> {
     }
 }
 
-impl<T: Real, S: System<T> + Unforced, M: Splitting> Scheme<T, S> for MidpointProjected<M> {
-    type Map = Averaged<Inner<T, S, M>>;
+impl<S: System + Unforced, M: Splitting> Scheme<S> for MidpointProjected<M> {
+    type Carried = Copies<S::Shape>;
+    type Map<T: Real> = Averaged<Inner<T, S, M>>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Averaged(inner::<T, S, M>(&self.0, prepared, step.h))
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Copies<VectorOf<S, T>> {
         Pair {
             x: state.point(),
             y: state.point(),
@@ -225,17 +231,23 @@ impl<M: Splitting> Listed for Mixed<M> {
     }
 }
 
-impl<T: Real, S: System<T> + Unforced, M: Splitting> Scheme<T, S> for Mixed<M> {
-    type Map = Mixing<Inner<T, S, M>, T>;
+impl<S: System + Unforced, M: Splitting> Scheme<S> for Mixed<M> {
+    type Carried = Copies<S::Shape>;
+    type Map<T: Real> = Mixing<Inner<T, S, M>, T>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Mixing {
             inner: inner::<T, S, M>(&self.table, prepared, step.h),
             coordinates: T::constant(self.coordinates, 0.0),
             momenta: T::constant(self.momenta, 0.0),
         }
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Copies<VectorOf<S, T>> {
         Pair {
             x: state.point(),
             y: state.point(),
@@ -364,21 +376,22 @@ impl<M: Splitting> Listed for Semiexplicit<M> {
 
 symmetric!(Semiexplicit<M>, M: Splitting + Symmetric);
 
-impl<T: Real, S: System<T> + Unforced, M: Splitting> Scheme<T, S> for Semiexplicit<M> {
-    type Map = Projected<Inner<T, S, M>>;
+impl<S: System + Unforced, M: Splitting> Scheme<S> for Semiexplicit<M> {
+    type Carried = Pair<Point<S::Shape>, Stages<Point<S::Shape>, 2>>;
+    type Map<T: Real> = Projected<Inner<T, S, M>>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Projected {
             inner: inner::<T, S, M>(&self.table, prepared, step.h),
             limit: self.max_iterations,
         }
     }
-    fn start(
+    fn start<T: Real>(
         &self,
-        _: &S::Prepared,
-        state: &State<S::Vector>,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         _: T,
-    ) -> Pair<Point<S::Vector>, Stages<Point<S::Vector>, 2>> {
+    ) -> Pair<Point<VectorOf<S, T>>, Stages<Point<VectorOf<S, T>>, 2>> {
         let point = state.point();
         let none = point.zeros_like();
         Pair {

@@ -7,7 +7,7 @@ use crate::flow::{Scratch, VectorField};
 use crate::map::{Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Point, State};
-use crate::system::{Dynamics, System};
+use crate::system::{Dynamics, System, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -57,10 +57,11 @@ impl OneStep for RungeKutta4 {
     }
 }
 
-impl<T: Real, S: System<T>> Scheme<T, S> for RungeKutta4 {
-    type Map = Classical<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+impl<S: System> Scheme<S> for RungeKutta4 {
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = Classical<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Classical {
             field: prepared.field(step.h),
             h: step.h,
@@ -72,7 +73,12 @@ impl<T: Real, S: System<T>> Scheme<T, S> for RungeKutta4 {
         }
     }
     #[inline(always)]
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

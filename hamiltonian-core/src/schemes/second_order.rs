@@ -17,8 +17,8 @@ use crate::map::{Cause, Clock, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
 use crate::system::gather::{InLanes, Kept, in_lanes};
-use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced};
-use crate::vector::Vector;
+use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf};
+use crate::vector::{Over, Vector};
 use core::fmt;
 use hamiltonian_lanes::{Cpu, DoubleDouble, Level, Mask, Pack, Real};
 
@@ -124,17 +124,17 @@ pub type CarriesForces<V, const S: usize> = Pair<Point<V>, Pair<Stages<V, S>, Po
 /// No short fraction.
 const GOLDEN: f64 = 0.381_966_011_250_105_15;
 
-impl<T, S, const STAGES: usize> Scheme<T, S> for GaussNystrom<STAGES>
+impl<S, const STAGES: usize> Scheme<S> for GaussNystrom<STAGES>
 where
-    T: Real,
-    S: System<T> + Separable<T> + QuadraticKinetic + Unforced,
+    S: System + Separable + QuadraticKinetic + Unforced,
 {
-    type Map = Eliminated<T, S::Prepared, STAGES>;
+    type Carried = CarriesForces<S::Shape, STAGES>;
+    type Map<T: Real> = Eliminated<T, S::Prepared<T>, STAGES>;
     fn times_of_jumps(&self) -> [f64; 2] {
         self.coefficients.ends()
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let h = step.h;
         let (times, double) = self.coefficients.symplectic_double(h);
         let weights = multiples(&self.coefficients.weights, -h);
@@ -151,12 +151,12 @@ where
             limit: self.max_iterations,
         }
     }
-    fn start(
+    fn start<T: Real>(
         &self,
-        _: &S::Prepared,
-        state: &State<S::Vector>,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         _: T,
-    ) -> CarriesForces<S::Vector, STAGES> {
+    ) -> CarriesForces<VectorOf<S, T>, STAGES> {
         let point = state.point();
         let low = point.zeros_like();
         let forces = Stages(core::array::from_fn(|_| low.p.clone()));
@@ -487,7 +487,7 @@ where
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
     where
         P: Pack,
-        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>> + 'static,
+        D: Dynamics<T::Over<P>, Vector = Over<Q::Vector, T::Over<P>>> + 'static,
     {
         let NystromStepsBeside {
             map,

@@ -9,7 +9,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::{Either, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Point, State};
-use crate::system::Separable;
+use crate::system::{Separable, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// Störmer–Verlet (leapfrog): order 2, symplectic, time-reversible; equations (27).
@@ -80,7 +80,7 @@ impl Listed for StormerVerlet {
 impl StormerVerlet {
     /// The order on a system: a piece that jumps in time is not first.
     #[inline(always)]
-    fn on<T: Real, S: Separable<T>>(self) -> Self {
+    fn on<S: Separable>(self) -> Self {
         match S::JUMPING {
             [true, false] => StormerVerlet::DriftKickDrift,
             [false, true] => StormerVerlet::KickDriftKick,
@@ -89,30 +89,42 @@ impl StormerVerlet {
     }
 }
 
-impl<T: Real, S: Separable<T>> Scheme<T, S> for StormerVerlet {
-    type Map = Either<
-        ZigzagOf<T, S, (S::Kick, S::Drift), Strang>,
-        ZigzagOf<T, S, (S::Drift, S::Kick), Strang>,
+impl<S: Separable> Scheme<S> for StormerVerlet {
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = Either<
+        ZigzagOf<T, S, (S::Kick<T>, S::Drift<T>), Strang>,
+        ZigzagOf<T, S, (S::Drift<T>, S::Kick<T>), Strang>,
     >;
     fn times_of_jumps(&self) -> [f64; 2] {
         let [kick, drift] = S::JUMPING;
-        match self.on::<T, S>() {
+        match self.on::<S>() {
             StormerVerlet::KickDriftKick => Strang.times_on([kick, drift]),
             StormerVerlet::DriftKickDrift => Strang.times_on([drift, kick]),
         }
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        match self.on::<T, S>() {
-            StormerVerlet::KickDriftKick => {
-                Either::First(Zigzag::new(&Strang, &(S::KICK, S::DRIFT), prepared, step))
-            }
-            StormerVerlet::DriftKickDrift => {
-                Either::Second(Zigzag::new(&Strang, &(S::DRIFT, S::KICK), prepared, step))
-            }
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        match self.on::<S>() {
+            StormerVerlet::KickDriftKick => Either::First(Zigzag::new(
+                &Strang,
+                &(S::kick::<T>(), S::drift::<T>()),
+                prepared,
+                step,
+            )),
+            StormerVerlet::DriftKickDrift => Either::Second(Zigzag::new(
+                &Strang,
+                &(S::drift::<T>(), S::kick::<T>()),
+                prepared,
+                step,
+            )),
         }
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }
@@ -197,27 +209,33 @@ impl Splitting for SymplecticEuler {
     }
 }
 
-impl<T: Real, S: Separable<T>> Scheme<T, S> for SymplecticEuler {
-    type Map = ZigzagOf<T, S, (S::Drift, S::Kick), Self>;
+impl<S: Separable> Scheme<S> for SymplecticEuler {
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = ZigzagOf<T, S, (S::Drift<T>, S::Kick<T>), Self>;
     fn times_of_jumps(&self) -> [f64; 2] {
         let [kick, drift] = S::JUMPING;
         self.times_on([drift, kick])
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        Zigzag::new(self, &(S::DRIFT, S::KICK), prepared, step)
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        Zigzag::new(self, &(S::drift::<T>(), S::kick::<T>()), prepared, step)
     }
     #[inline(always)]
-    fn prepare_after(
+    fn prepare_after<T: Real>(
         &self,
         before: &Self,
-        prepared: &S::Prepared,
+        prepared: &S::Prepared<T>,
         step: Step<T>,
-    ) -> Option<Self::Map> {
-        let pieces = (S::DRIFT, S::KICK);
+    ) -> Option<Self::Map<T>> {
+        let pieces = (S::drift::<T>(), S::kick::<T>());
         Some(Zigzag::after(before, self, &pieces, prepared, step))
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

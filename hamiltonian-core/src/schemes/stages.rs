@@ -24,7 +24,7 @@ use crate::map::{Cause, Clock, Map};
 use crate::state::{Pair, Point, State};
 use crate::system::Dynamics;
 use crate::system::gather::{Kept, in_lanes};
-use crate::vector::Vector;
+use crate::vector::{Over, Shape, Vector};
 use core::ops::Range;
 pub(super) use guess::{extrapolation, of_fixed_point};
 use hamiltonian_lanes::{Mask, Real};
@@ -35,10 +35,14 @@ use slopes::{StepScratch, StepsBeside, Tableau, finish, fixed_point, steps};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stages<X, const S: usize>(pub [X; S]);
 
+impl<X: Shape, const S: usize> Shape for Stages<X, S> {
+    type Vector<T: Real> = Stages<X::Vector<T>, S>;
+}
+
 impl<X: Vector, const S: usize> Vector for Stages<X, S> {
     type Scalar = X::Scalar;
-    type Over<U: Real> = Stages<X::Over<U>, S>;
-    fn zeros_over<U: Real>(&self) -> Stages<X::Over<U>, S> {
+    type Shape = Stages<X::Shape, S>;
+    fn zeros_over<U: Real>(&self) -> Stages<Over<X, U>, S> {
         Stages(core::array::from_fn(|i| self.0[i].zeros_over()))
     }
     const PARTS: usize = S * X::PARTS;

@@ -8,7 +8,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Point, State};
-use crate::system::Split;
+use crate::system::{Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// Strang's splitting: the flows of all pieces for half a step, down, and up again; order 2,
@@ -64,16 +64,22 @@ impl Splitting for Strang {
 
 symmetric!(Strang);
 
-impl<T: Real, S: Split<T>> Scheme<T, S> for Strang {
-    type Map = ZigzagOf<T, S, S::Pieces, Self>;
+impl<S: Split> Scheme<S> for Strang {
+    type Carried = Point<S::Shape>;
+    type Map<T: Real> = ZigzagOf<T, S, S::Pieces<T>, Self>;
     fn times_of_jumps(&self) -> [f64; 2] {
         self.times_on(S::JUMPING)
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        Zigzag::new(self, &S::PIECES, prepared, step)
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        Zigzag::new(self, &S::pieces::<T>(), prepared, step)
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Point<VectorOf<S, T>> {
         state.point()
     }
 }

@@ -12,7 +12,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::{Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
 use crate::state::{Point, State};
-use crate::system::{Exact, Nystrom, Split};
+use crate::system::{Exact, Nystrom, Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// The line of a table in the catalogue.
@@ -77,21 +77,26 @@ macro_rules! on_pieces {
             self.times_on($jumping)
         }
         #[inline(always)]
-        fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
             Zigzag::new(self, &$pieces, prepared, step)
         }
         #[inline(always)]
-        fn step(
+        fn step<T: Real>(
             &self,
-            prepared: &S::Prepared,
+            prepared: &S::Prepared<T>,
             h: T,
             ends: [T; 2],
-            z: &mut Point<S::Vector>,
-            work: &mut <Self::Map as Map>::Work,
+            z: &mut Point<VectorOf<S, T>>,
+            work: &mut <Self::Map<T> as Map>::Work,
         ) {
             Zigzag::once(self, &$pieces, prepared, h, ends, z, work);
         }
-        fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+        fn start<T: Real>(
+            &self,
+            _: &S::Prepared<T>,
+            state: &State<VectorOf<S, T>>,
+            _: T,
+        ) -> Point<VectorOf<S, T>> {
             state.point()
         }
     };
@@ -100,9 +105,10 @@ macro_rules! on_pieces {
 /// The scheme of a table on the pieces of any splitting.
 macro_rules! on_exact_pieces {
     ($name:ty) => {
-        impl<T: Real, S: Split<T> + Exact> Scheme<T, S> for $name {
-            type Map = ZigzagOf<T, S, S::Pieces, Self>;
-            on_pieces!(S::PIECES, S::JUMPING);
+        impl<S: Split + Exact> Scheme<S> for $name {
+            type Carried = Point<S::Shape>;
+            type Map<T: Real> = ZigzagOf<T, S, S::Pieces<T>, Self>;
+            on_pieces!(S::pieces::<T>(), S::JUMPING);
         }
     };
 }
@@ -223,10 +229,10 @@ general! {
 
 /// `first` and `second` are the constants of [`Nystrom`] for the two pieces.
 macro_rules! nystrom {
-    (@jumping KICK $system:ident) => {
+    (@jumping kick $system:ident) => {
         $system::JUMPING
     };
-    (@jumping QUADRATIC $system:ident) => {
+    (@jumping quadratic $system:ident) => {
         [$system::JUMPING[1], $system::JUMPING[0]]
     };
     ($($(#[$doc:meta])* $name:ident: $table:path, $stages:literal,
@@ -248,9 +254,10 @@ macro_rules! nystrom {
             $name: $table, $stages, Nystrom, symmetric
         }
 
-        impl<T: Real, S: Nystrom<T>> Scheme<T, S> for $name {
-            type Map = ZigzagOf<T, S, (S::$first_piece, S::$second_piece), Self>;
-            on_pieces!((S::$first, S::$second), nystrom!(@jumping $first S));
+        impl<S: Nystrom> Scheme<S> for $name {
+            type Carried = Point<S::Shape>;
+            type Map<T: Real> = ZigzagOf<T, S, (S::$first_piece<T>, S::$second_piece<T>), Self>;
+            on_pieces!((S::$first::<T>(), S::$second::<T>()), nystrom!(@jumping $first S));
         }
     )+};
 }
@@ -260,22 +267,22 @@ nystrom! {
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    Srkn6b: nystrom::SRKN_6B, 6, KICK Kick, QUADRATIC Quadratic;
+    Srkn6b: nystrom::SRKN_6B, 6, kick Kick, quadratic Quadratic;
     /// Blanes and Moan's SRKN₁₁ᵇ: order 6 with 11 kicks.
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    Srkn11b: nystrom::SRKN_11B, 11, KICK Kick, QUADRATIC Quadratic;
+    Srkn11b: nystrom::SRKN_11B, 11, kick Kick, quadratic Quadratic;
     /// Blanes and Moan's SRKN₁₄ᵃ: order 6 with 14 kicks.
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    Srkn14a: nystrom::SRKN_14A, 14, QUADRATIC Quadratic, KICK Kick;
+    Srkn14a: nystrom::SRKN_14A, 14, quadratic Quadratic, kick Kick;
     /// The scheme of Blanes, Casas and Escorihuela-Tomàs: order 8 with 19 kicks.
     ///
     /// Source: S. Blanes, F. Casas, A. Escorihuela-Tomàs, Appl. Numer. Math. 182 (2022) 14,
     /// doi:10.1016/j.apnum.2022.07.010.
-    BlanesCasasEscorihuela8: nystrom::BLANES_CASAS_ESCORIHUELA_8, 19, QUADRATIC Quadratic, KICK Kick;
+    BlanesCasasEscorihuela8: nystrom::BLANES_CASAS_ESCORIHUELA_8, 19, quadratic Quadratic, kick Kick;
 }
 
 macro_rules! near_integrable {

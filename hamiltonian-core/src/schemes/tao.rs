@@ -11,7 +11,7 @@ use crate::flow::{Flow, Piece, Pieces};
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, State};
-use crate::system::{Dynamics, System, Unforced};
+use crate::system::{Dynamics, System, Unforced, VectorOf};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -123,19 +123,25 @@ impl<T: Real, P: Dynamics<T>> Piece<T, P> for Bind {
 /// The pieces of Tao's H, the outermost first.
 type Bound = (Cross<true>, Cross<false>, Bind);
 
-impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for Tao {
-    type Map = Zigzag<
-        Copies<S::Vector>,
-        <Bound as Pieces<T, S::Prepared>>::Outer,
-        <Bound as Pieces<T, S::Prepared>>::Inner,
+impl<S: System + Unforced> Scheme<S> for Tao {
+    type Carried = Copies<S::Shape>;
+    type Map<T: Real> = Zigzag<
+        Copies<VectorOf<S, T>>,
+        <Bound as Pieces<T, S::Prepared<T>>>::Outer,
+        <Bound as Pieces<T, S::Prepared<T>>>::Inner,
         Strang,
     >;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let bind = Bind { omega: self.omega };
         Zigzag::new(&Strang, &(Cross, Cross, bind), prepared, step)
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Copies<VectorOf<S, T>> {
         Pair {
             x: state.point(),
             y: state.point(),

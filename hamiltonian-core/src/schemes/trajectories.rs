@@ -8,7 +8,7 @@ use crate::flow::VectorField;
 use crate::map::{Clock, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System, Unforced};
+use crate::system::{Dynamics, System, Unforced, VectorOf};
 use crate::vector::Vector;
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
@@ -216,26 +216,32 @@ entries!(IntersectingSubTrajectories, "33", 1);
 /// Two points: the observed one, and one half a leap before it.
 type Points<V> = Pair<Point<V>, Point<V>>;
 
-impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for TwoStepMidpoint {
-    type Map = TwoStep<<S::Prepared as Dynamics<T>>::Field, S::Vector>;
+impl<S: System + Unforced> Scheme<S> for TwoStepMidpoint {
+    type Carried = Points<S::Shape>;
+    type Map<T: Real> = TwoStep<<S::Prepared<T> as Dynamics<T>>::Field, VectorOf<S, T>>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         TwoStep {
             leap: prepared.field(step.h + step.h),
             vector: PhantomData,
         }
     }
     #[inline(always)]
-    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> Points<VectorOf<S, T>> {
         self.start.pair(prepared, state, h)
     }
     #[inline(always)]
-    fn start_alone(
+    fn start_alone<T: Real>(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> Points<S::Vector> {
+    ) -> Points<VectorOf<S, T>> {
         Start::SecondOrder.pair(prepared, state, h)
     }
 }
@@ -283,44 +289,56 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
     }
 }
 
-impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for ConsecutiveSubTrajectories {
-    type Map = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+impl<S: System + Unforced> Scheme<S> for ConsecutiveSubTrajectories {
+    type Carried = Points<S::Shape>;
+    type Map<T: Real> = Interleaved<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Interleaved::new(prepared, step.h + step.h)
     }
     #[inline(always)]
-    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> Points<VectorOf<S, T>> {
         self.start.pair(prepared, state, h)
     }
     #[inline(always)]
-    fn start_alone(
+    fn start_alone<T: Real>(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> Points<S::Vector> {
+    ) -> Points<VectorOf<S, T>> {
         Start::SecondOrder.pair(prepared, state, h)
     }
 }
 
-impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for IntersectingSubTrajectories {
-    type Map = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+impl<S: System + Unforced> Scheme<S> for IntersectingSubTrajectories {
+    type Carried = Points<S::Shape>;
+    type Map<T: Real> = Interleaved<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Interleaved::new(prepared, step.h)
     }
     #[inline(always)]
-    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
+    fn start<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> Points<VectorOf<S, T>> {
         self.start.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
     #[inline(always)]
-    fn start_alone(
+    fn start_alone<T: Real>(
         &self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
         h: T,
-    ) -> Points<S::Vector> {
+    ) -> Points<VectorOf<S, T>> {
         Start::SecondOrder.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
 }

@@ -8,8 +8,10 @@ use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Point, State};
-use crate::system::{Autonomous, Dynamics, QuadraticKinetic, Separable, System, Unforced};
+use crate::state::{Pair, Point, State};
+use crate::system::{
+    Autonomous, Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf,
+};
 use crate::transformed::{InNewTime, TimeTransformed, WithTime};
 use crate::vector::{Vector, dot};
 use hamiltonian_lanes::{Mask, Real};
@@ -85,18 +87,18 @@ impl Listed for TransformedVerlet {
 
 symmetric!(TransformedVerlet);
 
-impl<T, S, G> Scheme<T, TimeTransformed<S, G>> for TransformedVerlet
+impl<S, G> Scheme<TimeTransformed<S, G>> for TransformedVerlet
 where
-    T: Real,
-    S: System<T> + Separable<T> + QuadraticKinetic + Unforced + Autonomous,
-    G: System<T, Vector = S::Vector> + Unforced + Autonomous,
+    S: System + Separable + QuadraticKinetic + Unforced + Autonomous,
+    G: System<Shape = S::Shape> + Unforced + Autonomous,
 {
-    type Map = VerletInNewTime<T, S::Prepared, G::Prepared>;
+    type Carried = Point<Pair<S::Shape, SVector<(), 1>>>;
+    type Map<T: Real> = VerletInNewTime<T, S::Prepared<T>, G::Prepared<T>>;
     /// ∂g/∂p is 0 here and at momenta beside, since it may vanish at rest alone.
-    fn check(
+    fn check<T: Real>(
         &self,
-        prepared: &InNewTime<S::Prepared, G::Prepared>,
-        state: &State<WithTime<S::Vector>>,
+        prepared: &InNewTime<S::Prepared<T>, G::Prepared<T>>,
+        state: &State<WithTime<VectorOf<S, T>>>,
     ) -> Result<(), Error> {
         let (q, mut p) = (&state.q.x, state.p.x.clone());
         let mut slope = p.zeros_like();
@@ -115,7 +117,11 @@ where
         Ok(())
     }
     #[inline(always)]
-    fn prepare(&self, prepared: &InNewTime<S::Prepared, G::Prepared>, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(
+        &self,
+        prepared: &InNewTime<S::Prepared<T>, G::Prepared<T>>,
+        step: Step<T>,
+    ) -> Self::Map<T> {
         VerletInNewTime {
             dynamics: prepared.clone(),
             h: step.h,
@@ -124,12 +130,12 @@ where
         }
     }
     #[inline(always)]
-    fn start(
+    fn start<T: Real>(
         &self,
-        _: &InNewTime<S::Prepared, G::Prepared>,
-        state: &State<WithTime<S::Vector>>,
+        _: &InNewTime<S::Prepared<T>, G::Prepared<T>>,
+        state: &State<WithTime<VectorOf<S, T>>>,
         _: T,
-    ) -> Point<WithTime<S::Vector>> {
+    ) -> Point<WithTime<VectorOf<S, T>>> {
         state.point()
     }
 }

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Point, State};
-use crate::system::{Dynamics, System};
+use crate::system::{Dynamics, System, VectorOf};
 use crate::vector::{Vector, dot};
 use core::fmt;
 use core::ops::Range;
@@ -175,12 +175,13 @@ impl<const DEGREE: usize, const POINTS: usize> Listed for Variational<DEGREE, PO
 
 symmetric!(Variational<DEGREE, POINTS>, const DEGREE: usize, const POINTS: usize);
 
-impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, S>
+impl<S: System, const DEGREE: usize, const POINTS: usize> Scheme<S>
     for Variational<DEGREE, POINTS>
 {
-    type Map = Collocated<T, S::Prepared, POINTS>;
+    type Carried = Carries<S::Shape, POINTS>;
+    type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (nodal, momenta) = self.coefficients.pair(DEGREE);
         let map = Collocated {
             momenta,
@@ -199,7 +200,12 @@ impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, 
             }
         }
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Carries<S::Vector, POINTS> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Carries<VectorOf<S, T>, POINTS> {
         at_rest(state)
     }
 }
@@ -284,11 +290,12 @@ impl<const S: usize> Listed for MomentumVariational<S> {
 
 symmetric!(MomentumVariational<S>, const S: usize);
 
-impl<T: Real, S: System<T>, const POINTS: usize> Scheme<T, S> for MomentumVariational<POINTS> {
-    type Map = Collocated<T, S::Prepared, POINTS>;
+impl<S: System, const POINTS: usize> Scheme<S> for MomentumVariational<POINTS> {
+    type Carried = Carries<S::Shape, POINTS>;
+    type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS>;
     #[inline(always)]
-    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        let map: Self::Map = Scheme::<T, S>::prepare(&self.0, prepared, step);
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        let map: Self::Map<T> = Scheme::<S>::prepare(&self.0, prepared, step);
         Collocated {
             coordinates: map.momenta,
             momenta: map.coordinates,
@@ -298,7 +305,12 @@ impl<T: Real, S: System<T>, const POINTS: usize> Scheme<T, S> for MomentumVariat
             ..map
         }
     }
-    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Carries<S::Vector, POINTS> {
+    fn start<T: Real>(
+        &self,
+        _: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        _: T,
+    ) -> Carries<VectorOf<S, T>, POINTS> {
         at_rest(state)
     }
 }
@@ -375,18 +387,18 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// assert!((path.start.p[0] - 2.0_f64.sqrt()).abs() < 1e-7);
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn extremal<T: Real, S: System<T>>(
+    pub fn extremal<T: Real, S: System>(
         &self,
         system: &S,
         t: T,
         h: T,
-        ends: Ends<S::Vector>,
-    ) -> Result<Extremal<S::Vector>, Error> {
+        ends: Ends<VectorOf<S, T>>,
+    ) -> Result<Extremal<VectorOf<S, T>>, Error> {
         let step = h.to_f64();
         if !h.is_finite() || step == 0.0 {
             return Err(Error::Step { step });
         }
-        let shape = |q: &S::Vector, p: &S::Vector| {
+        let shape = |q: &VectorOf<S, T>, p: &VectorOf<S, T>| {
             let (q, p) = (q.clone(), p.clone());
             system.check_shape(&State { t, q, p })
         };

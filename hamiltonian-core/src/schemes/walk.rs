@@ -15,7 +15,7 @@
 //! struct Compare;
 //!
 //! impl Visitor<f64, Coupled> for Compare {
-//!     fn visit<M: Scheme<f64, Coupled>>(&mut self, scheme: M) {
+//!     fn visit<M: Scheme<Coupled>>(&mut self, scheme: M) {
 //!         let name = scheme.entry().name;
 //!         let start: StateOf<Coupled> = State::new([0.0], [1.0]);
 //!         let run = Integrator::new(&Coupled {}, scheme, start, 0.01).unwrap();

@@ -13,16 +13,16 @@ use super::splitting::{Clocks, Splitting, Weight};
 use crate::flow::{Flow, Pieces};
 use crate::map::{Cause, Map, Step};
 use crate::state::{Carried, Point};
-use crate::system::System;
+use crate::system::{System, VectorOf};
 use crate::vector::Vector;
 use core::fmt;
 use hamiltonian_lanes::{DoubleDouble, Real};
 
 /// The map of the table `W` on the pieces `K` of a system.
 pub type ZigzagOf<T, S, K, W> = Zigzag<
-    Point<<S as System<T>>::Vector>,
-    <K as Pieces<T, <S as System<T>>::Prepared>>::Outer,
-    <K as Pieces<T, <S as System<T>>::Prepared>>::Inner,
+    Point<VectorOf<S, T>>,
+    <K as Pieces<T, <S as System>::Prepared<T>>>::Outer,
+    <K as Pieces<T, <S as System>::Prepared<T>>>::Inner,
     W,
 >;
 

@@ -4,13 +4,13 @@
 //! a pack, and back. Invariant: lane k has the bits of member k; the last member fills the
 //! remaining lanes; prepared values are computed once, over the scalar, and copied.
 //!
-//! Two routes lead here. An ensemble gathers the prepared systems of its members ([`Gather`]). A
+//! Two routes lead here. An ensemble gathers the prepared systems of its members ([`System::gather`]). A
 //! scheme of a single run passes an [`InLanes`] kernel to [`in_lanes`], which chooses the pack at the
 //! level of the CPU, and [`Dynamics::in_pack`] gathers one system into all lanes of it. A system made
 //! of others, such as one in another time, passes its kernel on to each of them in turn.
 
-use super::Dynamics;
-use crate::vector::Vector;
+use super::{Dynamics, System, VectorOf};
+use crate::vector::{Over, Vector};
 use alloc::boxed::Box;
 use core::any::Any;
 use core::fmt;
@@ -20,77 +20,10 @@ use hamiltonian_lanes::{Base, Cpu, Kernel, Level, Nf, Pack, Real, dispatch};
 /// The scalar of a vector with a value in each lane of the pack `P`.
 pub type ScalarOver<V, P> = <<V as Vector>::Scalar as Real>::Over<P>;
 /// A vector with a member in each lane of the pack `P`.
-pub type VectorOver<V, P> = <V as Vector>::Over<ScalarOver<V, P>>;
+pub type VectorOver<V, P> = Over<V, ScalarOver<V, P>>;
 
 /// The largest number of members that are gathered into one pack.
 pub const MOST: usize = 128;
-
-/// A prepared system that can be gathered into a pack with others of its definition.
-///
-/// The macro implements it for every definition. A system written by hand implements it to take part in
-/// ensembles and, with [`Dynamics::in_pack`], to let implicit schemes use packs in a single run:
-///
-/// ```
-/// use hamiltonian::{Unforced, Vector, schemes::author::{Dynamics, Gather, InPack, Kept, VectorField, gather}};
-/// use hamiltonian::lanes::Pack;
-/// use hamiltonian::nalgebra::SVector;
-/// use hamiltonian::prelude::*;
-/// /// H = ½(p² + ω²q²), prepared.
-/// #[derive(Debug, Clone)]
-/// struct Ready<T> {
-///     omega_squared: T,
-/// }
-///
-/// impl<T: Real> Gather<T> for Ready<T> {
-///     type Over<U: Real> = Ready<U>;
-///     fn gather<P: Pack>(members: &[&Self]) -> Ready<T::Over<P>> {
-///         Ready { omega_squared: gather::number(members, |one| one.omega_squared) }
-///     }
-///     fn fits(&self, _: &Self) -> bool {
-///         true // no sizes that could differ
-///     }
-///     fn equals(&self, other: &Self) -> bool {
-///         self.omega_squared == other.omega_squared
-///     }
-/// }
-/// # impl<T: Real> Dynamics<T> for Ready<T> {
-/// #     type Vector = SVector<T, 1>;
-/// #     type Field = Self;
-/// #     fn energy(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> T { p[0] * p[0] + self.omega_squared * q[0] * q[0] }
-/// #     fn gradient_q(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>) {}
-/// #     fn gradient_p(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>) {}
-/// #     fn time_derivative(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
-/// #     fn hessian_vector(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>, _: &mut SVector<T, 1>) {}
-/// #     fn observable(&self, _: usize, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
-/// #     fn field(&self, _: T) -> Self { self.clone() }
-/// #     fn in_pack<P: Pack, K: InPack<T, SVector<T, 1>, P>>(&self, kept: &mut Kept, kernel: K) -> Option<K::Output> {
-/// #         gather::in_pack(self, kept, kernel)
-/// #     }
-/// # }
-/// # impl<T: Real> VectorField<SVector<T, 1>> for Ready<T> {
-/// #     fn add(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>, _: &mut SVector<T, 1>) {}
-/// # }
-/// ```
-#[diagnostic::on_unimplemented(
-    message = "the prepared system `{Self}` cannot stand in the lanes of a pack",
-    label = "this needs a system whose members advance together",
-    note = "systems of `hamiltonian!` can; for one written by hand: `impl<T: Real> Gather<T> for … {{}}`"
-)]
-pub trait Gather<T: Real>: Dynamics<T> + Send + Sync + 'static {
-    /// The prepared system over another scalar.
-    type Over<U: Real>: Dynamics<U, Vector = <Self::Vector as Vector>::Over<U>>
-        + Send
-        + Sync
-        + 'static;
-
-    /// One system with member k in lane k, and the last in the lanes that are left. There are at least one
-    /// and at most [`MOST`] members, and all of them [`fit`](Gather::fits) the first.
-    fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>>;
-    /// Returns true if both may be in one pack: sizes set at run time are equal.
-    fn fits(&self, other: &Self) -> bool;
-    /// Returns true if every parameter is equal in both.
-    fn equals(&self, other: &Self) -> bool;
-}
 
 /// Work of a single run over the scalar `T` that is faster in packs: stages, loops.
 ///
@@ -109,7 +42,7 @@ pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> Self::Output
     where
         P: Pack,
-        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static;
+        D: Dynamics<T::Over<P>, Vector = Over<V, T::Over<P>>> + 'static;
 }
 
 /// Work that is done with a system in all lanes of the pack `P`: an [`InLanes`] kernel at its level, or a step
@@ -122,7 +55,7 @@ pub trait InPack<T: Real, V: Vector<Scalar = T>, P: Pack> {
     /// Computes the result, with what [`InLanes::run`] has.
     fn run<D>(self, system: &D, kept: &mut Kept) -> Self::Output
     where
-        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static;
+        D: Dynamics<T::Over<P>, Vector = Over<V, T::Over<P>>> + 'static;
 }
 
 /// Scratch of work in lanes, whose type is the level's: a part of the scratch of a map. Its content never
@@ -218,7 +151,7 @@ impl<T: Real, V: Vector<Scalar = T>, P: Pack, K: InLanes<T, V>> InPack<T, V, P> 
     #[inline(always)]
     fn run<D>(self, system: &D, kept: &mut Kept) -> K::Output
     where
-        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static,
+        D: Dynamics<T::Over<P>, Vector = Over<V, T::Over<P>>> + 'static,
     {
         self.0.run::<P, D>(system, kept)
     }
@@ -231,19 +164,19 @@ struct Gathered<D, O> {
     kept: Kept,
 }
 
-/// Runs a kernel with one system in all lanes of its pack: the implementation of [`Dynamics::in_pack`] for
-/// systems with [`Gather`].
+/// Runs a kernel with one system in all lanes of its pack: the implementation of [`Dynamics::in_pack`] for what the
+/// system `S` prepares.
 #[inline(always)]
-pub fn in_pack<T: Real, D: Gather<T>, P: Pack, K: InPack<T, D::Vector, P>>(
-    system: &D,
+pub fn in_pack<T: Real, S: System, P: Pack, K: InPack<T, VectorOf<S, T>, P>>(
+    prepared: &S::Prepared<T>,
     kept: &mut Kept,
     kernel: K,
 ) -> Option<K::Output> {
     let Gathered { over, kept, .. } = kept.get(
-        |kept: &Gathered<D, D::Over<T::Over<P>>>| kept.of.equals(system),
+        |kept: &Gathered<S::Prepared<T>, S::Prepared<T::Over<P>>>| S::equals(&kept.of, prepared),
         || Gathered {
-            of: system.clone(),
-            over: D::gather::<P>(&[system]),
+            of: prepared.clone(),
+            over: S::gather::<T, P>(&[prepared]),
             kept: Kept::default(),
         },
     );
@@ -262,7 +195,7 @@ pub(crate) fn with_whole<T: Real, V, P, D, K>(
 where
     V: Vector<Scalar = T>,
     P: Pack,
-    D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>> + 'static,
+    D: Dynamics<T::Over<P>, Vector = Over<V, T::Over<P>>> + 'static,
     K: InPack<T, V, P>,
 {
     let (whole, kept) = kept.get(|(whole, _)| is_good(whole), || (make(), Kept::default()));

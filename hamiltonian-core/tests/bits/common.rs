@@ -9,10 +9,11 @@ pub mod systems;
 #[path = "../common/walk.rs"]
 pub mod walk;
 
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::{Real, State, System, Vector};
 
 /// A start at t = 0.3 in any scalar.
-pub fn start<T: Real, S: System<T>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
+pub fn start<T: Real, S: System>(system: &S, q: &[f64], p: &[f64]) -> State<VectorOf<S, T>> {
     let mut state = State {
         t: T::constant(0.3, 0.0),
         q: system.zeros(),

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 #[derive(Default)]
 struct Saves(BTreeMap<String, Checkpoint>);
 
-impl<S: Sample<f64>> Visitor<f64, S> for Saves {
-    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+impl<S: Sample<f64>> Visitor<S> for Saves {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let name = format!("{} on {}", scheme.entry(), S::NAME);
         let run = Integrator::new(&S::sample(), scheme, S::begin(), 0.01);
         let mut run = run.expect("the start is good");

@@ -5,6 +5,7 @@ use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
 use crate::common::{difference, start};
 use crate::saved::watchers;
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::{author::Reversed, walk::Visitor};
 use hamiltonian_core::{
@@ -19,17 +20,17 @@ struct Adjoints {
     missed: Vec<String>,
 }
 
-impl<S: Sample<f64>> Visitor<f64, S> for Adjoints {
-    fn visit<M: Scheme<f64, S>>(&mut self, _: M) {}
+impl<S: Sample<f64>> Visitor<S> for Adjoints {
+    fn visit<M: Scheme<S>>(&mut self, _: M) {}
     fn visit_one_step<M>(&mut self, scheme: M)
     where
-        M: Scheme<f64, S> + OneStep<Adjoint: Scheme<f64, S>>,
+        M: Scheme<S> + OneStep<Adjoint: Scheme<S>>,
     {
         fn step<S: Sample<f64>>(
-            scheme: impl Scheme<f64, S>,
-            from: &State<S::Vector>,
+            scheme: impl Scheme<S>,
+            from: &State<VectorOf<S>>,
             h: f64,
-        ) -> State<S::Vector> {
+        ) -> State<VectorOf<S>> {
             let run = Integrator::new(&S::sample(), scheme, from.clone(), h);
             let mut run = run.unwrap().observe(watchers());
             run.advance(1).unwrap().clone()
@@ -57,7 +58,7 @@ fn every_adjoint_undoes_a_step() {
         others: Vec::new(),
         missed: Vec::new(),
     };
-    everywhere::<f64, _>(&mut adjoints);
+    everywhere(&mut adjoints);
     assert!(adjoints.missed.is_empty(), "{:#?}", adjoints.missed);
     // The control: these are not symmetric.
     let euler = "SymplecticEuler";
@@ -74,13 +75,13 @@ fn every_adjoint_undoes_a_step() {
 fn after_a_step<S, M>(
     system: &S,
     scheme: &M,
-    begin: &State<S::Vector>,
+    begin: &State<VectorOf<S>>,
     h: f64,
     at_once: bool,
 ) -> Vec<u64>
 where
-    S: System<f64>,
-    M: Scheme<f64, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let prepared = system.prepare();
     let mut carried = scheme.start(&prepared, begin, h);
@@ -92,7 +93,7 @@ where
         let map = scheme.prepare(&prepared, Step::of(h));
         map.step(t, end, &mut carried, &mut work);
     }
-    let parts = 0..<<M::Map as Map>::Carried as Vector>::PARTS;
+    let parts = 0..<<M::Map<f64> as Map>::Carried as Vector>::PARTS;
     (parts.flat_map(|k| carried.part(k).to_vec()))
         .map(f64::to_bits)
         .collect()
@@ -105,8 +106,8 @@ struct AtOnce {
     moved: usize,
 }
 
-impl<S: Sample<f64>> Visitor<f64, S> for AtOnce {
-    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+impl<S: Sample<f64>> Visitor<S> for AtOnce {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let step = |h: f64, at_once| after_a_step(&S::sample(), &scheme, &S::begin(), h, at_once);
         for h in [0.05, -0.03] {
             if step(h, true) != step(h, false) {
@@ -120,20 +121,20 @@ impl<S: Sample<f64>> Visitor<f64, S> for AtOnce {
 #[test]
 fn a_step_at_once_has_the_bits_of_a_prepared_one() {
     let mut at_once = AtOnce::default();
-    everywhere::<f64, _>(&mut at_once);
+    everywhere(&mut at_once);
     assert!(at_once.apart.is_empty(), "{:#?}", at_once.apart);
     assert!(at_once.moved > 50, "{}", at_once.moved);
 
     // Three pieces; loops of terms that do not commute, innermost and outermost; the table of an adjoint.
     let (q, p) = ([0.5, -0.4], [0.3, 0.8]);
-    fn same<S: Split<f64>>(system: &S, q: &[f64], p: &[f64])
+    fn same<S: Split>(system: &S, q: &[f64], p: &[f64])
     where
-        Ruth3: Scheme<f64, S>,
-        BlanesMoan4: Scheme<f64, S>,
-        Reversed<Ruth3>: Scheme<f64, S>,
+        Ruth3: Scheme<S>,
+        BlanesMoan4: Scheme<S>,
+        Reversed<Ruth3>: Scheme<S>,
     {
         let begin = start::<f64, S>(system, q, p);
-        fn of<S: System<f64>, M: Scheme<f64, S>>(system: &S, begin: &State<S::Vector>, scheme: M) {
+        fn of<S: System, M: Scheme<S>>(system: &S, begin: &State<VectorOf<S>>, scheme: M) {
             let step = |at_once| after_a_step(system, &scheme, begin, 0.05, at_once);
             assert_eq!(step(true), step(false));
         }

@@ -12,8 +12,8 @@ use hamiltonian_core::{Scheme, Vector};
 
 struct NoAllocations<S>(S);
 
-impl<S: System<f64>> Visitor<f64, S> for NoAllocations<S> {
-    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+impl<S: System> Visitor<S> for NoAllocations<S> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let mut start = State {
             t: 0.0,
             q: self.0.zeros(),
@@ -52,18 +52,18 @@ fn no_step_allocates() {
         "the counter counts"
     );
     let mut chain = NoAllocations(Chain { n: 17 });
-    visit_any::<f64, _>(&mut chain);
-    visit_unforced::<f64, _>(&mut chain);
-    visit_separable::<f64, _>(&mut chain);
-    visit_split::<f64, _>(&mut chain);
+    visit_any::<_>(&mut chain);
+    visit_unforced::<_>(&mut chain);
+    visit_separable::<_>(&mut chain);
+    visit_split::<_>(&mut chain);
     let mut pendulum = NoAllocations(pendulum(true));
-    visit_any::<f64, _>(&mut pendulum);
-    visit_unforced::<f64, _>(&mut pendulum);
-    visit_separable::<f64, _>(&mut pendulum);
-    visit_split::<f64, _>(&mut pendulum);
-    visit_implicit::<f64, _>(&mut pendulum);
-    visit_energy::<f64, _>(&mut pendulum);
-    visit_doubled::<f64, _>(&mut pendulum);
-    visit_compensated::<f64, _>(&mut pendulum);
-    Visitor::<f64, _>::visit(&mut chain, Variational::<1, 2>::lobatto());
+    visit_any::<_>(&mut pendulum);
+    visit_unforced::<_>(&mut pendulum);
+    visit_separable::<_>(&mut pendulum);
+    visit_split::<_>(&mut pendulum);
+    visit_implicit::<_>(&mut pendulum);
+    visit_energy::<_>(&mut pendulum);
+    visit_doubled::<_>(&mut pendulum);
+    visit_compensated::<_>(&mut pendulum);
+    Visitor::<_>::visit(&mut chain, Variational::<1, 2>::lobatto());
 }

@@ -31,8 +31,8 @@ fn events() -> Events<Plane> {
 /// Every scheme locates events, leaves the run as it is, and goes on from a saved run with all of it.
 struct Locates;
 
-impl Visitor<f64, Heiles> for Locates {
-    fn visit<M: Scheme<f64, Heiles>>(&mut self, scheme: M) {
+impl Visitor<Heiles> for Locates {
+    fn visit<M: Scheme<Heiles>>(&mut self, scheme: M) {
         let name = scheme.entry().name;
         let (h, steps) = (0.0625, 320);
         let new = || Integrator::new(&Hand(HenonHeiles), scheme.clone(), begin(), h).unwrap();

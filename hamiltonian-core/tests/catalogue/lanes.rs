@@ -21,8 +21,8 @@ fn lanes<const N: usize>(q: [[f64; 4]; N], p: [[f64; 4]; N]) -> State<SVector<Fo
 #[test]
 fn failures_name_their_lane() {
     struct Escapes;
-    impl Visitor<Four, Hand<HenonHeiles, 2>> for Escapes {
-        fn visit<M: Scheme<Four, Hand<HenonHeiles, 2>>>(&mut self, scheme: M) {
+    impl Visitor<Hand<HenonHeiles, 2>> for Escapes {
+        fn visit<M: Scheme<Hand<HenonHeiles, 2>>>(&mut self, scheme: M) {
             let start = lanes(
                 [[0.1, -0.2, 0.3, 0.0], [0.1, 0.0, 1.2, 0.2]],
                 [[0.1, 0.2, 0.4, 0.0], [0.0, 0.1, 0.6, 0.1]],

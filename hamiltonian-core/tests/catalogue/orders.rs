@@ -12,8 +12,8 @@ struct Orders {
     missed: Vec<String>,
 }
 
-impl<S: Sample<DoubleDouble>> Visitor<DoubleDouble, S> for Orders {
-    fn visit<M: Scheme<DoubleDouble, S>>(&mut self, scheme: M) {
+impl<S: Sample<DoubleDouble>> Visitor<S> for Orders {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let steps = match scheme.entry().order {
             0..=4 => 32,
             5..=8 => 16,
@@ -31,7 +31,7 @@ impl<S: Sample<DoubleDouble>> Visitor<DoubleDouble, S> for Orders {
 #[test]
 fn every_scheme_has_its_order() {
     let mut orders = Orders { missed: Vec::new() };
-    everywhere::<DoubleDouble, _>(&mut orders);
+    everywhere(&mut orders);
     assert!(orders.missed.is_empty(), "{:#?}", orders.missed);
 }
 
@@ -41,8 +41,8 @@ struct Forms {
     missed: Vec<String>,
 }
 
-impl<S: Sample<Dual<f64>>> Visitor<Dual<f64>, S> for Forms {
-    fn visit<M: Scheme<Dual<f64>, S>>(&mut self, scheme: M) {
+impl<S: Sample<Dual<f64>>> Visitor<S> for Forms {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let entry = scheme.entry();
         let defect = defect::<f64>(&tangent(&S::sample(), &scheme, &S::begin(), 0.05, 3));
         println!(
@@ -65,7 +65,7 @@ impl<S: Sample<Dual<f64>>> Visitor<Dual<f64>, S> for Forms {
 #[test]
 fn every_scheme_preserves_its_form() {
     let mut forms = Forms { missed: Vec::new() };
-    everywhere::<Dual<f64>, _>(&mut forms);
+    everywhere(&mut forms);
     assert!(forms.missed.is_empty(), "{:#?}", forms.missed);
 }
 
@@ -73,6 +73,6 @@ fn every_scheme_preserves_its_form() {
 #[test]
 fn tables_have_their_order_where_neither_half_is_quadratic() {
     let mut orders = Orders { missed: Vec::new() };
-    visit_exact::<DoubleDouble, Hand<Relativistic, 1>>(&mut orders);
+    visit_exact::<Hand<Relativistic, 1>>(&mut orders);
     assert!(orders.missed.is_empty(), "{:#?}", orders.missed);
 }

@@ -11,9 +11,9 @@ use hamiltonian_core::{Scheme, Vector, observers::watch};
 /// Cuts and observers leave every bit as it is.
 struct SameBits<S>(S);
 
-impl<S: System<f64>> Visitor<f64, S> for SameBits<S> {
-    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
-        let n = <S as System<f64>>::zeros(&self.0).len();
+impl<S: System> Visitor<S> for SameBits<S> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
+        let n = <S as System>::zeros::<f64>(&self.0).len();
         let (q, p) = ([0.1, -0.25], [0.42, 0.1]);
         let start = start::<f64, S>(&self.0, &q[..n], &p[..n]);
         let new = || Integrator::new(&self.0, scheme.clone(), start.clone(), 0.01).unwrap();
@@ -45,20 +45,20 @@ impl<S: System<f64>> Visitor<f64, S> for SameBits<S> {
 #[test]
 fn bits_do_not_depend_on_cuts_or_observers() {
     let mut visitor = SameBits(Hand(Pumped));
-    visit_any::<f64, _>(&mut visitor);
-    visit_unforced::<f64, _>(&mut visitor);
-    visit_separable::<f64, _>(&mut visitor);
-    visit_split::<f64, _>(&mut visitor);
-    visit_any::<f64, _>(&mut SameBits(Hand(DoublePendulum)));
-    visit_unforced::<f64, _>(&mut SameBits(Hand(DoublePendulum)));
+    visit_any::<_>(&mut visitor);
+    visit_unforced::<_>(&mut visitor);
+    visit_separable::<_>(&mut visitor);
+    visit_split::<_>(&mut visitor);
+    visit_any::<_>(&mut SameBits(Hand(DoublePendulum)));
+    visit_unforced::<_>(&mut SameBits(Hand(DoublePendulum)));
 }
 
 /// Escape from Hénon–Heiles overflows; the step that does is found wherever the block lies.
 #[test]
 fn the_first_bad_step_is_found() {
     struct FirstBad;
-    impl Visitor<f64, Hand<HenonHeiles, 2>> for FirstBad {
-        fn visit<M: Scheme<f64, Hand<HenonHeiles, 2>>>(&mut self, scheme: M) {
+    impl Visitor<Hand<HenonHeiles, 2>> for FirstBad {
+        fn visit<M: Scheme<Hand<HenonHeiles, 2>>>(&mut self, scheme: M) {
             let start = State::new([0.3, 1.2], [0.4, 0.6]);
             let new = || {
                 Integrator::new(&Hand(HenonHeiles), scheme.clone(), start.clone(), 0.01).unwrap()
@@ -142,8 +142,8 @@ fn the_first_bad_step_is_found() {
             same(&whole.advance(1).unwrap_err(), &expected);
         }
     }
-    visit_any::<f64, _>(&mut FirstBad);
-    visit_unforced::<f64, _>(&mut FirstBad);
-    visit_separable::<f64, _>(&mut FirstBad);
-    visit_split::<f64, _>(&mut FirstBad);
+    visit_any::<_>(&mut FirstBad);
+    visit_unforced::<_>(&mut FirstBad);
+    visit_separable::<_>(&mut FirstBad);
+    visit_split::<_>(&mut FirstBad);
 }

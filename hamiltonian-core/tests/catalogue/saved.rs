@@ -3,6 +3,8 @@
 use crate::common::start;
 use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
+use core::marker::PhantomData;
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::walk::{Visitor, visit_any, visit_split};
 use hamiltonian_core::{
@@ -21,18 +23,18 @@ impl<T: Real> Sample<T> for Chain {
     fn sample() -> Self {
         Chain { n: 2 }
     }
-    fn begin() -> State<<Self as System<T>>::Vector> {
+    fn begin() -> State<VectorOf<Self, T>> {
         start::<T, Self>(&Chain { n: 2 }, &[0.9, -0.25], &[0.42, 0.1])
     }
 }
 
 /// Saves at odd and even steps, within a block and beyond, and goes on from the bytes.
-struct Resumes;
+struct Resumes<T>(PhantomData<T>);
 
-impl<T: Real, S: Sample<T>> Visitor<T, S> for Resumes {
-    fn visit<M: Scheme<T, S>>(&mut self, scheme: M) {
+impl<T: Real, S: Sample<T>> Visitor<S> for Resumes<T> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let system = &S::sample();
-        let begin = S::begin();
+        let begin: State<VectorOf<S, T>> = S::begin();
         let step = T::constant(0.01, 0.0);
         let name = scheme.entry().name;
         for steps in [0, 1, 7, 8, 1031] {
@@ -66,9 +68,9 @@ impl<T: Real, S: Sample<T>> Visitor<T, S> for Resumes {
 
 #[test]
 fn every_scheme_goes_on_with_the_same_bits() {
-    everywhere::<f64, _>(&mut Resumes);
-    fn of<T: Real>(scheme: impl Scheme<T, Hand<Pumped, 1>>) {
-        Resumes.visit(scheme);
+    everywhere(&mut Resumes::<f64>(PhantomData));
+    fn of<T: Real>(scheme: impl Scheme<Hand<Pumped, 1>>) {
+        Visitor::<Hand<Pumped, 1>>::visit(&mut Resumes::<T>(PhantomData), scheme);
     }
     let implicit = Composition::yoshida(ImplicitMidpoint::default());
     of::<f64>(implicit);
@@ -79,6 +81,6 @@ fn every_scheme_goes_on_with_the_same_bits() {
     of::<Dual<f64>>(Strang);
     of::<f32>(TwoStepMidpoint::default());
     // Sizes that are set at run time.
-    visit_split::<f64, Chain>(&mut Resumes);
-    visit_any::<f64, Chain>(&mut Resumes);
+    visit_split::<Chain>(&mut Resumes::<f64>(PhantomData));
+    visit_any::<Chain>(&mut Resumes::<f64>(PhantomData));
 }

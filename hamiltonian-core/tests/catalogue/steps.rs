@@ -20,8 +20,8 @@ fn begin() -> State<SVector<f64, 2>> {
 /// Every scheme makes parts of its step, forwards and backwards, of its own order.
 struct Parts;
 
-impl<S: Sample<f64>> Visitor<f64, S> for Parts {
-    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+impl<S: Sample<f64>> Visitor<S> for Parts {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         let entry = scheme.entry();
         let name = (entry.name, entry.variant);
         // Observed as the runs that are saved are: the same code.
@@ -70,8 +70,8 @@ fn every_scheme_makes_parts_of_its_step() {
 /// Another step is another run from here: the same bits, and the count goes on.
 struct Changes;
 
-impl Visitor<f64, Heiles> for Changes {
-    fn visit<M: Scheme<f64, Heiles>>(&mut self, scheme: M) {
+impl Visitor<Heiles> for Changes {
+    fn visit<M: Scheme<Heiles>>(&mut self, scheme: M) {
         let name = scheme.entry().name;
         let system = Hand(HenonHeiles);
         let mut run = Integrator::new(&system, scheme.clone(), begin(), 0.01).unwrap();

@@ -131,7 +131,7 @@ impl<const V: bool, const T: bool, const SAID: bool> Case<V, T, SAID> {
     }
 
     /// The end of a run, or its error.
-    fn end<M: Scheme<f64, System<V, T, SAID>>>(&self, scheme: M) -> Result<[f64; 2], Error> {
+    fn end<M: Scheme<System<V, T, SAID>>>(&self, scheme: M) -> Result<[f64; 2], Error> {
         let system = Hand(self.system.clone());
         let mut run = Integrator::new(&system, scheme, self.start.clone(), self.h)?;
         run.advance(self.counts.iter().sum())
@@ -139,7 +139,7 @@ impl<const V: bool, const T: bool, const SAID: bool> Case<V, T, SAID> {
     }
 
     /// The end of runs of the smooth systems, each from the end of the one before.
-    fn in_parts<M: Scheme<f64, System<V, T, SAID>>>(&self, scheme: M) -> [f64; 2] {
+    fn in_parts<M: Scheme<System<V, T, SAID>>>(&self, scheme: M) -> [f64; 2] {
         let mut state = self.start.clone();
         for (part, steps) in self.counts.into_iter().enumerate() {
             let system = Hand(self.system.smooth(part));
@@ -167,8 +167,8 @@ struct Walk {
 /// The cases for each scheme.
 const EACH: u64 = 18;
 
-impl<const V: bool, const T: bool> Visitor<f64, System<V, T, true>> for Walk {
-    fn visit<M: Scheme<f64, System<V, T, true>>>(&mut self, scheme: M) {
+impl<const V: bool, const T: bool> Visitor<System<V, T, true>> for Walk {
+    fn visit<M: Scheme<System<V, T, true>>>(&mut self, scheme: M) {
         let (name, order) = (scheme.entry().to_string(), scheme.entry().order);
         let mut numbers = Numbers(38 + self.cases as u64);
         for _ in 0..EACH {
@@ -224,15 +224,15 @@ fn every_scheme_keeps_its_order_or_is_refused() {
     type DriftJumps = System<false, true, true>;
     type KickJumps = System<true, false, true>;
     let mut walk = Walk::default();
-    visit_any::<f64, DriftJumps>(&mut walk);
-    visit_unforced::<f64, DriftJumps>(&mut walk);
-    visit_split::<f64, DriftJumps>(&mut walk);
-    visit_exact::<f64, DriftJumps>(&mut walk);
-    visit_separable::<f64, DriftJumps>(&mut walk);
-    visit_implicit::<f64, DriftJumps>(&mut walk);
-    visit_energy::<f64, DriftJumps>(&mut walk);
-    visit_doubled::<f64, DriftJumps>(&mut walk);
-    visit_compensated::<f64, DriftJumps>(&mut walk);
+    visit_any::<DriftJumps>(&mut walk);
+    visit_unforced::<DriftJumps>(&mut walk);
+    visit_split::<DriftJumps>(&mut walk);
+    visit_exact::<DriftJumps>(&mut walk);
+    visit_separable::<DriftJumps>(&mut walk);
+    visit_implicit::<DriftJumps>(&mut walk);
+    visit_energy::<DriftJumps>(&mut walk);
+    visit_doubled::<DriftJumps>(&mut walk);
+    visit_compensated::<DriftJumps>(&mut walk);
     let (cases, measured) = (walk.cases, walk.measured);
     let [accepted, refused] = walk.names();
     let is_in = |names: &[String], name: &str| names.iter().any(|one| one.starts_with(name));
@@ -263,10 +263,10 @@ fn every_scheme_keeps_its_order_or_is_refused() {
         );
     }
     let mut walk = Walk::default();
-    visit_separable::<f64, KickJumps>(&mut walk);
-    visit_nystrom::<f64, KickJumps>(&mut walk);
-    visit_quadratic::<f64, KickJumps>(&mut walk);
-    visit_compensated::<f64, KickJumps>(&mut walk);
+    visit_separable::<KickJumps>(&mut walk);
+    visit_nystrom::<KickJumps>(&mut walk);
+    visit_quadratic::<KickJumps>(&mut walk);
+    visit_compensated::<KickJumps>(&mut walk);
     let (all, measured) = (cases + walk.cases, measured + walk.measured);
     let [accepted, refused] = walk.names();
     for name in [
@@ -289,7 +289,7 @@ fn every_scheme_keeps_its_order_or_is_refused() {
 /// A scheme on a system whose V jumps is that of smooth systems, to rounding.
 fn is_in_parts<M>(scheme: M, numbers: &mut Numbers)
 where
-    M: Scheme<f64, System<true, false, true>>,
+    M: Scheme<System<true, false, true>>,
 {
     for _ in 0..20 {
         let case = Case::<true, false, true>::new(numbers);

@@ -17,8 +17,8 @@ const HEILES: Heiles = Hand(HenonHeiles);
 /// take the place of those it has.
 struct Exact;
 
-impl Visitor<Dual<f64>, Heiles> for Exact {
-    fn visit<M: Scheme<Dual<f64>, Heiles>>(&mut self, scheme: M) {
+impl Visitor<Heiles> for Exact {
+    fn visit<M: Scheme<Heiles>>(&mut self, scheme: M) {
         let name = scheme.entry().name;
         let begin: Plane = State::new([0.1, -0.25], [0.42, 0.1]);
         let new = |start| Tangent::new(&HEILES, scheme.clone(), start, 0.05, 4).unwrap();

@@ -6,6 +6,7 @@ use hamiltonian_core::{
     Exact, Real, Separable, Split, System, Unforced,
     schemes::author::{Dynamics, Flow, Group, Observable, Piece, Point, VectorField},
 };
+use hamiltonian_lanes::Pack;
 
 /// A chain of n sites between fixed ends, sized at run time:
 /// H = Σ p²/2 + Σ (q[i+1] − q[i])²/2 + Σ q⁴/4.
@@ -18,9 +19,9 @@ pub struct Chain {
 #[derive(Debug, Clone)]
 pub struct ScaledChain<T>(T);
 
-impl<T: Real> System<T> for Chain {
-    type Vector = DVector<T>;
-    type Prepared = Chain;
+impl System for Chain {
+    type Shape = DVector<()>;
+    type Prepared<T: Real> = Chain;
     const NAME: &'static str = "Chain";
     const GROUPS: &'static [Group] = &[Group {
         coordinate: "q",
@@ -31,11 +32,20 @@ impl<T: Real> System<T> for Chain {
         columns: 1,
     }];
     const OBSERVABLES: &'static [Observable] = &[];
-    fn prepare(&self) -> Chain {
+    fn prepare<T: Real>(&self) -> Chain {
         self.clone()
     }
-    fn zeros(&self) -> DVector<T> {
+    fn zeros<T: Real>(&self) -> DVector<T> {
         DVector::from_element(self.n, T::zero())
+    }
+    fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>> {
+        members[0].clone()
+    }
+    fn fits<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
+    }
+    fn equals<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
     }
 }
 
@@ -147,16 +157,22 @@ impl<T: Real, const KICK: bool> Flow<Point<DVector<T>>> for Moving<ScaledChain<T
     }
 }
 
-impl<T: Real> Separable<T> for Chain {
-    type Kick = Half<true>;
-    type Drift = Half<false>;
-    const KICK: Half<true> = Half;
-    const DRIFT: Half<false> = Half;
+impl Separable for Chain {
+    type Kick<T: Real> = Half<true>;
+    type Drift<T: Real> = Half<false>;
+    fn kick<T: Real>() -> Half<true> {
+        Half
+    }
+    fn drift<T: Real>() -> Half<false> {
+        Half
+    }
 }
 
-impl<T: Real> Split<T> for Chain {
-    type Pieces = (Half<true>, Half<false>);
-    const PIECES: Self::Pieces = (Half, Half);
+impl Split for Chain {
+    type Pieces<T: Real> = (Half<true>, Half<false>);
+    fn pieces<T: Real>() -> Self::Pieces<T> {
+        (Half, Half)
+    }
     const NAMES: &'static [&'static str] = &["V", "T"];
 }
 

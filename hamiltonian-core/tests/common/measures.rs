@@ -1,6 +1,7 @@
 //! Measures of schemes: slopes of errors, and the defect of a form.
 
 use super::difference;
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::{DoubleDouble, Dual, Integrator, Real, Scheme, State, System, Vector};
 
 /// The slopes between successive halvings of the step, from differences of successive results, with
@@ -8,13 +9,13 @@ use hamiltonian_core::{DoubleDouble, Dual, Integrator, Real, Scheme, State, Syst
 pub fn slopes<S, M>(
     system: &S,
     scheme: &M,
-    start: &State<S::Vector>,
+    start: &State<VectorOf<S, DoubleDouble>>,
     span: f64,
     steps: u64,
 ) -> Vec<f64>
 where
-    S: System<DoubleDouble>,
-    M: Scheme<DoubleDouble, S>,
+    S: System,
+    M: Scheme<S>,
 {
     const PARTS: u64 = 4;
     let states: Vec<Vec<_>> = (0..6)
@@ -45,13 +46,13 @@ where
 pub fn off_order<S, M>(
     system: &S,
     scheme: &M,
-    start: &State<S::Vector>,
+    start: &State<VectorOf<S, DoubleDouble>>,
     span: f64,
     steps: u64,
 ) -> f64
 where
-    S: System<DoubleDouble>,
-    M: Scheme<DoubleDouble, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let entry = scheme.entry();
     let slopes = slopes(system, scheme, start, span, steps);
@@ -62,10 +63,15 @@ where
 }
 
 /// The slope of the entry's order, within 0.1.
-pub fn assert_order<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64)
-where
-    S: System<DoubleDouble>,
-    M: Scheme<DoubleDouble, S>,
+pub fn assert_order<S, M>(
+    system: &S,
+    scheme: &M,
+    start: &State<VectorOf<S, DoubleDouble>>,
+    span: f64,
+    steps: u64,
+) where
+    S: System,
+    M: Scheme<S>,
 {
     let off = off_order(system, scheme, start, span, steps);
     assert!(off <= 0.1, "{:?}: {off}", scheme.entry());
@@ -75,14 +81,14 @@ where
 pub fn tangent<T, S, M>(
     system: &S,
     scheme: &M,
-    start: &State<S::Vector>,
+    start: &State<VectorOf<S, Dual<T>>>,
     h: f64,
     steps: u64,
 ) -> Vec<Vec<T>>
 where
     T: Real,
-    S: System<Dual<T>>,
-    M: Scheme<Dual<T>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let n = start.q.len();
     let column = |seed: usize| {

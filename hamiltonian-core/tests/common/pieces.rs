@@ -85,24 +85,28 @@ impl<T: Real, const WHICH: u8> Flow<Plane<T>> for PolarFlow<T, WHICH> {
     }
 }
 
-impl<T: Real> Split<T> for Hand<Polar<3>, 2> {
-    type Pieces = (
+impl Split for Hand<Polar<3>, 2> {
+    type Pieces<T: Real> = (
         PolarPiece<RADIAL>,
         PolarPiece<ANGULAR>,
         PolarPiece<POTENTIAL>,
     );
-    const PIECES: Self::Pieces = (PolarPiece, PolarPiece, PolarPiece);
+    fn pieces<T: Real>() -> Self::Pieces<T> {
+        (PolarPiece, PolarPiece, PolarPiece)
+    }
     const NAMES: &'static [&'static str] = &["p_r^2/2", "p_theta^2/(2r^2)", "V"];
 }
 
-impl<T: Real> Split<T> for Hand<Polar<4>, 2> {
-    type Pieces = (
+impl Split for Hand<Polar<4>, 2> {
+    type Pieces<T: Real> = (
         PolarPiece<SQUARE>,
         PolarPiece<ANGULAR>,
         PolarPiece<RADIAL>,
         PolarPiece<CUBE>,
     );
-    const PIECES: Self::Pieces = (PolarPiece, PolarPiece, PolarPiece, PolarPiece);
+    fn pieces<T: Real>() -> Self::Pieces<T> {
+        (PolarPiece, PolarPiece, PolarPiece, PolarPiece)
+    }
     const NAMES: &'static [&'static str] =
         &["r^2/2", "p_theta^2/(2r^2)", "p_r^2/2", "r^3 sin(3theta)/3"];
 }
@@ -199,13 +203,15 @@ impl<T: Real, const WHICH: u8, const TURNS: bool> Flow<Plane<T>> for LoopFlow<T,
 
 macro_rules! loops {
     ($place:literal, $a:literal $b:literal $c:literal) => {
-        impl<T: Real, const TURNS: bool> Split<T> for Hand<Loops<$place, TURNS>, 2> {
-            type Pieces = (
+        impl<const TURNS: bool> Split for Hand<Loops<$place, TURNS>, 2> {
+            type Pieces<T: Real> = (
                 LoopPiece<$a, TURNS>,
                 LoopPiece<$b, TURNS>,
                 LoopPiece<$c, TURNS>,
             );
-            const PIECES: Self::Pieces = (LoopPiece, LoopPiece, LoopPiece);
+            fn pieces<T: Real>() -> Self::Pieces<T> {
+                (LoopPiece, LoopPiece, LoopPiece)
+            }
             const NAMES: &'static [&'static str] = &["first", "second", "third"];
         }
     };

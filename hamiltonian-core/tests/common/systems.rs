@@ -8,6 +8,7 @@ use hamiltonian_core::{
         Dynamics, Flow, Group, Observable, ObservableKind, Piece, Point, VectorField,
     },
 };
+use hamiltonian_lanes::Pack;
 
 /// H as a formula over any scalar, with N coordinates.
 pub trait Formula<const N: usize>: Clone + std::fmt::Debug + Send + Sync + 'static {
@@ -57,18 +58,27 @@ fn array<T: Real, const N: usize>(v: &SVector<T, N>) -> &[T; N] {
     &v.data.0[0]
 }
 
-impl<T: Real, H: Formula<N>, const N: usize> System<T> for Hand<H, N> {
-    type Vector = SVector<T, N>;
-    type Prepared = Ready<H, N>;
+impl<H: Formula<N>, const N: usize> System for Hand<H, N> {
+    type Shape = SVector<(), N>;
+    type Prepared<T: Real> = Ready<H, N>;
     const NAME: &'static str = H::NAME;
     const GROUPS: &'static [Group] = H::GROUPS;
     const OBSERVABLES: &'static [Observable] = H::OBSERVABLES;
     const JUMPS: bool = H::JUMPING[0] || H::JUMPING[1];
-    fn prepare(&self) -> Ready<H, N> {
+    fn prepare<T: Real>(&self) -> Ready<H, N> {
         Ready(self.0.clone())
     }
-    fn zeros(&self) -> SVector<T, N> {
+    fn zeros<T: Real>(&self) -> SVector<T, N> {
         SVector::from_element(T::zero())
+    }
+    fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>> {
+        members[0].clone()
+    }
+    fn fits<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
+    }
+    fn equals<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
     }
 }
 
@@ -184,26 +194,36 @@ impl<T: Real, H: Halves<N>, const N: usize, const KICK: bool> Flow<Point<SVector
     }
 }
 
-impl<T: Real, H: Halves<N>, const N: usize> Separable<T> for Hand<H, N> {
-    type Kick = Half<true>;
-    type Drift = Half<false>;
-    const KICK: Half<true> = Half;
-    const DRIFT: Half<false> = Half;
+impl<H: Halves<N>, const N: usize> Separable for Hand<H, N> {
+    type Kick<T: Real> = Half<true>;
+    type Drift<T: Real> = Half<false>;
+    fn kick<T: Real>() -> Half<true> {
+        Half
+    }
+    fn drift<T: Real>() -> Half<false> {
+        Half
+    }
     const JUMPING: [bool; 2] = H::JUMPING;
 }
 
 /// Whatever T is: where it is not quadratic in p, this is the negative control.
-impl<T: Real, H: Halves<N>, const N: usize> Nystrom<T> for Hand<H, N> {
-    type Kick = Half<true>;
-    type Quadratic = Half<false>;
-    const KICK: Half<true> = Half;
-    const QUADRATIC: Half<false> = Half;
+impl<H: Halves<N>, const N: usize> Nystrom for Hand<H, N> {
+    type Kick<T: Real> = Half<true>;
+    type Quadratic<T: Real> = Half<false>;
+    fn kick<T: Real>() -> Half<true> {
+        Half
+    }
+    fn quadratic<T: Real>() -> Half<false> {
+        Half
+    }
     const JUMPING: [bool; 2] = H::JUMPING;
 }
 
-impl<T: Real, H: Halves<N>, const N: usize> Split<T> for Hand<H, N> {
-    type Pieces = (Half<true>, Half<false>);
-    const PIECES: Self::Pieces = (Half, Half);
+impl<H: Halves<N>, const N: usize> Split for Hand<H, N> {
+    type Pieces<T: Real> = (Half<true>, Half<false>);
+    fn pieces<T: Real>() -> Self::Pieces<T> {
+        (Half, Half)
+    }
     const NAMES: &'static [&'static str] = &["V", "T"];
     const JUMPING: [bool; 2] = H::JUMPING;
 }

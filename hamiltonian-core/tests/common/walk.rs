@@ -5,6 +5,7 @@
 use super::kepler::{InRadius, in_radius, pericentre};
 use super::start;
 use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic, scalar};
+use hamiltonian_core::VectorOf;
 use hamiltonian_core::schemes::{
     author::catalogue,
     walk::{
@@ -35,11 +36,11 @@ impl Formula<1> for Swaying {
 impl QuadraticKinetic for Hand<HenonHeiles, 2> {}
 
 /// A system of the walk, with a start.
-pub trait Sample<T: Real>: System<T> + Sized {
+pub trait Sample<T: Real>: System + Sized {
     /// The system.
     fn sample() -> Self;
     /// The start.
-    fn begin() -> State<Self::Vector>;
+    fn begin() -> State<VectorOf<Self, T>>;
 }
 
 macro_rules! sample {
@@ -48,7 +49,7 @@ macro_rules! sample {
             fn sample() -> Self {
                 Hand($formula)
             }
-            fn begin() -> State<Self::Vector> {
+            fn begin() -> State<VectorOf<Self, T>> {
                 start::<T, Self>(&Hand($formula), &$q, &$p)
             }
         }
@@ -64,7 +65,7 @@ impl<T: Real> Sample<T> for InRadius {
     fn sample() -> Self {
         in_radius(false)
     }
-    fn begin() -> State<<Self as System<T>>::Vector> {
+    fn begin() -> State<VectorOf<Self, T>> {
         (in_radius(false).start(&pericentre::<T>(0.4))).expect("a good start")
     }
 }
@@ -75,14 +76,14 @@ struct Walk<'a, V> {
     met: usize,
 }
 
-impl<T: Real, S: System<T>, V: Visitor<T, S>> Visitor<T, S> for Walk<'_, V> {
-    fn visit<M: Scheme<T, S>>(&mut self, scheme: M) {
+impl<S: System, V: Visitor<S>> Visitor<S> for Walk<'_, V> {
+    fn visit<M: Scheme<S>>(&mut self, scheme: M) {
         self.met += 1;
         self.visitor.visit(scheme);
     }
     fn visit_one_step<M>(&mut self, scheme: M)
     where
-        M: Scheme<T, S> + OneStep<Adjoint: Scheme<T, S>>,
+        M: Scheme<S> + OneStep<Adjoint: Scheme<S>>,
     {
         self.met += 1;
         self.visitor.visit_one_step(scheme);
@@ -90,26 +91,25 @@ impl<T: Real, S: System<T>, V: Visitor<T, S>> Visitor<T, S> for Walk<'_, V> {
 }
 
 /// Every scheme of the catalogue, once.
-pub fn everywhere<T, V>(visitor: &mut V)
+pub fn everywhere<V>(visitor: &mut V)
 where
-    T: Real,
-    V: Visitor<T, Hand<Swaying, 1>>
-        + Visitor<T, Hand<Pumped, 1>>
-        + Visitor<T, Hand<HenonHeiles, 2>>
-        + Visitor<T, InRadius>,
+    V: Visitor<Hand<Swaying, 1>>
+        + Visitor<Hand<Pumped, 1>>
+        + Visitor<Hand<HenonHeiles, 2>>
+        + Visitor<InRadius>,
 {
     let mut walk = Walk { visitor, met: 0 };
-    visit_any::<T, Hand<Swaying, 1>>(&mut walk);
-    visit_unforced::<T, Hand<Swaying, 1>>(&mut walk);
-    visit_implicit::<T, Hand<Swaying, 1>>(&mut walk);
-    visit_energy::<T, Hand<Swaying, 1>>(&mut walk);
-    visit_doubled::<T, Hand<Swaying, 1>>(&mut walk);
-    visit_split::<T, Hand<Pumped, 1>>(&mut walk);
-    visit_exact::<T, Hand<Pumped, 1>>(&mut walk);
-    visit_separable::<T, Hand<Pumped, 1>>(&mut walk);
-    visit_compensated::<T, Hand<Pumped, 1>>(&mut walk);
-    visit_nystrom::<T, Hand<HenonHeiles, 2>>(&mut walk);
-    visit_quadratic::<T, Hand<HenonHeiles, 2>>(&mut walk);
+    visit_any::<Hand<Swaying, 1>>(&mut walk);
+    visit_unforced::<Hand<Swaying, 1>>(&mut walk);
+    visit_implicit::<Hand<Swaying, 1>>(&mut walk);
+    visit_energy::<Hand<Swaying, 1>>(&mut walk);
+    visit_doubled::<Hand<Swaying, 1>>(&mut walk);
+    visit_split::<Hand<Pumped, 1>>(&mut walk);
+    visit_exact::<Hand<Pumped, 1>>(&mut walk);
+    visit_separable::<Hand<Pumped, 1>>(&mut walk);
+    visit_compensated::<Hand<Pumped, 1>>(&mut walk);
+    visit_nystrom::<Hand<HenonHeiles, 2>>(&mut walk);
+    visit_quadratic::<Hand<HenonHeiles, 2>>(&mut walk);
     visit_transformed(&mut walk);
     assert_eq!(walk.met, catalogue().count());
 }

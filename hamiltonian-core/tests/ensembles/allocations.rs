@@ -94,7 +94,7 @@ fn an_ensemble_holds_what_members_carry() {
     // q and p, and chunks themselves.
     let plain = adds(&|count| bytes(|| swarm(count, false)).1[0]);
     assert!((16.0..18.0).contains(&plain), "{plain} bytes a member");
-    let parameters = size_of::<<Pendulum as System<f64>>::Prepared>() as f64;
+    let parameters = size_of::<<Pendulum as System>::Prepared<f64>>() as f64;
     let each = adds(&|count| bytes(|| swarm(count, true)).1[0]);
     assert!(
         (each - plain - parameters).abs() < 2.0,

@@ -70,17 +70,14 @@ fn events_of_members_are_those_of_single_runs() {
 #[test]
 fn closing_pieces_and_observables_are_of_the_halves_they_name() {
     let (system, start) = swinging(Member::new(3, 0));
-    assert_eq!(
-        <Pendulum as System<f64>>::READS,
-        [[false, true], [true, false]],
-    );
-    let prepared = System::<f64>::prepare(&system);
+    assert_eq!(<Pendulum as System>::READS, [[false, true], [true, false]],);
+    let prepared = System::prepare::<f64>(&system);
     for (scheme, moves) in [
         (StormerVerlet::KickDriftKick, [false, true]),
         (StormerVerlet::DriftKickDrift, [true, false]),
     ] {
-        let map = Scheme::<f64, Pendulum>::prepare(&scheme, &prepared, Step::of(0.1));
-        let mut carried = Scheme::<f64, Pendulum>::start(&scheme, &prepared, &start, 0.1);
+        let map = Scheme::<Pendulum>::prepare(&scheme, &prepared, Step::of(0.1));
+        let mut carried = Scheme::<Pendulum>::start(&scheme, &prepared, &start, 0.1);
         let mut work = Scratch::like(&carried);
         map.step(0.0, 0.1, &mut carried, &mut work);
         let before = carried.clone();

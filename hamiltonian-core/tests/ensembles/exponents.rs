@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 /// Exponents, MEGNO and GALI of members in lanes have the bits of single tangents.
 fn deviates<S, M>(make: fn(Member) -> (S, StateOf<S>), scheme: M, deviations: usize)
 where
-    S: System<f64> + System<Dual<f64>>,
-    M: Ensembles<S, Dual<f64>>,
+    S: System,
+    M: Scheme<S>,
 {
     type Found = Result<Vec<f64>, Error>;
     let h = 0.0625;

@@ -5,7 +5,7 @@ use super::*;
 use hamiltonian::Unforced;
 use hamiltonian::lanes::{Mask, Pack};
 use hamiltonian::private::SVector;
-use hamiltonian::schemes::author::{Dynamics, Gather, Group, Observable, VectorField, gather};
+use hamiltonian::schemes::author::{Dynamics, Group, Observable, VectorField, gather};
 
 hamiltonian! {
     /// Oscillators, each with its spring.
@@ -74,19 +74,31 @@ struct Scaled<T>(T, T);
 
 impl Unforced for Spring {}
 
-impl<T: Real> System<T> for Spring {
-    type Vector = SVector<T, 1>;
-    type Prepared = Ready<T>;
+impl System for Spring {
+    type Shape = SVector<(), 1>;
+    type Prepared<T: Real> = Ready<T>;
     const NAME: &'static str = "Spring";
-    const GROUPS: &'static [Group] = <Pendulum as System<f64>>::GROUPS;
+    const GROUPS: &'static [Group] = <Pendulum as System>::GROUPS;
     const OBSERVABLES: &'static [Observable] = &[];
-    fn prepare(&self) -> Ready<T> {
+    fn prepare<T: Real>(&self) -> Ready<T> {
         Ready {
             omega_squared: T::constant(self.omega * self.omega, 0.0),
         }
     }
-    fn zeros(&self) -> SVector<T, 1> {
+    fn zeros<T: Real>(&self) -> SVector<T, 1> {
         SVector::from_element(T::zero())
+    }
+    #[inline(always)]
+    fn gather<T: Real, P: Pack>(members: &[&Ready<T>]) -> Ready<T::Over<P>> {
+        Ready {
+            omega_squared: gather::number::<T, P, _>(members, |one| one.omega_squared),
+        }
+    }
+    fn fits<T: Real>(_: &Self::Prepared<T>, _: &Self::Prepared<T>) -> bool {
+        true
+    }
+    fn equals<T: Real>(a: &Ready<T>, b: &Ready<T>) -> bool {
+        Mask::all(a.omega_squared.equals(b.omega_squared))
     }
 }
 
@@ -141,22 +153,6 @@ impl<T: Real> VectorField<SVector<T, 1>> for Scaled<T> {
     ) {
         into_q[0] += self.1 * p[0];
         into_p[0] -= self.1 * (self.0 * q[0]);
-    }
-}
-
-impl<T: Real> Gather<T> for Ready<T> {
-    type Over<U: Real> = Ready<U>;
-    #[inline(always)]
-    fn gather<P: Pack>(members: &[&Self]) -> Ready<T::Over<P>> {
-        Ready {
-            omega_squared: gather::number(members, |one| one.omega_squared),
-        }
-    }
-    fn fits(&self, _: &Self) -> bool {
-        true
-    }
-    fn equals(&self, other: &Self) -> bool {
-        Mask::all(self.omega_squared.equals(other.omega_squared))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::members::agrees;
 use super::*;
 use hamiltonian::Vector;
+use hamiltonian_core::VectorOf;
 
 hamiltonian! {
     /// A pendulum in air and oil.
@@ -43,12 +44,19 @@ hamiltonian! {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Close;
 
-impl<V: Vector> Density<V> for Close {
+impl<S: System> Density<S> for Close {
     #[inline(always)]
-    fn rate(&self, _: V::Scalar, q: &V, _: &V, dq: &V, _: &V) -> V::Scalar {
+    fn rate<T: Real>(
+        &self,
+        _: T,
+        q: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+        dq: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+    ) -> T {
         let (x, y) = (q.component(0), q.component(1));
         let (u, v) = (dq.component(0), dq.component(1));
-        V::Scalar::constant(-1.5, 0.0) * (x * u + y * v) / (x * x + y * y)
+        T::constant(-1.5, 0.0) * (x * u + y * v) / (x * x + y * y)
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The index of each row, its member's end and its bits, its member's error.
 type Rows = Vec<(usize, Status, u64, Vec<u64>, Option<String>)>;
 
-fn with_errors<S: System<f64>, M: Ensembles<S>, A: Rounding>(
+fn with_errors<S: System, M: Scheme<S>, A: Rounding>(
     sweep: &Sweep<'_, S, M, (), hamiltonian::Record<'_, S, ()>, A>,
 ) -> Rows {
     let add = |mut all: Rows, row: &hamiltonian::Row<'_>| {

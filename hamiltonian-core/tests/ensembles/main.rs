@@ -164,7 +164,7 @@ fn at_each_level(test: impl Fn(Cpu)) {
 }
 
 /// Each row of a sweep, by bits.
-fn rows<M: Ensembles<Pendulum>, O: Observer<f64, Pendulum>, A: hamiltonian::Rounding>(
+fn rows<M: Scheme<Pendulum>, O: Observer<f64, Pendulum>, A: hamiltonian::Rounding>(
     sweep: &Sweep<'_, Pendulum, M, O, hamiltonian::Record<'_, Pendulum, O>, A>,
 ) -> Vec<(usize, Status, u64, Vec<u64>)> {
     let add = |mut all: Vec<_>, row: &hamiltonian::Row<'_>| {

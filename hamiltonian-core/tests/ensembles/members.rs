@@ -5,8 +5,8 @@ use super::*;
 /// Members of a reproducible ensemble, advanced in two calls on two threads, have the bits of single runs.
 pub(super) fn agrees<S, M>(make: impl Fn(Member) -> (S, StateOf<S>), scheme: M)
 where
-    S: System<f64>,
-    M: Ensembles<S>,
+    S: System,
+    M: Scheme<S>,
 {
     let name = hamiltonian::schemes::author::Listed::entry(&scheme).to_string();
     let h = 0.03125;

@@ -63,7 +63,7 @@ fn falling(member: Member) -> Result<(Hole, StateOf<Hole>), Error> {
 /// Ends a member at a number of steps.
 struct Until(u64);
 
-impl<S: System<f64>> Observer<f64, S> for Until {
+impl<S: System> Observer<f64, S> for Until {
     fn observe(&mut self, view: &View<'_, f64, S>) -> ControlFlow<()> {
         match view.step >= self.0 {
             true => ControlFlow::Break(()),

@@ -1,14 +1,22 @@
 //! Members at times, and saved on their way.
 
 use super::*;
+use hamiltonian_core::VectorOf;
 
 /// Steps that vary in time, in principle.
 #[derive(Debug, Clone, Copy)]
 struct Steady;
 
-impl<V: hamiltonian::Vector> Density<V> for Steady {
-    fn rate(&self, _: V::Scalar, _: &V, _: &V, _: &V, _: &V) -> V::Scalar {
-        V::Scalar::zero()
+impl<S: System> Density<S> for Steady {
+    fn rate<T: Real>(
+        &self,
+        _: T,
+        _: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+        _: &VectorOf<S, T>,
+    ) -> T {
+        T::zero()
     }
 }
 

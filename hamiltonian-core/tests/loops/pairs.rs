@@ -49,7 +49,7 @@ fn masses(n: usize) -> Vec<f64> {
 #[track_caller]
 fn interpreted<S>(system: &S, n: usize, h: &str)
 where
-    S: System<f64, Vector = hamiltonian::private::DVector<f64>>,
+    S: System<Shape = hamiltonian::private::DVector<()>>,
 {
     let mut model = symbolic::system("q[n]; p[n]", "n", "m[n]", h);
     assert!(structure::analyse(&mut model).separable.is_ok());

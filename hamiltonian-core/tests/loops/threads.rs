@@ -2,6 +2,7 @@
 
 use crate::allocator::{allocations, calls};
 use crate::common::bits::LEVEL;
+use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::{Checkpoint, Member, Real, Scheme, Vector};
 use std::sync::{Mutex, PoisonError};
@@ -61,7 +62,7 @@ hamiltonian! {
 }
 
 /// A start of which no two components are the same.
-fn start<S: System<f64>>(system: &S) -> State<S::Vector> {
+fn start<S: System>(system: &S) -> State<VectorOf<S>> {
     let mut start = State {
         q: system.zeros(),
         p: system.zeros(),
@@ -83,9 +84,9 @@ fn bits<V: Vector<Scalar = f64>>(state: &State<V>) -> Vec<u64> {
 /// The ends of runs on 1, 2, 3 and 7 threads have the same bits.
 fn check<S, M>(system: &S, scheme: M)
 where
-    S: System<f64>,
-    M: Scheme<f64, S, Map: Sync>,
-    <M::Map as hamiltonian::schemes::author::Map>::Work: Send,
+    S: System,
+    M: Scheme<S, Map<f64>: Sync>,
+    <M::Map<f64> as hamiltonian::schemes::author::Map>::Work: Send,
 {
     let _level = LEVEL.read().unwrap_or_else(PoisonError::into_inner);
     for fused in [false, true] {
@@ -239,9 +240,9 @@ fn steps_on_threads_are_made_on_both_and_do_not_allocate() {
 
 fn on_both<S>(system: &S)
 where
-    S: System<f64> + Clone,
-    StormerVerlet: Scheme<f64, S, Map: Sync>,
-    <<StormerVerlet as Scheme<f64, S>>::Map as hamiltonian::schemes::author::Map>::Work: Send,
+    S: System + Clone,
+    StormerVerlet: Scheme<S, Map<f64>: Sync>,
+    <<StormerVerlet as Scheme<S>>::Map<f64> as hamiltonian::schemes::author::Map>::Work: Send,
 {
     let mut run = Integrator::new(system, StormerVerlet::default(), start(system), 0.01).unwrap();
     take();

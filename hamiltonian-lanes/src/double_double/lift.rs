@@ -4,7 +4,7 @@
 //! and floats are lifted exactly.
 
 use hamiltonian_real::parts::words;
-use hamiltonian_real::{Dual, Lift, Real};
+use hamiltonian_real::{Dual, Lift, Parameter, Real};
 
 use super::DoubleDouble;
 
@@ -51,5 +51,12 @@ impl<T: Real + Lift<DoubleDouble>> Lift<DoubleDouble> for Dual<T> {
     #[inline(always)]
     fn lift(value: DoubleDouble) -> Self {
         Self::fixed(T::lift(value))
+    }
+}
+
+impl Parameter for DoubleDouble {
+    #[inline(always)]
+    fn into_real<T: Real>(self) -> T {
+        T::constant(self.hi(), self.lo())
     }
 }

@@ -161,9 +161,6 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     /// level's instructions and stands out of line. For large pieces of a kernel that should not be
     /// inlined.
     fn enter<K: Kernel>(kernel: K) -> K::Output;
-
-    /// [`enter`](Level::enter) for work that is written for one level.
-    fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output;
 }
 
 /// The level that each CPU of the architecture has: its packs need no way in.
@@ -187,104 +184,6 @@ pub type AtHand = Neon;
     all(target_arch = "aarch64", target_feature = "neon")
 )))]
 pub type AtHand = Portable;
-
-/// Work on one level: what [`Kernel`] is on all of them, for bounds that name the level's packs.
-///
-/// `run` and all that it calls in a loop must be `#[inline(always)]`, as for [`Kernel`].
-///
-/// ```
-/// use hamiltonian::lanes::{Cpu, KernelAt, Level, OnEveryLevel, Pack};
-/// use hamiltonian::prelude::*;
-///
-/// /// The sum of a function of numbers; the function is given for each pack it is called with.
-/// struct Sum<'a, F> {
-///     of: &'a [f64],
-///     function: F,
-/// }
-/// trait Function<T> {
-///     fn value(&self, x: T) -> T;
-/// }
-///
-/// impl<L: Level, F: Function<L::Pack>> KernelAt<L> for Sum<'_, F> {
-///     type Output = f64;
-///     #[inline(always)]
-///     fn run(self) -> f64 {
-///         let mut sum = L::Pack::zero();
-///         for x in self.of.chunks(L::Pack::LANES as usize) {
-///             sum += self.function.value(L::Pack::load(x, 0.0));
-///         }
-///         (0..L::Pack::LANES).map(|k| sum.lane(k)).sum()
-///     }
-/// }
-///
-/// struct Square;
-/// impl<T: Real> Function<T> for Square {
-///     fn value(&self, x: T) -> T {
-///         x * x
-///     }
-/// }
-///
-/// // One bound serves every level.
-/// fn total<F>(of: &[f64], function: F) -> f64
-/// where
-///     for<'a> Sum<'a, F>: OnEveryLevel<Output = f64>,
-/// {
-///     Sum { of, function }.dispatch()
-/// }
-/// assert_eq!(total(&[1.0, 2.0, 3.0], Square), 14.0);
-/// ```
-pub trait KernelAt<L: Level> {
-    /// The computation.
-    type Output;
-    /// Computes it.
-    fn run(self) -> Self::Output;
-}
-
-/// Work on each level of the architecture: implemented for every [`KernelAt`] of all of them with one
-/// output, and for nothing else.
-pub trait OnEveryLevel: Sized {
-    /// The computation.
-    type Output;
-    /// Runs it on the best level of this CPU.
-    fn dispatch(self) -> Self::Output;
-}
-
-/// The levels that [`Cpu::best`] may return on an architecture without a [limit](Cpu::limit_to), from the
-/// best on, and with a limit the least.
-macro_rules! on_every_level {
-    ($(#[$where:meta])* $($level:ident)*; $least:ident) => {
-        $(#[$where])*
-        impl<K, O> OnEveryLevel for K
-        where
-            K: $(KernelAt<$level, Output = O> +)* KernelAt<$least, Output = O>,
-        {
-            type Output = O;
-            #[inline]
-            fn dispatch(self) -> O {
-                match Cpu::best() {
-                    $(Cpu::$level => $level::enter_at(self),)*
-                    _ => $least::enter_at(self),
-                }
-            }
-        }
-    };
-}
-
-on_every_level!(
-    #[cfg(target_arch = "x86_64")]
-    Avx512 Avx2; Sse2
-);
-on_every_level!(
-    #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-    Neon; Portable
-);
-on_every_level!(
-    #[cfg(not(any(
-        target_arch = "x86_64",
-        all(target_arch = "aarch64", target_feature = "neon")
-    )))]
-    ; Portable
-);
 
 /// Work written once for every level.
 ///
@@ -410,18 +309,13 @@ macro_rules! level {
             fn enter<K: Kernel>(kernel: K) -> K::Output {
                 $module::enter(kernel)
             }
-
-            #[inline(always)]
-            fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output {
-                $module::enter_at(kernel)
-            }
         }
 
         /// The entries stand in a module for each level, so that rustc compiles the levels at the same time: it
         /// divides generic code by modules.
         $(#[$where])*
         mod $module {
-            use super::{Kernel, KernelAt, $level};
+            use super::{Kernel, $level};
 
             // rustc ignores `inline(never)` on a function with features. This function has none, so a function with
             // features cannot be inlined into it.
@@ -433,19 +327,6 @@ macro_rules! level {
                 }
                 // SAFETY: `inside` asks for the features of the level alone. The level is private, so this is called by
                 // `dispatch_at_most`, which has queried the CPU, or by a kernel that already runs on this level.
-                #[allow(unused_unsafe)]
-                unsafe {
-                    inside(kernel)
-                }
-            }
-
-            #[inline(never)]
-            pub(super) fn enter_at<K: KernelAt<$level>>(kernel: K) -> K::Output {
-                $(#[target_feature(enable = $features)])?
-                fn inside<K: KernelAt<$level>>(kernel: K) -> K::Output {
-                    kernel.run()
-                }
-                // SAFETY: as in `enter`: the caller has queried the CPU, or already runs on this level.
                 #[allow(unused_unsafe)]
                 unsafe {
                     inside(kernel)

@@ -36,7 +36,5 @@ mod register;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
 
-pub use dispatch::{
-    AtHand, Cpu, Kernel, KernelAt, Level, OnEveryLevel, dispatch, dispatch_at_most,
-};
+pub use dispatch::{AtHand, Cpu, Kernel, Level, dispatch, dispatch_at_most};
 pub use pack::{Base, Nf, W};

@@ -235,7 +235,7 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         }
     };
     let header = if is_told {
-        generics.header()
+        generics.header_of_values()
     } else {
         let (constants, system) = generics.over_f64();
         format!("impl{constants} {system}")

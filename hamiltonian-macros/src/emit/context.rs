@@ -90,9 +90,17 @@ impl<'a> Context<'a> {
 
     /// An array parameter of `_self` over `T`.
     pub fn lifted(self, parameter: u16) -> String {
+        format!(
+            "{}.map(__h::Parameter::into_real::<T>)",
+            self.of_parameter(parameter)
+        )
+    }
+
+    /// An array parameter of `_self`.
+    pub fn of_parameter(self, parameter: u16) -> String {
         let shape = &self.model.parameters[usize::from(parameter)].shape;
         let field = format!("_self.{}", self.generics.field(parameter));
-        format!("{}.map(T::lift)", self.stored(shape, &field))
+        self.stored(shape, &field)
     }
 
     /// The number of an element where it is read; that of a matrix of parameters counts row after row.

@@ -96,7 +96,6 @@ pub fn method(
     back: bool,
 ) -> TokenStream {
     let theirs = context(declared, own);
-    let bound = lex(&own.generics.state_bound());
     let usage = match back {
         true => VectorUse::ToDeclared,
         false => VectorUse::FromDeclared,
@@ -106,7 +105,7 @@ pub fn method(
     let (their_zeros, own_zeros) = (theirs.zeros(), own.zeros());
     let mut body = String::from("let _self = self;\n");
     Receiver::System.bind_sizes(&mut body, own);
-    let prepared = "<Self as __h::System<T>>::prepare(self)";
+    let prepared = "<Self as __h::System>::prepare::<T>(self)";
     if back {
         // The state's own map, into a vector of its own shape; then to the places.
         let (q, p) = match function {
@@ -178,7 +177,7 @@ pub fn method(
     quote! {
         #[doc = #text]
         #[must_use]
-        #visibility fn #name<T: #bound>(&self, state: &__h::State<#from>) -> __h::State<#to> {
+        #visibility fn #name<T: __h::Real>(&self, state: &__h::State<#from>) -> __h::State<#to> {
             #body
         }
     }

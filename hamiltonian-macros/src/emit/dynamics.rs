@@ -87,14 +87,14 @@ impl<'a> Emission<'a> {
         let (context, generics) = (self.context, self.context.generics);
         line!(
             self,
-            "#[automatically_derived]\nimpl{} __h::System<T> for {} {{\n\
-             type Vector = {};\ntype Prepared = {};\n\
+            "#[automatically_derived]\nimpl{} __h::System for {} {{\n\
+             type Shape = {};\n__h::gathers!({});\n\
              const NAME: &'static __h::str = {:?};\n\
              const GROUPS: &'static [__h::Group] = &[{}];\n{}{}{}{}\
              const FORMULA: &'static __h::str = {:?};\n{}",
-            generics.declaration_with_scalar(),
+            generics.declaration(),
             generics.system_type(),
-            self.vector,
+            generics.vector_type_over("__V", "()"),
             self.prepared.ty(context),
             context.model.name,
             groups(context.model, context.layout),
@@ -114,7 +114,7 @@ impl<'a> Emission<'a> {
         );
         line!(
             self,
-            "#[inline(always)]\nfn prepare(&self) -> Self::Prepared {{"
+            "#[inline(always)]\nfn prepare<T: __h::Real>(&self) -> Self::Prepared<T> {{"
         );
         let start = self.out.len();
         self.out.push_str(&reach::asserted(context));
@@ -148,7 +148,11 @@ impl<'a> Emission<'a> {
         let mut sizes = String::new();
         Receiver::System.bind_sizes(&mut sizes, context);
         let zeros = with_self(&(sizes + &context.zeros()));
-        line!(self, "fn zeros(&self) -> Self::Vector {{\n{zeros}\n}}\n}}");
+        line!(
+            self,
+            "fn zeros<T: __h::Real>(&self) -> {} {{\n{zeros}\n}}\n}}",
+            self.vector
+        );
     }
 
     /// The arrays that preparation fills.
@@ -223,6 +227,8 @@ impl<'a> Emission<'a> {
             );
         }
         let field = self.field_kind();
+        // What it prepares is the same for every scalar of the parameters.
+        let (_, system) = generics.over_f64();
         let zero = match is_timeless(context) {
             true => ", timeless",
             false => "",
@@ -234,7 +240,7 @@ impl<'a> Emission<'a> {
         };
         line!(
             self,
-            "__h::computed_as_chosen!(T, {field}{zero}{gradient});\n}}"
+            "__h::computed_as_chosen!(T of {system}, {field}{zero}{gradient});\n}}"
         );
     }
 
@@ -347,14 +353,15 @@ impl<'a> Emission<'a> {
         }
         for (at, parameter) in context.model.parameters.iter().enumerate() {
             let (at, name) = (at as u16, &parameter.name);
+            let field = context.generics.field(at);
             let value = match parameter.shape {
-                Shape::Scalar => context.generics.lifted(at),
-                Shape::Matrix(..) => context.generics.lifted_rows(at),
-                _ => context.lifted(at),
+                Shape::Scalar => format!("_self.{field}"),
+                Shape::Matrix(..) => format!("_self.{field}.transpose()"),
+                _ => context.of_parameter(at),
             };
             let (array, value) = match parameter.shape {
                 Shape::Scalar => (String::new(), value.as_str()),
-                _ => (format!("let _b = {value};\n"), "_b"),
+                _ => (format!("let _b = &{value};\n"), "_b"),
             };
             let whole = as_slice(&parameter.shape, value);
             lines.push(format!(
@@ -466,7 +473,7 @@ impl<'a> Emission<'a> {
             let _ = write!(fields, "{}: {value}, ", context.generics.field(at));
         }
         format!(
-            "let _self = &<Self as __h::System<T>>::prepare(self);\n\
+            "let _self = &<Self as __h::System>::prepare::<T>(self);\n\
              let (_t, _q, _p) = (state.t, &state.q, &state.p);\n\
              {sizes}{made}{text}{} {{ {fields} }}",
             context.generics.name,

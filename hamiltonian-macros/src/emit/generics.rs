@@ -27,8 +27,10 @@ pub struct Generics {
     pub is_run_time: Vec<bool>,
     /// The fields of the parameters.
     fields: Vec<String>,
-    /// The bound of a parameter scalar: captures may be integers, which are no `Real`.
+    /// The bound of a parameter scalar where a value is made: captures may be integers, which are no `Real`.
     bound: &'static str,
+    /// Its bound where the value is used as a system.
+    system_bound: &'static str,
 }
 
 impl Generics {
@@ -48,7 +50,8 @@ impl Generics {
                 sizes: Vec::new(),
                 is_run_time: Vec::new(),
                 fields: numbered("c").collect(),
-                bound: "__h::core::marker::Copy",
+                bound: "__h::Parameter",
+                system_bound: "__h::Parameter",
             };
         };
         let name = definition.type_name(item).to_string();
@@ -82,6 +85,7 @@ impl Generics {
                 .map(|p| p.name.to_string())
                 .collect(),
             bound: "__h::Real",
+            system_bound: "__h::Real + __h::Parameter",
             visibility: item.visibility.to_string(),
             whole: item.name.to_string(),
             name,
@@ -106,34 +110,25 @@ impl Generics {
         self.declared(self.bounded_functions().chain(more))
     }
 
-    fn bounded(&self) -> impl Iterator<Item = String> + '_ {
+    fn bounded(&self, bound: &'static str) -> impl Iterator<Item = String> + '_ {
         let scalars = self.scalars.iter();
-        scalars.map(|name| format!("{name}: {}", self.bound))
+        scalars.map(move |name| format!("{name}: {bound}"))
     }
 
-    /// `<const N0: usize, P: Real>`
+    /// `<const N0: usize, P: Real + Parameter>`
     pub fn declaration(&self) -> String {
-        self.declared_with_functions(self.bounded())
+        self.declared_with_functions(self.bounded(self.system_bound))
     }
 
-    /// `<const N0: usize, P: Real, T: Real + Lift<P>>`
+    /// `<const N0: usize, P: Real + Parameter, T: Real>`
     pub fn declaration_with_scalar(&self) -> String {
-        let state = format!("T: {}", self.state_bound());
-        self.declared_with_functions(self.bounded().chain([state]))
+        let state = "T: __h::Real".to_owned();
+        self.declared_with_functions(self.bounded(self.system_bound).chain([state]))
     }
 
     /// The generics of a marker without bounds on the parameters: `<const N0: usize, P>`
     pub fn declaration_without_bounds(&self) -> String {
         self.declared_with_functions(self.scalars.iter().cloned())
-    }
-
-    /// `Real + Lift<P>`
-    pub fn state_bound(&self) -> String {
-        let lifts = self
-            .scalars
-            .iter()
-            .map(|name| format!(" + __h::Lift<{name}>"));
-        format!("__h::Real{}", lifts.collect::<String>())
     }
 
     /// `Name<N0, P>`
@@ -146,9 +141,15 @@ impl Generics {
         self.type_over("", self.scalars.iter().cloned())
     }
 
-    /// `impl<const N0: usize, P: Real> Name<N0, P>`
+    /// `impl<const N0: usize, P: Real + Parameter> Name<N0, P>`
     pub fn header(&self) -> String {
         format!("impl{} {}", self.declaration(), self.system_type())
+    }
+
+    /// `impl<const N0: usize, P: Real> Name<N0, P>`, for what makes a value.
+    pub fn header_of_values(&self) -> String {
+        let declaration = self.declared_with_functions(self.bounded(self.bound));
+        format!("impl{declaration} {}", self.system_type())
     }
 
     /// `Name<N0, T>`: item form over another scalar.
@@ -205,13 +206,16 @@ impl Generics {
 
     /// A field of `_self` as a value of type `T`.
     pub fn lifted(&self, parameter: u16) -> String {
-        format!("T::lift(_self.{})", self.field(parameter))
+        format!(
+            "__h::Parameter::into_real::<T>(_self.{})",
+            self.field(parameter)
+        )
     }
 
     /// A matrix field of `_self` over `T`, transposed: row after row.
     pub fn lifted_rows(&self, parameter: u16) -> String {
         let field = self.field(parameter);
-        format!("_self.{field}.transpose().map(T::lift)")
+        format!("_self.{field}.transpose().map(__h::Parameter::into_real::<T>)")
     }
 
     /// The field of a parameter.

@@ -151,7 +151,7 @@ impl Holder {
         format!("{}.0", self.place(context, Datum::Function(at)))
     }
 
-    /// The declaration of the prepared system with its data, and its `Gather` implementation.
+    /// The declaration of the prepared system with its data.
     pub fn declare(&self, out: &mut String, context: Context) {
         let generics = context.generics;
         let (declaration, name) = (generics.holder_declaration(), &self.name);

@@ -288,7 +288,7 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
 /// Constants, the getters of private fields, observables, derivatives by parameters.
 fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
     let generics = context.generics;
-    let header = lex(&generics.header());
+    let (header, of_values) = (lex(&generics.header()), lex(&generics.header_of_values()));
     let visibility = &item.visibility;
     let methods = observables::methods(context, visibility);
     let vectors = vectors::methods(context, visibility);
@@ -297,25 +297,26 @@ fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
     let defaults = construct::with_defaults(context, item);
     let getters = construct::getters(context, item);
     let derivatives = (!generics.scalars.is_empty()).then(|| {
-        let bound = lex(&generics.state_bound());
         let state = lex(&context.vector());
         let (result, body) = (lex(&generics.system_type_over("T")), lex(gradient));
         quote! {
             /// ∂H/∂(each parameter) at a state, in the fields of the same type.
             #[must_use]
-            #visibility fn parameter_gradient<T: #bound>(&self, state: &__h::State<#state>) -> #result {
+            #visibility fn parameter_gradient<T: __h::Real>(&self, state: &__h::State<#state>) -> #result {
                 #body
             }
         }
     });
     quote! {
         #new
-        #header {
+        #of_values {
             #defaults
             #getters
+            #pieces
+        }
+        #header {
             #methods
             #vectors
-            #pieces
             #derivatives
         }
     }

@@ -10,12 +10,12 @@ use super::context::Context;
 use std::fmt::Write;
 
 /// A piece that cannot exist.
-const NEVER: &str = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>";
+const NEVER: &str = "__h::Never<__h::Point<__h::VectorOf<Self, T>>>";
 
 /// The types of pieces, their values, and which of them jump in time, if any does.
 pub type Pieces<'a> = (&'a [String], &'a str, Option<[bool; 2]>);
 
-/// A trait of pieces, each as a type and as a constant of these values, if they are there.
+/// A trait of pieces, each as a type and as a function that returns one of these values, if they are there.
 pub fn of_pieces(
     out: &mut String,
     context: Context,
@@ -29,18 +29,17 @@ pub fn of_pieces(
             Ok((types, value, _)) => (types[at].as_str(), *value),
             Err(_) => (NEVER, "__h::Never::PIECE"),
         };
-        let constant = name.to_uppercase();
+        let method = name.to_lowercase();
         let _ = writeln!(
             items,
-            "type {name} = {ty};\nconst {constant}: Self::{name} = {value};"
+            "type {name}<T: __h::Real> = {ty};\n#[inline(always)]\nfn {method}<T: __h::Real>() -> Self::{name}<T> {{ {value} }}"
         );
     }
     if let Ok((_, _, Some(jumping))) = &pieces {
         let _ = writeln!(items, "const JUMPING: [__h::bool; 2] = {jumping:?};");
     }
-    let declaration = context.generics.declaration_with_scalar();
-    let name = format!("{name}<T>");
-    marker(out, context, &name, &declaration, pieces.err(), &items);
+    let declaration = context.generics.declaration();
+    marker(out, context, name, &declaration, pieces.err(), &items);
 }
 
 /// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact` and `Cyclic`, `Display` and `Default`.

@@ -96,6 +96,8 @@ pub fn implementations(context: Context) -> String {
     let ty = context.mixed_type();
     let name = context.mixed_name();
     let over = context.generics.vector_type_over(&name, "__U");
+    let shape = context.generics.vector_type_over(&name, "()");
+    let constants = context.generics.declared([]);
     let declaration = context.generics.vector_declaration();
     let groups = context.groups;
     let Arguments {
@@ -151,14 +153,16 @@ pub fn implementations(context: Context) -> String {
         );
     }
     format!(
-        "#[automatically_derived]\nimpl{declaration} __h::Vector for {ty} {{\n\
+        "#[automatically_derived]\nimpl{constants} __h::Shape for {shape} {{\n\
+         type Vector<__U: __h::Real> = {over};\n}}\n\
+         #[automatically_derived]\nimpl{declaration} __h::Vector for {ty} {{\n\
          type Scalar = T;\nconst PARTS: __h::usize = {};\n\
          #[inline(always)]\nfn part(&self, _k: __h::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
          #[inline(always)]\nfn part_mut(&mut self, _k: __h::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
          fn columns(&self, _k: __h::usize) -> __h::usize {{ match _k {{ {columns} _ => 1 }} }}\n\
          {extents}{uneven}\
          fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n\
-         type Over<__U: __h::Real> = {over};\n\
+         type Shape = {shape};\n\
          #[inline(always)]\nfn zeros_over<__U: __h::Real>(&self) -> {over} {{ {name} {{ {zeros_over} }} }}\n\
          #[inline(always)]\nfn take(&mut self) -> Self {{ Self {{ {takes} }} }}\n}}\n\
          impl{declaration} {ty} {{\n\

@@ -75,7 +75,6 @@ pub fn dispatch(model: &Model) -> String {
 
 /// The methods of the type.
 pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
-    let bound = lex(&context.generics.state_bound());
     let state = lex(&context.vector());
     let mut out = TokenStream::new();
     let observables = context.model.observables.iter().enumerate();
@@ -84,7 +83,7 @@ pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
         let allow = allowances(&[name]);
         let components = observable.components.len();
         let call =
-            format!("<Self as __h::System<T>>::prepare(self).o{at}(state.t, &state.q, &state.p)");
+            format!("<Self as __h::System>::prepare::<T>(self).o{at}(state.t, &state.q, &state.p)");
         let (result, body) = if components == 1 {
             ("T".to_owned(), format!("let [_value] = {call}; _value"))
         } else {
@@ -110,7 +109,7 @@ pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
             #proof
             #allow
             #[must_use]
-            #visibility fn #name<T: #bound>(&self, state: &__h::State<#state>) -> #result { #body }
+            #visibility fn #name<T: __h::Real>(&self, state: &__h::State<#state>) -> #result { #body }
         });
     }
     out

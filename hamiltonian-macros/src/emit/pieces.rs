@@ -79,7 +79,7 @@ impl Emission<'_> {
             line!(
                 self,
                 "__h::halves!([impl{}] {}, {}, {kick}{}: {});",
-                context.generics.declaration_with_scalar(),
+                context.generics.declaration(),
                 context.generics.system_type(),
                 self.prepared.ty(context),
                 structure

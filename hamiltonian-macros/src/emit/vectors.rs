@@ -12,14 +12,13 @@ use quote::{format_ident, quote};
 
 /// The methods of the type.
 pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
-    let bound = lex(&context.generics.state_bound());
     let vector = lex(&context.vector());
     let state = quote! { __h::State<#vector> };
-    let zeros = quote! { <Self as __h::System<T>>::zeros(self) };
+    let zeros = quote! { <Self as __h::System>::zeros::<T>(self) };
     let mut out = TokenStream::new();
     for (at, function) in context.model.vectors.iter().enumerate() {
         let call = format_ident!("v{at}");
-        let call = quote! { <Self as __h::System<T>>::prepare(self).#call };
+        let call = quote! { <Self as __h::System>::prepare::<T>(self).#call };
         let one = |more: TokenStream, result: TokenStream| {
             quote! {
                 let mut _v = #zeros;
@@ -79,7 +78,7 @@ pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
             #[doc = #text]
             #allow
             #[must_use]
-            #visibility fn #name<T: #bound>(&self, #arguments) -> #result { #body }
+            #visibility fn #name<T: __h::Real>(&self, #arguments) -> #result { #body }
         });
         if function.usage == VectorUse::ConjugateMomentum {
             out.extend(state_from_velocity(context, visibility));
@@ -96,7 +95,6 @@ pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
 /// The start of a Lagrangian system. In another time it is given in the variables of L, which `from_declared`
 /// puts among the system's own.
 fn state_from_velocity(context: Context, visibility: &TokenStream) -> TokenStream {
-    let bound = lex(&context.generics.state_bound());
     let own = lex(&context.vector());
     let (theirs, state) = match context.definition.declared {
         Some(declared) => (
@@ -119,7 +117,7 @@ fn state_from_velocity(context: Context, visibility: &TokenStream) -> TokenStrea
         let name = format_ident!("{name}");
         quote! {
             #[doc = #text]
-            #visibility fn #name<T: #bound #scalar, __M, __A: __h::IntoVector<__M, Vector = #theirs>>(
+            #visibility fn #name<T: __h::Real #scalar, __M, __A: __h::IntoVector<__M, Vector = #theirs>>(
                 &self, time: T, coordinates: __A, velocities: __A,
             ) -> __h::State<#own> {
                 let (_q, _v) =

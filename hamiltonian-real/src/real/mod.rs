@@ -70,6 +70,41 @@ pub trait Lift<P> {
     fn lift(value: P) -> Self;
 }
 
+/// A number that a parameter or a captured value may be: a float, an integer, a double-double, or a dual number of such.
+/// It serves every scalar of a state.
+///
+/// A scalar with fewer digits rounds to nearest. Derivatives are kept where the scalar is a dual number. In dual numbers
+/// of dual numbers those of a parameter are the innermost, so that the outer ones are free for derivatives by
+/// coordinates. They are dropped where the scalar is no dual number: a system with dual parameters runs over `f64` with
+/// their values.
+///
+/// ```
+/// use hamiltonian::lanes::Parameter;
+/// use hamiltonian::prelude::*;
+///
+/// fn twice<P: Parameter, T: Real>(parameter: P, x: T) -> T {
+///     parameter.into_real::<T>() * x
+/// }
+/// assert_eq!(twice(2.5, 2.0), 5.0);
+/// assert_eq!(twice(2.5, Dual::variable(2.0)).eps, 2.5);
+/// assert_eq!(twice(2u32, 2.0f32), 4.0);
+/// // With the derivative by the parameter, or its value alone.
+/// assert_eq!(twice(Dual::variable(2.5), Dual::fixed(2.0)).eps, 2.0);
+/// assert_eq!(twice(Dual::variable(2.5), 2.0), 5.0);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a number from which scalars are made",
+    label = "a parameter or a captured value is `{Self}`",
+    note = "parameters and captured values are `f64`, `f32`, integers, `DoubleDouble` or `Dual`s of such",
+    note = "in code that is generic over the scalar `P` of the parameters, write `P: Real + Parameter`"
+)]
+pub trait Parameter: Copy + Debug + Send + Sync + 'static {
+    /// The number of dual numbers inside each other: 1 for `Dual<f64>`.
+    const DUALS: u32 = 0;
+    /// The value as a scalar.
+    fn into_real<T: Real>(self) -> T;
+}
+
 /// Real arithmetic: `f64`, `f32`, dual numbers, double-double and packs of lanes.
 ///
 /// Values, domains and special cases are those of IEEE 754 and of the C library: a point outside
@@ -182,6 +217,15 @@ pub trait Real:
     #[inline(always)]
     fn spread<P: Pack>(self) -> Self::Over<P> {
         Self::gather::<P>(&[self])
+    }
+
+    /// The number of dual numbers inside each other: 1 for `Dual<f64>`.
+    const DUALS: u32 = 0;
+    /// The number with this value and this derivative, each a number with `A::DUALS` derivatives of its own. The
+    /// derivative is dropped by scalars that have none.
+    #[inline(always)]
+    fn from_dual<A: Parameter>(value: A, _derivative: A) -> Self {
+        value.into_real()
     }
 
     /// The number `hi + lo` (two words, so that double-double constants are exact to 106 bits).

@@ -17,7 +17,7 @@ hamiltonian! {
     H(q[N]; p[N]) = norm_squared(p)/2 + k
 }
 
-fn energy<S: System<f64>>(_: &S) -> f64 {
+fn energy<S: System>(_: &S) -> f64 {
     0.0
 }
 

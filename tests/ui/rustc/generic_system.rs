@@ -6,7 +6,7 @@ fn drift<S>(system: &S, start: State<hamiltonian::nalgebra::SVector<f64, 1>>) ->
     system.energy(&start)
 }
 
-fn steps<S: System<f64>>(system: &S, start: StateOf<S>) -> Result<StateOf<S>, Error> {
+fn steps<S: System>(system: &S, start: StateOf<S>) -> Result<StateOf<S>, Error> {
     let mut run = Integrator::new(system, StormerVerlet::default(), start, 1e-2)?;
     Ok(run.advance(10)?.clone())
 }

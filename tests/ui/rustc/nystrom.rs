@@ -27,7 +27,7 @@ hamiltonian! {
     force(q; p) = -p/10
 }
 
-fn by_nystrom<S: Nystrom<f64>>(_: &S) {}
+fn by_nystrom<S: Nystrom>(_: &S) {}
 
 fn main() {
     by_nystrom(&Relativistic::default());

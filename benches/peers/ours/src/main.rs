@@ -6,6 +6,7 @@
 
 mod problems;
 
+use hamiltonian::VectorOf;
 use cpu_time::ThreadTime;
 use hamiltonian::prelude::*;
 use hamiltonian::{Rounding, Scheme, Vector};
@@ -86,8 +87,8 @@ struct Goal<'a, V: Vector, E> {
 /// The results of one scheme, unfused and fused: more and more steps, until the error is that of rounding or
 /// runs take too long. It takes `parts` settings to double the steps: more for a scheme of high order, which gains
 /// much from few more.
-fn race<S: System<f64>, M: Scheme<f64, S>>(
-    goal: &Goal<S::Vector, impl Fn(&State<S::Vector>) -> f64>,
+fn race<S: System, M: Scheme<S>>(
+    goal: &Goal<VectorOf<S>, impl Fn(&State<VectorOf<S>>) -> f64>,
     system: &S,
     scheme: M,
     (first, parts): (u64, u32),
@@ -364,7 +365,7 @@ fn ensemble(only: Option<&str>) {
 }
 
 /// The results of one scheme for all pendulums, with more and more steps until the error is that of rounding.
-fn swings<M: Ensembles<Pendulum>>(
+fn swings<M: Scheme<Pendulum>>(
     scheme: M,
     first: u64,
     start: impl Fn(usize) -> (f64, f64),
@@ -397,7 +398,7 @@ fn swings<M: Ensembles<Pendulum>>(
 }
 
 /// All pendulums to the end, on one thread: places, then momenta.
-fn swing<M: Ensembles<Pendulum>>(
+fn swing<M: Scheme<Pendulum>>(
     scheme: M,
     steps: u64,
     start: impl Fn(usize) -> (f64, f64),
@@ -415,7 +416,7 @@ fn swing<M: Ensembles<Pendulum>>(
 }
 
 /// The ends of all members: places, then momenta.
-fn ends_of<M: Ensembles<Pendulum>, A: Rounding>(
+fn ends_of<M: Scheme<Pendulum>, A: Rounding>(
     mut swarm: Ensemble<Pendulum, M, (), A>,
     steps: u64,
 ) -> Result<Vec<f64>, Error> {

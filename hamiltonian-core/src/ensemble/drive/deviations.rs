@@ -7,32 +7,31 @@
 
 use super::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::scalar::explain;
-use super::{CarriedIn, MapIn, MaskIn, PackScheme};
+use super::{CarriedIn, MapIn, MaskIn};
 use crate::domain::inside;
 use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};
 use crate::scheme::Scheme;
 use crate::state::{Carried, Point, State};
-use crate::system::System;
-use crate::system::gather::{Gather, VectorOver};
+use crate::system::{System, VectorOf};
 use crate::tangent::{Columns, Megno, gram_schmidt, volume};
 use crate::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::sync::atomic::{AtomicBool, Ordering};
-use hamiltonian_lanes::{KernelAt, Level, Mask, Pack, Real};
+use hamiltonian_lanes::{Kernel, Level, Mask, Pack, Real};
 
 /// The number of steps between two checks that all numbers are finite, as in a single run.
 const BLOCK: u64 = 1024;
 
 /// A member with its deviations.
-pub(crate) struct DeviatedMember<T: Real, S: System<T>> {
-    pub(crate) prepared: S::Prepared,
+pub(crate) struct DeviatedMember<T: Real, S: System> {
+    pub(crate) prepared: S::Prepared<T>,
     /// The carried values of the scheme, deviation after deviation.
     pub(crate) words: Vec<T>,
     /// The state at its start.
-    pub(crate) start: State<S::Vector>,
+    pub(crate) start: State<VectorOf<S, T>>,
     /// The numbers of the indicator, or the error of the member.
     pub(crate) result: Result<Vec<f64>, Error>,
 }
@@ -49,7 +48,7 @@ pub(crate) enum Indicator {
 }
 
 /// Members of which an indicator of chaos is computed.
-pub struct Deviations<'r, T: Real, S: System<T>> {
+pub struct Deviations<'r, T: Real, S: System> {
     pub(crate) members: Vec<DeviatedMember<T, S>>,
     pub(crate) indicator: Indicator,
     /// The number of deviations per member.
@@ -64,7 +63,7 @@ pub struct Deviations<'r, T: Real, S: System<T>> {
     pub(crate) cancel: Option<&'r AtomicBool>,
 }
 
-impl<T: Real, S: System<T>> Deviations<'_, T, S> {
+impl<T: Real, S: System> Deviations<'_, T, S> {
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
@@ -75,8 +74,8 @@ struct DeviationLanes<T, S, P, M>
 where
     T: Real,
     P: Pack,
-    S: System<T> + System<T::Over<P>>,
-    M: Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     map: MapIn<T, S, P, M>,
     work: <MapIn<T, S, P, M> as Map>::Work,
@@ -105,18 +104,13 @@ where
 
 /// Advances all members to their ends, inside the level `L` of the pack.
 #[inline(always)]
-pub(super) fn advance<L, T, S, P, M>(scheme: &M, all: &mut Deviations<'_, T, S>)
+pub(in crate::ensemble) fn advance<L, T, S, P, M>(scheme: &M, all: &mut Deviations<'_, T, S>)
 where
     L: Level,
     T: Real,
     P: Pack,
-    S: System<T, Prepared: Gather<T>>
-        + System<
-            T::Over<P>,
-            Vector = VectorOver<<S as System<T>>::Vector, P>,
-            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
-        >,
-    M: PackScheme<T, S, P> + Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     let mut lanes = None;
     let mut pending = Vec::new();
@@ -139,13 +133,8 @@ impl<T, S, P, M> DeviationLanes<T, S, P, M>
 where
     T: Real,
     P: Pack,
-    S: System<T, Prepared: Gather<T>>
-        + System<
-            T::Over<P>,
-            Vector = VectorOver<<S as System<T>>::Vector, P>,
-            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
-        >,
-    M: PackScheme<T, S, P> + Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     /// Loads members at their starts into lanes. The remaining lanes repeat the last member.
     #[inline(always)]
@@ -156,7 +145,7 @@ where
         group: &[usize],
     ) {
         let members = &all.members;
-        let equals = |a: usize, b: usize| members[a].prepared.equals(&members[b].prepared);
+        let equals = |a: usize, b: usize| S::equals(&members[a].prepared, &members[b].prepared);
         let is_uniform = group.iter().all(|other| equals(group[0], *other));
         let of = if is_uniform { &group[..1] } else { group };
         let is_prepared = |lanes: &Self| {
@@ -165,13 +154,13 @@ where
         if !lanes.as_ref().is_some_and(is_prepared) {
             let systems: Vec<_> = of.iter().map(|at| &members[*at].prepared).collect();
             let steps = [all.step];
-            let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
+            let (prepared, map) = L::enter(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
             match lanes {
                 Some(lanes) => lanes.map = map,
                 None => {
                     let start = &members[group[0]].start;
                     let begin = Begin::<T, S, P, M>::new(scheme, &prepared, start, &steps);
-                    let carried = L::enter_at(begin);
+                    let carried = L::enter(begin);
                     let zero = <T::Over<P> as Real>::zero();
                     let (n, size) = (all.count, carried.point().len());
                     *lanes = Some(DeviationLanes {
@@ -243,7 +232,7 @@ where
             if is_replay {
                 self.before.clone_from(&self.carried);
             }
-            let (mut is_finite, reached) = L::enter_at(DeviationBlock {
+            let (mut is_finite, reached) = L::enter(DeviationBlock {
                 map: &self.map,
                 clock: self.clock,
                 made,
@@ -443,9 +432,8 @@ struct DeviationBlock<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
     megno: &'a mut Megno<U>,
 }
 
-impl<L, R, U> KernelAt<L> for DeviationBlock<'_, R, U>
+impl<R, U> Kernel for DeviationBlock<'_, R, U>
 where
-    L: Level,
     R: Map<Carried: Carried<Scalar = U>>,
     U: Real,
 {
@@ -453,7 +441,7 @@ where
     type Output = (bool, U);
 
     #[inline(always)]
-    fn run(self) -> (bool, U) {
+    fn run<L: Level>(self) -> (bool, U) {
         let end = self.made + self.n;
         let clock = self.clock.at(end);
         let size = self.matrix.len() / self.carried.len();

@@ -4,16 +4,15 @@
 //! once per pack type and never inlined, since the length of its code is proportional to the width of the
 //! pack.
 
-use super::MaskIn;
-use crate::map::{Map, Step};
+use super::{CarriedIn, MapIn, MaskIn};
+use crate::map::Step;
 use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::System;
-use crate::system::gather::{Gather, VectorOver};
+use crate::system::{System, VectorOf};
 use crate::vector::Vector;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
-use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
+use hamiltonian_lanes::{Kernel, Level, Pack, Real};
 
 /// Writes a number of each member to its lane of an existing pack. A returned pack would be copied register by
 /// register at every call.
@@ -22,7 +21,7 @@ pub(in crate::ensemble) fn gather<L: Level, T: Real, P: Pack>(
     numbers: &[T],
     into: &mut T::Over<P>,
 ) {
-    L::enter_at(GatherNumbers::<T, P> { numbers, into });
+    L::enter(GatherNumbers::<T, P> { numbers, into });
 }
 
 /// A number of each member, written to its lane at a level.
@@ -31,10 +30,10 @@ struct GatherNumbers<'a, T: Real, P: Pack> {
     into: &'a mut T::Over<P>,
 }
 
-impl<L: Level, T: Real, P: Pack> KernelAt<L> for GatherNumbers<'_, T, P> {
+impl<T: Real, P: Pack> Kernel for GatherNumbers<'_, T, P> {
     type Output = ();
     #[inline(always)]
-    fn run(self) {
+    fn run<L: Level>(self) {
         *self.into = T::gather::<P>(self.numbers);
     }
 }
@@ -43,7 +42,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for GatherNumbers<'_, T, P> {
 #[inline(always)]
 pub(in crate::ensemble) fn lanes_of<L: Level, T: Real, P: Pack>(flags: &[bool]) -> MaskIn<T, P> {
     let of = PhantomData::<(T, P)>;
-    L::enter_at(LanesOf { flags, of })
+    L::enter(LanesOf { flags, of })
 }
 
 struct LanesOf<'a, T, P> {
@@ -51,10 +50,10 @@ struct LanesOf<'a, T, P> {
     of: PhantomData<(T, P)>,
 }
 
-impl<L: Level, T: Real, P: Pack> KernelAt<L> for LanesOf<'_, T, P> {
+impl<T: Real, P: Pack> Kernel for LanesOf<'_, T, P> {
     type Output = MaskIn<T, P>;
     #[inline(always)]
-    fn run(self) -> MaskIn<T, P> {
+    fn run<L: Level>(self) -> MaskIn<T, P> {
         let number = |flag: &bool| if *flag { T::one() } else { T::zero() };
         let numbers: Vec<T> = self.flags.iter().map(number).collect();
         T::gather::<P>(&numbers).equals(<T::Over<P> as Real>::one())
@@ -64,7 +63,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for LanesOf<'_, T, P> {
 /// Writes the number of each lane to a slice.
 #[inline(always)]
 pub(in crate::ensemble) fn scatter<L: Level, T: Real, P: Pack>(from: &T::Over<P>, into: &mut [T]) {
-    L::enter_at(Scatter::<T, P> { from, into });
+    L::enter(Scatter::<T, P> { from, into });
 }
 
 struct Scatter<'a, T: Real, P: Pack> {
@@ -72,10 +71,10 @@ struct Scatter<'a, T: Real, P: Pack> {
     into: &'a mut [T],
 }
 
-impl<L: Level, T: Real, P: Pack> KernelAt<L> for Scatter<'_, T, P> {
+impl<T: Real, P: Pack> Kernel for Scatter<'_, T, P> {
     type Output = ();
     #[inline(always)]
-    fn run(self) {
+    fn run<L: Level>(self) {
         T::scatter::<P>(*self.from, self.into);
     }
 }
@@ -115,17 +114,17 @@ where
 }
 
 /// Combines the systems of the lanes into one, and makes the map of its steps.
-pub(in crate::ensemble) struct Prepare<'a, T: Real, S: System<T>, P, M> {
+pub(in crate::ensemble) struct Prepare<'a, T: Real, S: System, P, M> {
     scheme: &'a M,
-    systems: &'a [&'a S::Prepared],
+    systems: &'a [&'a S::Prepared<T>],
     steps: &'a [T],
     pack: PhantomData<P>,
 }
 
-impl<'a, T: Real, S: System<T>, P, M> Prepare<'a, T, S, P, M> {
+impl<'a, T: Real, S: System, P, M> Prepare<'a, T, S, P, M> {
     pub(in crate::ensemble) fn new(
         scheme: &'a M,
-        systems: &'a [&'a S::Prepared],
+        systems: &'a [&'a S::Prepared<T>],
         steps: &'a [T],
     ) -> Self {
         let pack = PhantomData;
@@ -138,24 +137,18 @@ impl<'a, T: Real, S: System<T>, P, M> Prepare<'a, T, S, P, M> {
     }
 }
 
-impl<L, T, S, P, M> KernelAt<L> for Prepare<'_, T, S, P, M>
+impl<T, S, P, M> Kernel for Prepare<'_, T, S, P, M>
 where
-    L: Level,
     T: Real,
     P: Pack,
-    S: System<T, Prepared: Gather<T>>
-        + System<
-            T::Over<P>,
-            Vector = VectorOver<<S as System<T>>::Vector, P>,
-            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
-        >,
-    M: Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
-    type Output = (<S as System<T::Over<P>>>::Prepared, M::Map);
+    type Output = (S::Prepared<T::Over<P>>, MapIn<T, S, P, M>);
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
-        let prepared = <S as System<T>>::Prepared::gather::<P>(self.systems);
+    fn run<L: Level>(self) -> Self::Output {
+        let prepared = S::gather::<T, P>(self.systems);
         let step = Step::of(T::gather::<P>(self.steps));
         let map = self.scheme.prepare(&prepared, step);
         (prepared, map)
@@ -163,18 +156,18 @@ where
 }
 
 /// Makes the carried value of a scheme at a state that is the same in all lanes.
-pub(in crate::ensemble) struct Begin<'a, T: Real, S: System<T> + System<T::Over<P>>, P: Pack, M> {
+pub(in crate::ensemble) struct Begin<'a, T: Real, S: System, P: Pack, M> {
     scheme: &'a M,
-    prepared: &'a <S as System<T::Over<P>>>::Prepared,
-    state: &'a State<<S as System<T>>::Vector>,
+    prepared: &'a S::Prepared<T::Over<P>>,
+    state: &'a State<VectorOf<S, T>>,
     steps: &'a [T],
 }
 
-impl<'a, T: Real, S: System<T> + System<T::Over<P>>, P: Pack, M> Begin<'a, T, S, P, M> {
+impl<'a, T: Real, S: System, P: Pack, M> Begin<'a, T, S, P, M> {
     pub(in crate::ensemble) fn new(
         scheme: &'a M,
-        prepared: &'a <S as System<T::Over<P>>>::Prepared,
-        state: &'a State<<S as System<T>>::Vector>,
+        prepared: &'a S::Prepared<T::Over<P>>,
+        state: &'a State<VectorOf<S, T>>,
         steps: &'a [T],
     ) -> Self {
         Begin {
@@ -186,18 +179,17 @@ impl<'a, T: Real, S: System<T> + System<T::Over<P>>, P: Pack, M> Begin<'a, T, S,
     }
 }
 
-impl<L, T, S, P, M> KernelAt<L> for Begin<'_, T, S, P, M>
+impl<T, S, P, M> Kernel for Begin<'_, T, S, P, M>
 where
-    L: Level,
     T: Real,
     P: Pack,
-    S: System<T> + System<T::Over<P>, Vector = VectorOver<<S as System<T>>::Vector, P>>,
-    M: Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
-    type Output = <M::Map as Map>::Carried;
+    type Output = CarriedIn<T, S, P, M>;
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<L: Level>(self) -> Self::Output {
         let State { t, q, p } = self.state;
         let mut start = State {
             t: t.spread::<P>(),
@@ -205,13 +197,13 @@ where
             p: p.zeros_over(),
         };
         for (to, from) in [(&mut start.q, q), (&mut start.p, p)] {
-            for k in 0..<S as System<T>>::Vector::PARTS {
+            for k in 0..<VectorOf<S, T> as Vector>::PARTS {
                 for (to, from) in to.part_mut(k).iter_mut().zip(from.part(k)) {
                     *to = from.spread::<P>();
                 }
             }
         }
         let h = T::gather::<P>(self.steps);
-        Scheme::<T::Over<P>, S>::start(self.scheme, self.prepared, &start, h)
+        self.scheme.start(self.prepared, &start, h)
     }
 }

@@ -14,20 +14,20 @@ use crate::map::{Clock, Map, Step};
 use crate::observe::View;
 use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::{self, System};
+use crate::system::{self, System, VectorOf};
 use crate::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
 /// Passes the states of members at their stops to the host.
 #[inline(never)]
-pub(super) fn pass_to_host<T: Real, S: System<T>, M: Scheme<T, S>>(
+pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
     scheme: &M,
     occupants: &mut Occupants<T, S>,
     host: &mut dyn Host<T, S>,
     durations: Option<&[T]>,
 ) {
-    let recipe: &dyn Recipe<T, S, M::Map> = scheme;
+    let recipe: &dyn Recipe<T, S, M::Map<T>> = scheme;
     let mut is_any_changed = false;
     occupants.for_each_due(|lane, run| {
         let part = Part {
@@ -74,13 +74,13 @@ pub(super) struct PassedStates<'a, T> {
 impl<T: Real> PassedStates<'_, T> {
     /// Passes the states to the observers that have not received them.
     #[inline(never)]
-    pub(super) fn pass<S: System<T>, M: Scheme<T, S>>(
+    pub(super) fn pass<S: System, M: Scheme<S>>(
         &self,
         scheme: &M,
         occupants: &mut Occupants<T, S>,
         host: &mut dyn Host<T, S>,
     ) {
-        let recipe: &dyn Recipe<T, S, M::Map> = scheme;
+        let recipe: &dyn Recipe<T, S, M::Map<T>> = scheme;
         let which = |lane: usize| self.which[lane];
         occupants.for_each_with_sections(which, |lane, run| {
             let step = (run.made + self.ahead).checked_sub(self.back);
@@ -112,8 +112,8 @@ impl<T: Real> PassedStates<'_, T> {
 
 /// A member over its own scalar: its system, a state of its shape, its step, its clock.
 pub(in crate::ensemble) type ScalarMember<'a, T, S> = (
-    &'a <S as System<T>>::Prepared,
-    &'a State<<S as System<T>>::Vector>,
+    &'a <S as System>::Prepared<T>,
+    &'a State<VectorOf<S, T>>,
     T,
     Clock<T>,
 );
@@ -122,7 +122,7 @@ pub(in crate::ensemble) type ScalarMember<'a, T, S> = (
 /// member's own scalar from the carried value. `point` is the state after it, `reached` its time. If `only_energy` is
 /// true, H alone is not finite there.
 #[inline(never)]
-pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
+pub(in crate::ensemble) fn explain<T: Real, S: System, M: Scheme<S>>(
     scheme: &M,
     (prepared, state, step, clock): ScalarMember<'_, T, S>,
     (made, words): (u64, &[T]),
@@ -152,7 +152,7 @@ pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
     let failed = Failed {
         step: made + 1,
         lane: None,
-        clock: system::clock::<T, S>(),
+        clock: system::clock::<S>(),
         begin: begin.to_f64(),
         end: reached,
         q: q.into(),

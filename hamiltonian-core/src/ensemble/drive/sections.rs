@@ -12,7 +12,6 @@ use crate::ensemble::occupants::Occupants;
 use crate::observe::{LaneSection, MemberSection};
 use crate::scheme::Scheme;
 use crate::system::System;
-use crate::system::gather::{Gather, VectorOver};
 use alloc::vec;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Level, Mask, Pack, Real};
@@ -21,13 +20,8 @@ impl<T, S, P, M> Lanes<T, S, P, M>
 where
     T: Real,
     P: Pack,
-    S: System<T, Prepared: Gather<T>>
-        + System<
-            T::Over<P>,
-            Vector = VectorOver<<S as System<T>>::Vector, P>,
-            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
-        >,
-    M: Scheme<T, S> + Scheme<T::Over<P>, S>,
+    S: System,
+    M: Scheme<S>,
 {
     /// Loads the functions whose sign is followed for at least one member into lanes.
     #[inline(always)]
@@ -143,7 +137,7 @@ where
     ) {
         let ahead = step - self.made;
         for (back, carried) in [2, 1, 0].into_iter().zip(&self.last_three) {
-            let (carries_duration, _) = L::enter_at(Close::<'_, _, T, P> {
+            let (carries_duration, _) = L::enter(Close::<'_, _, T, P> {
                 map: &self.map,
                 times: &self.times,
                 made: step.wrapping_sub(back),

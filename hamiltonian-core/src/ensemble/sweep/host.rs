@@ -5,7 +5,7 @@
 
 use super::{EndPoint, Sweep};
 use crate::ensemble::Member;
-use crate::ensemble::bound::Ensembles;
+use crate::ensemble::bound;
 use crate::ensemble::guard::guard;
 use crate::ensemble::hash::hash_of;
 use crate::ensemble::host::{Host, MemberRun};
@@ -15,8 +15,9 @@ use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
 use crate::observe::{FollowVisitor, FollowedQuantities, Observer, View};
+use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::{System, clock};
+use crate::system::{System, VectorOf, clock};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
@@ -38,10 +39,10 @@ struct ActiveMember<O> {
 }
 
 /// `Break` at the end of a member, with its state there, and true if its observer ended it.
-type EndOrContinue<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
+type EndOrContinue<S> = ControlFlow<(State<VectorOf<S>>, bool)>;
 
 /// The members of a chunk, at their starts, running or ended.
-pub(crate) struct SweepHost<'r, 'a, S: System<f64>, M, O, A> {
+pub(crate) struct SweepHost<'r, 'a, S: System, M, O, A> {
     sweep: &'r Sweep<'a, S, M, O, Record<'a, S, O>, A>,
     indices: Range<usize>,
     /// The number of the next member in the chunk.
@@ -59,8 +60,8 @@ pub(crate) struct SweepHost<'r, 'a, S: System<f64>, M, O, A> {
 
 impl<'r, 'a, S, M, O, A> SweepHost<'r, 'a, S, M, O, A>
 where
-    S: System<f64>,
-    M: Ensembles<S>,
+    S: System,
+    M: Scheme<S>,
     O: Observer<f64, S>,
     A: Rounding,
 {
@@ -87,7 +88,7 @@ where
     /// Advances all members to their ends.
     pub(crate) fn batch(mut self) -> Batch {
         let sweep = self.sweep;
-        Ensembles::<S>::drive::<A>(&sweep.scheme, &mut self);
+        bound::drive::<f64, S, M, A>(&sweep.scheme, &mut self);
         let missing = |outcome: Option<MemberOutcome>| {
             outcome.unwrap_or(MemberOutcome {
                 status: Status::Missing,
@@ -123,7 +124,7 @@ where
         check_step(step)?;
         let prepared = check_start(&system, &start)?;
         if let Some(run) = slot
-            && !sweep.erased().fits(&run.prepared, &prepared)
+            && !S::fits(&run.prepared, &prepared)
         {
             return Err(Error::OtherSizes { system: S::NAME });
         }
@@ -173,7 +174,7 @@ where
         };
         match slot {
             Some(run) => {
-                run.system_changed |= !sweep.erased().equals(&run.prepared, &prepared);
+                run.system_changed |= !S::equals(&run.prepared, &prepared);
                 run.words.copy_from_slice(&self.words);
                 run.prepared = prepared;
                 run.state = start;
@@ -225,12 +226,12 @@ where
                 // The clock has the start and the direction, but not the times of these steps.
                 let is_behind = (t - clock_of.start) * clock_of.interval < 0.0;
                 if is_behind {
-                    clock_of.whole_steps(0, t, clock::<f64, S>())?;
+                    clock_of.whole_steps(0, t, clock::<S>())?;
                 }
                 None
             }
             (Some(t), _) => {
-                let (before, after) = clock_of.whole_steps(made, t, clock::<f64, S>())?;
+                let (before, after) = clock_of.whole_steps(made, t, clock::<S>())?;
                 Some(made + before.unwrap_or(after))
             }
             (None, EndPoint::Steps(n)) => Some(*n),
@@ -316,7 +317,7 @@ where
         &self,
         active: &mut ActiveMember<O>,
         view: &View<'_, f64, S>,
-        state: &State<S::Vector>,
+        state: &State<VectorOf<S>>,
         stopped: bool,
     ) {
         let end = End {
@@ -336,7 +337,7 @@ where
         key: usize,
         active: &ActiveMember<O>,
         view: &View<'_, f64, S>,
-        end: Result<(State<S::Vector>, bool), Error>,
+        end: Result<(State<VectorOf<S>>, bool), Error>,
     ) -> bool {
         let values = &active.values;
         match end {
@@ -385,8 +386,8 @@ where
 
 impl<S, M, O, A> Host<f64, S> for SweepHost<'_, '_, S, M, O, A>
 where
-    S: System<f64>,
-    M: Ensembles<S>,
+    S: System,
+    M: Scheme<S>,
     O: Observer<f64, S>,
     A: Rounding,
 {

@@ -15,7 +15,7 @@ use crate::schemes::rows::{
 use crate::state::Point;
 use crate::system::Dynamics;
 use crate::system::gather::{InLanes, Kept};
-use crate::vector::Vector;
+use crate::vector::{Over, Vector};
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 
@@ -219,7 +219,7 @@ where
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
     where
         P: Pack,
-        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>> + 'static,
+        D: Dynamics<T::Over<P>, Vector = Over<Q::Vector, T::Over<P>>> + 'static,
     {
         let StepsBeside {
             map,

@@ -74,8 +74,10 @@ fn balls_hold_the_exact_value() {
             _ => match TABLE[op as usize].arguments.len() {
                 1 => (format!("{op:?}"), Ball::call(op, &[a]), op.eval(&[u])),
                 2 => {
-                    // Remainders of `f64` are exact, those of double-doubles lose the digits of large quotients.
+                    // Remainders of `f64` are exact, those of double-doubles lose the digits of large quotients. The
+                    // sum of one below 0 and a large modulus is not.
                     let exact = match op {
+                        Op::Modulo if x % y < 0.0 => D::from(x % y) + D::from(y.abs()),
                         Op::Modulo | Op::Remainder => D::from(op.eval(&[x, y])),
                         _ => op.eval(&[u, v]),
                     };

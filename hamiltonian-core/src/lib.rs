@@ -131,7 +131,7 @@ pub use system::{
 };
 pub use table::Table;
 pub use transformed::TimeTransformed;
-pub use vector::{IntoVector, Shape, Vector, shape};
+pub use vector::{IntoVector, Vector, shape};
 
 // Hidden, since the glob of the facade would put its pages among those of the library.
 #[doc(hidden)]

@@ -27,6 +27,7 @@ pub use crate::state::{Carried, CarriedShape, Pair, Point};
 pub use crate::system::gather::{self, InLanes, InPack, Kept};
 pub use crate::system::{Arithmetic, Cyclic, Dynamics, Group, Observable, ObservableKind};
 pub use crate::transformed::WithTime;
+pub use crate::vector::{Over, Shape};
 
 pub use super::catalogue::catalogue;
 pub use super::iterate::{Contraction, Outcome, iterate};

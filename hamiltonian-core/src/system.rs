@@ -106,18 +106,20 @@ pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
 /// impl Unforced for Spring {}
 /// # impl<T: Real> Dynamics<T> for Ready<T> {
 /// #     type Vector = SVector<T, 1>;
-/// #     type Field = (Self, T);
+/// #     type Field = Scaled<T>;
 /// #     fn energy(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> T { (p[0] * p[0] + self.omega_squared * q[0] * q[0]) * T::constant(0.5, 0.0) }
 /// #     fn gradient_q(&self, _: T, q: &SVector<T, 1>, _: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = self.omega_squared * q[0]; }
 /// #     fn gradient_p(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = p[0]; }
 /// #     fn time_derivative(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
 /// #     fn hessian_vector(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, vq: &SVector<T, 1>, vp: &SVector<T, 1>, out_q: &mut SVector<T, 1>, out_p: &mut SVector<T, 1>) { out_q[0] = self.omega_squared * vq[0]; out_p[0] = vp[0]; }
-/// #     fn field(&self, c: T) -> (Self, T) { (self.clone(), c) }
+/// #     fn field(&self, c: T) -> Scaled<T> { Scaled(self.clone(), c) }
 /// #     fn in_pack<P: Pack, K: InPack<T, SVector<T, 1>, P>>(&self, kept: &mut Kept, kernel: K) -> Option<K::Output> {
 /// #         gather::in_pack::<T, Spring, P, K>(self, kept, kernel)
 /// #     }
 /// # }
-/// # impl<T: Real> VectorField<SVector<T, 1>> for (Ready<T>, T) {
+/// # #[derive(Debug, Clone)]
+/// # struct Scaled<T>(Ready<T>, T);
+/// # impl<T: Real> VectorField<SVector<T, 1>> for Scaled<T> {
 /// #     fn add(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>, into_q: &mut SVector<T, 1>, into_p: &mut SVector<T, 1>) {
 /// #         into_q[0] += self.1 * p[0];
 /// #         into_p[0] -= self.1 * self.0.omega_squared * q[0];

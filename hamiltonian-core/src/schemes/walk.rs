@@ -14,7 +14,7 @@
 //! /// Prints the change of H of each scheme.
 //! struct Compare;
 //!
-//! impl Visitor<f64, Coupled> for Compare {
+//! impl Visitor<Coupled> for Compare {
 //!     fn visit<M: Scheme<Coupled>>(&mut self, scheme: M) {
 //!         let name = scheme.entry().name;
 //!         let start: StateOf<Coupled> = State::new([0.0], [1.0]);

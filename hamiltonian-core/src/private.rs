@@ -91,6 +91,12 @@ pub fn window<T, const N: usize>(values: &[T], start: usize) -> &[T; N] {
     }
 }
 
+/// A captured value. A value of another type than those of parameters is an error at its name.
+#[inline(always)]
+pub fn captured<P: Parameter>(value: P) -> P {
+    value
+}
+
 /// Writes the elements of a parameter, `m = 0.5`, `m[2] = 1.5` or `K[0][1] = 1.5`, each on a line. The last index of
 /// `values` is the fastest.
 ///

@@ -46,7 +46,7 @@ pub fn generate(context: Context) -> TokenStream {
                 #checks
                 #inherent
             };
-            #name { #(#fields: #captures),* }
+            #name { #(#fields: #root::private::captured(#captures)),* }
         }
     }
 }

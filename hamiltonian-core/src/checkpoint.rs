@@ -49,9 +49,9 @@ pub struct Checkpoint {
     pub(crate) scheme: String,
     /// The type of the numbers.
     pub(crate) scalar: String,
-    /// Steps, the step at which the clock began, and flags: ended by an observer (1), fused (2),
-    /// without lanes (4).
-    pub(crate) counts: [u64; 3],
+    /// Steps, the step at which the scheme started, the number of steps between the start of the clock and that step, and
+    /// flags: ended by an observer (1), fused (2), without lanes (4).
+    pub(crate) counts: [u64; 4],
     /// The time at which the clock began, the step, then all that is carried.
     pub(crate) numbers: Memory,
     /// The memory of the observers, in their order.
@@ -61,8 +61,9 @@ pub struct Checkpoint {
 const MAGIC: &[u8; 8] = b"HAMILTON";
 /// Version 2: implicit schemes add their stages in another order, sums of 32 terms or more are
 /// trees, sums over the pairs of 4096 points or more are computed in tiles, a run has flags for its
-/// arithmetic, and matrices among the parameters are written row after row.
-const VERSION: u64 = 2;
+/// arithmetic, and matrices among the parameters are written row after row. Version 3: the state of a run may have been
+/// changed.
+const VERSION: u64 = 3;
 
 impl Checkpoint {
     /// The number of steps made.
@@ -142,7 +143,12 @@ impl Checkpoint {
             parameters: from.read_text()?,
             scheme: from.read_text()?,
             scalar: from.read_text()?,
-            counts: [from.read_count()?, from.read_count()?, from.read_count()?],
+            counts: [
+                from.read_count()?,
+                from.read_count()?,
+                from.read_count()?,
+                from.read_count()?,
+            ],
             numbers: from.read_memory()?,
             observers: from.read_memory()?,
         };

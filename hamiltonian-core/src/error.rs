@@ -243,6 +243,15 @@ pub enum Error {
         /// The present time.
         now: f64,
     },
+    /// A new state of a run, at another time than the run.
+    OtherTime {
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
+        /// The time of the state.
+        given: f64,
+        /// The present time of the run.
+        now: f64,
+    },
     /// No number of steps is known to lead to a time.
     Uneven,
     /// A time more than one step from the present one.

@@ -411,6 +411,24 @@ impl<T: Real, S: System> Observer<T, S> for Events<VectorOf<S, T>> {
         }
     }
 
+    fn change(&mut self, _: &View<'_, T, S>, to: &View<'_, T, S>) {
+        if self.failure.is_some() {
+            return;
+        }
+        let counts: Vec<_> = self.histories.iter().map(|history| history.count).collect();
+        match self.begin(to) {
+            Ok(()) => {
+                for (history, count) in self.histories.iter_mut().zip(counts) {
+                    history.count = count;
+                }
+            }
+            Err(error) => self.failure = Some(error),
+        }
+        self.before = Some((to.step, to.state.clone()));
+        self.end = None;
+        self.pending.clear();
+    }
+
     fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
         // Lanes do not evaluate closures. The previous values at the first state are found by a step back, when the
         // observer is attached.

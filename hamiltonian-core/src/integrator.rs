@@ -5,6 +5,7 @@
 //! finite is never returned, but detected, located and reported.
 
 mod advance;
+mod change;
 mod checks;
 mod estimate;
 mod inspect;
@@ -13,7 +14,7 @@ mod part;
 mod threads;
 
 pub use advance::States;
-pub(crate) use checks::{check_scheme, check_start, check_state, check_step};
+pub(crate) use checks::{check_change, check_scheme, check_start, check_state, check_step};
 pub use estimate::ErrorEstimate;
 pub(crate) use part::{Part, Recipe};
 
@@ -172,10 +173,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
             snapshot: carried.clone(),
             shown: carried.clone(),
             carried,
-            clock: Clock {
-                start: start.t,
-                interval: step * duration(&entry),
-            },
+            clock: Clock::new(start.t, step * duration(&entry)),
             parameters: parameters(system),
             prepared,
             recipe: Arc::new(scheme),
@@ -244,26 +242,6 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// Continues with another step: the scheme starts anew at the current state and makes the other
-    /// carried values again, for example the second point of (25), (26) and (33).
-    ///
-    /// # Errors
-    /// [`Error::Step`] for a zero, NaN or infinite step.
-    pub fn change_step(&mut self, step: T) -> Result<(), Error> {
-        check_step(step)?;
-        self.carried = self.recipe.start(&self.prepared, &self.state, step);
-        self.map = self.recipe.prepare(&self.prepared, Step::of(step));
-        self.clock = Clock {
-            start: self.state.t,
-            interval: step * duration(&self.entry),
-        };
-        self.step = step;
-        self.began = self.steps;
-        // The second copy that can be observed is the one of the new start.
-        self.arrives(self.steps);
-        Ok(())
-    }
-
     /// Turns the lanes of the CPU's registers off, or on again, as by default. In lanes, several
     /// stages of implicit schemes and iterations of loops over arrays are computed at a time;
     /// systems written by hand stay scalar. The bits are the same, unless the run is

@@ -182,13 +182,16 @@ impl<T: Copy> Step<T> {
     }
 }
 
-/// Time as a function of the number of steps: `start + k·interval`, never a running sum.
+/// Time as a function of the number of steps: `start + (first + k)·interval`, never a running sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock<T> {
-    /// The time at step 0.
+    /// The time at which the clock was set.
     pub start: T,
     /// The duration of one step.
     pub interval: T,
+    /// The number of steps between that time and step 0. A run whose state was changed counts its steps from there anew,
+    /// and its times stay those of the run without the change.
+    pub first: u64,
 }
 
 /// The times of steps.
@@ -208,8 +211,17 @@ impl<T: Real> Clock<T> {
     /// Creates the clock of one step.
     #[inline(always)]
     pub(crate) fn between(start: T, end: T) -> Self {
-        let interval = end - start;
-        Clock { start, interval }
+        Clock::new(start, end - start)
+    }
+
+    /// Creates a clock that shows `start` at step 0.
+    #[inline(always)]
+    pub fn new(start: T, interval: T) -> Self {
+        Clock {
+            start,
+            interval,
+            first: 0,
+        }
     }
 
     /// Returns the time after `made` steps.
@@ -219,8 +231,8 @@ impl<T: Real> Clock<T> {
     #[inline(always)]
     pub fn at(&self, made: u64) -> T {
         // Conversion of signed integers takes one instruction, of unsigned integers several.
-        self.interval
-            .fma(T::constant(made as i64 as f64, 0.0), self.start)
+        let made = self.first.wrapping_add(made) as i64 as f64;
+        self.interval.fma(T::constant(made, 0.0), self.start)
     }
 }
 

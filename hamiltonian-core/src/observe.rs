@@ -99,6 +99,12 @@ pub trait Observer<T: Real, S: System> {
     }
     /// Receives a state whose step number is a multiple of the interval; `Break` ends the run.
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
+    /// Receives a change of the run between two steps, by [`Integrator::set_state`] or [`Integrator::set_system`]: the
+    /// run was at `from` and goes on from `to`, which has the same time. The provided method does nothing.
+    ///
+    /// [`Integrator::set_state`]: crate::Integrator::set_state
+    /// [`Integrator::set_system`]: crate::Integrator::set_system
+    fn change(&mut self, _from: &View<'_, T, S>, _to: &View<'_, T, S>) {}
     /// Lists the functions of the state that the observer follows, or accepts their drifts from the visitor. Returns
     /// true if the observer needs only drifts, at multiples of its interval, and changes of signs. Ensembles then
     /// follow them in lanes.
@@ -244,6 +250,9 @@ impl<T: Real, S: System, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         self.inner.observe(view)
     }
+    fn change(&mut self, from: &View<'_, T, S>, to: &View<'_, T, S>) {
+        self.inner.change(from, to);
+    }
     fn save(&self, to: &mut Memory) {
         self.inner.save(to);
     }
@@ -271,6 +280,9 @@ impl<T: Real, S: System, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut O {
     }
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         (**self).observe(view)
+    }
+    fn change(&mut self, from: &View<'_, T, S>, to: &View<'_, T, S>) {
+        (**self).change(from, to);
     }
     fn save(&self, to: &mut Memory) {
         (**self).save(to);
@@ -339,6 +351,9 @@ macro_rules! tuple {
                     control = both(control, self.$index.observe(view));
                 })+
                 control
+            }
+            fn change(&mut self, from: &View<'_, T, S>, to: &View<'_, T, S>) {
+                $(self.$index.change(from, to);)+
             }
             fn save(&self, to: &mut Memory) {
                 $(self.$index.save(to);)+

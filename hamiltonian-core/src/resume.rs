@@ -45,7 +45,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             parameters: self.parameters.clone(),
             scheme: self.recipe.describe(),
             scalar: core::any::type_name::<T>().to_owned(),
-            counts: [self.steps, self.began, flags],
+            counts: [self.steps, self.began, self.clock.first, flags],
             numbers,
             observers,
         }
@@ -153,8 +153,8 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
         for index in 0..run.carried.len() {
             *run.carried.component_mut(index) = numbers.read_scalar()?;
         }
-        let [steps, began, flags] = checkpoint.counts;
-        if !numbers.is_empty() || began > steps {
+        let [steps, began, first, flags] = checkpoint.counts;
+        if !numbers.is_empty() || began > steps || first > began {
             return Err(CheckpointError::Damaged {
                 reason: "the numbers do not fit",
             }
@@ -163,6 +163,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
         let clock = Clock {
             start,
             interval: run.clock.interval,
+            first,
         };
         let mut run = run.computed(Arithmetic {
             lanes: flags & SCALAR == 0,

@@ -207,10 +207,7 @@ pub trait System {
     /// first axis of another extent, [`Error::Row`] with a row of another length than others.
     fn check_shape<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> Result<(), Error> {
         let zeros = self.zeros();
-        let coordinates = Self::GROUPS.iter().map(|g| (g.part, g.coordinate));
-        same_shape(coordinates, &zeros, &state.q)?;
-        let momenta = Self::GROUPS.iter().map(|g| (g.part, g.momentum));
-        same_shape(momenta, &zeros, &state.p)
+        check_shape_like::<Self, _>([&zeros, &zeros], state)
     }
 
     /// H at a state.
@@ -577,6 +574,17 @@ pub trait Autonomous {}
 pub trait Cyclic {
     /// Names of the cyclic coordinates as declared (`q`, or `q[0]` for a component).
     const CYCLIC: &'static [&'static str] = &[];
+}
+
+/// Returns an error for a state of another shape than these coordinates and momenta.
+pub(crate) fn check_shape_like<S: System + ?Sized, V: Vector>(
+    [q, p]: [&V; 2],
+    state: &State<V>,
+) -> Result<(), Error> {
+    let coordinates = S::GROUPS.iter().map(|g| (g.part, g.coordinate));
+    same_shape(coordinates, q, &state.q)?;
+    let momenta = S::GROUPS.iter().map(|g| (g.part, g.momentum));
+    same_shape(momenta, p, &state.p)
 }
 
 /// An error where a part has not the length the system asks for, with the name of the first group

@@ -160,6 +160,14 @@ where
         self.go(view, before.unwrap_or_else(|| view.state.clone()))
     }
 
+    fn change(&mut self, from: &View<'_, T, S>, to: &View<'_, T, S>) {
+        self.before = Some(to.state.clone());
+        self.end = None;
+        if self.shown > 0 {
+            self.inner.change(from, to);
+        }
+    }
+
     fn save(&self, to: &mut Memory) {
         to.begin("AtTimes");
         to.count(self.shown);

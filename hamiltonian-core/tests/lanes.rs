@@ -57,10 +57,7 @@ fn check<H, M, const N: usize>(
     let mut carried = Scheme::start(scheme, &prepared, &dead, Four([h; 4]));
     let map = Scheme::prepare(scheme, &prepared, Step::of(Four([h; 4])));
     let mut work = Scratch::like(&carried);
-    let clock = Clock {
-        start: Four([0.0; 4]),
-        interval: run.interval(),
-    };
+    let clock = Clock::new(Four([0.0; 4]), run.interval());
     map.run(clock, 0, 700, &mut carried, &mut work);
     map.close(clock.at(700), &mut carried, &mut work);
     let point = hamiltonian_core::schemes::author::Carried::point(&carried);

@@ -3,6 +3,7 @@
 
 mod between;
 mod blame;
+mod changes;
 mod checkpoint;
 #[allow(dead_code)]
 mod common;

@@ -5,7 +5,7 @@
 //! else in it grows with the number of members.
 
 use super::guard::guard;
-use super::host::{Host, MemberRun};
+use super::host::{Host, MemberRun, RunAtStop};
 use crate::error::Error;
 use crate::map::Clock;
 use crate::observe::{FollowVisitor, FollowedQuantities, Observer, View};
@@ -72,6 +72,8 @@ pub(crate) struct Chunk<R, V: Vector<Scalar = f64>, O> {
     pub(crate) prepared: Shared<R>,
     /// The times at which the members start.
     pub(crate) starts: Shared<f64>,
+    /// The number of steps after which the scheme started, for each member; empty if it is 0 for all.
+    pub(crate) began: Vec<u64>,
     pub(crate) finished: BTreeMap<usize, Finished<V>>,
     pub(crate) observers: Vec<O>,
 }
@@ -87,6 +89,7 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
             words: Vec::new(),
             prepared: Shared::Nothing,
             starts: Shared::Nothing,
+            began: Vec::new(),
             finished: BTreeMap::new(),
             observers: Vec::new(),
         }
@@ -133,6 +136,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
             words: self.words,
             prepared: self.prepared,
             starts: self.starts,
+            began: self.began,
             finished: self.finished,
             observers,
         }
@@ -148,6 +152,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
             words: self.words[..end * width].into(),
             prepared: self.prepared.clone(),
             starts: self.starts.clone(),
+            began: self.began.clone(),
             finished: self.finished.clone(),
             observers: alloc::vec![(); end],
         }
@@ -274,6 +279,7 @@ where
             return false;
         };
         let made = self.common.steps;
+        let began = self.chunk.began.get(key).copied().unwrap_or(0);
         let interval = self.chunk.observers[key].interval();
         let stop = match followed.is_empty() {
             true => self.stop(key, made),
@@ -281,10 +287,7 @@ where
         };
         let width = self.common.width;
         let words = &self.chunk.words[key * width..][..width];
-        let clock = Clock {
-            start: *start,
-            interval: self.common.interval,
-        };
+        let clock = Clock::new(*start, self.common.interval);
         match slot {
             Some(run) => {
                 if matches!(self.chunk.prepared, Shared::Each(_)) {
@@ -293,6 +296,7 @@ where
                 }
                 run.words.copy_from_slice(words);
                 (run.key, run.clock, run.made, run.stop) = (key, clock, made, stop);
+                run.began = began;
                 (run.followed, run.interval) = (followed, interval);
                 (run.since, run.received) = (made, made);
             }
@@ -304,6 +308,7 @@ where
                     step: self.common.step,
                     clock,
                     made,
+                    began,
                     stop,
                     words: words.into(),
                     followed,
@@ -317,22 +322,16 @@ where
         true
     }
 
-    fn receive(
-        &mut self,
-        key: usize,
-        stop: &mut u64,
-        followed: &mut FollowedQuantities<f64>,
-        view: &View<'_, f64, S>,
-    ) -> bool {
+    fn receive(&mut self, key: usize, run: RunAtStop<'_, f64>, view: &View<'_, f64, S>) -> bool {
         // The lanes have evaluated the quantities of its observer up to the target.
-        if !followed.is_empty() {
+        if !run.followed.is_empty() {
             return false;
         }
         let observer = &mut self.chunk.observers[key];
         let receive = &mut self.receive;
         match guard(|| receive(key, observer, view)) {
             Ok(ControlFlow::Continue(())) => {
-                *stop = self.stop(key, view.step);
+                *run.stop = self.stop(key, view.step);
                 view.step < self.target
             }
             Ok(ControlFlow::Break(end)) => self.end(key, view, end),

@@ -270,7 +270,9 @@ where
         for (at, into) in [start, interval, ahead].into_iter().enumerate() {
             self.numbers.clear();
             let number = |run: &&MemberRun<T, S>| {
-                let Clock { start, interval } = run.clock;
+                let Clock {
+                    start, interval, ..
+                } = run.clock;
                 [start, interval, as_scalar(run.made)][at]
             };
             self.numbers.extend(runs.iter().map(number));
@@ -280,7 +282,7 @@ where
             (_, true) => Opening::Open,
             (false, _) => Opening::Join,
             _ => {
-                let at_start: Vec<bool> = runs.iter().map(|run| run.made == 0).collect();
+                let at_start: Vec<bool> = runs.iter().map(|run| run.made == run.began).collect();
                 Opening::Mixed(lanes_of::<L, T, P>(&at_start))
             }
         };
@@ -429,7 +431,7 @@ where
             }
             let point: Vec<f64> = (0..2 * size).map(|c| column(&shown, c).to_f64()).collect();
             let single = (&run.prepared, &run.state, run.step, run.clock);
-            let made = (run.made, &*run.words);
+            let made = (run.made, run.made == run.began, &*run.words);
             let reached = column(&shown, 2 * size).to_f64();
             let only_energy = numbers.lane(lane as u32);
             let error = explain(scheme, single, made, (&point, reached), only_energy);

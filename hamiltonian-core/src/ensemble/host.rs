@@ -26,6 +26,8 @@ pub struct MemberRun<T: Real, S: System> {
     pub(crate) clock: Clock<T>,
     /// The number of steps made.
     pub(crate) made: u64,
+    /// The number of steps after which the scheme started: 0, or that of the last change of the member.
+    pub(crate) began: u64,
     /// The number of steps at which the host next receives the member.
     pub(crate) stop: u64,
     /// The carried value of the scheme. It is up to date only when the member is loaded and when it leaves.
@@ -42,20 +44,25 @@ pub struct MemberRun<T: Real, S: System> {
     pub(crate) state: State<VectorOf<S, T>>,
 }
 
+/// What a host may change of a run that it receives.
+pub struct RunAtStop<'a, T> {
+    /// The number of steps at the next stop.
+    pub(crate) stop: &'a mut u64,
+    /// The quantities that lanes evaluate from now on.
+    pub(crate) followed: &'a mut FollowedQuantities<T>,
+    /// The carried value, if the member is changed. It is not up to date before.
+    pub(crate) words: &'a mut Vec<T>,
+    /// The number of steps after which the scheme started: that of now, if the member is changed.
+    pub(crate) began: &'a mut u64,
+}
+
 /// The owner of members, which begins their runs and receives their states at stops.
 pub trait Host<T: Real, S: System> {
     /// Loads the run of the next member into a slot. A run that is already there has ended, and its storage may
     /// be reused. Returns false if there is no next member.
     fn load(&mut self, slot: &mut Option<MemberRun<T, S>>) -> bool;
-    /// Receives a member's state at its stop. Returns true if the member stays, and then sets its next stop. From then
-    /// on, lanes evaluate the quantities in `followed`.
-    fn receive(
-        &mut self,
-        key: usize,
-        stop: &mut u64,
-        followed: &mut FollowedQuantities<T>,
-        view: &View<'_, T, S>,
-    ) -> bool;
+    /// Receives a member's state at its stop. Returns true if the member stays, and then sets its next stop.
+    fn receive(&mut self, key: usize, run: RunAtStop<'_, T>, view: &View<'_, T, S>) -> bool;
     /// Passes a state before the next stop to the observer of a member, see
     /// [`Observer::pass`](crate::Observer::pass). Returns true if the member stays.
     fn pass(&mut self, key: usize, view: &View<'_, T, S>, signs_kept: bool) -> bool;

@@ -4,6 +4,7 @@
 
 use super::Member;
 use super::bound::{self, ErasedScheme};
+use super::change::Standing;
 use super::chunk::{Chunk, ChunkHost, ChunkOf, Common, Decision, Finished, end_of, observe};
 use super::guard::guard;
 use super::rounding::{Fused, Rounding, Unfused};
@@ -11,6 +12,7 @@ use super::threads;
 use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
+use crate::map::Clock;
 use crate::observe::{Observer, Unobserved, Verdict, View};
 use crate::scheme::Scheme;
 use crate::state::State;
@@ -241,6 +243,71 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
         }
         self.drive(target, false, |_, observer, view| observe(observer, view));
         self.common.steps = target;
+        self
+    }
+
+    /// Changes the states of members between two steps, for example by kicks. The closure receives each member that has
+    /// neither failed nor been ended, with its present state, whose time it must keep.
+    ///
+    /// A member that is changed goes on as a single run after [`set_state`](crate::Integrator::set_state): its steps,
+    /// times and observer stay. A member that is not changed keeps its bits. A state that cannot be a start is the error
+    /// of its member.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |_| (Oscillator {}, State::new([0.1], [0.0]));
+    /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 1e-3)?;
+    /// for _ in 0..5 {
+    ///     swarm.advance(100);
+    ///     swarm.update(|member, state| {
+    ///         if member.index % 2 == 0 {
+    ///             state.p[0] *= 0.9; // friction
+    ///         }
+    ///     });
+    /// }
+    /// assert_eq!(swarm.steps(), 500);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn update(&mut self, mut change: impl FnMut(Member, &mut State<VectorOf<S>>)) -> &mut Self {
+        let (made, width) = (self.common.steps, self.common.width);
+        let scheme = Arc::clone(&self.scheme);
+        let mut words = Vec::new();
+        for number in 0..self.chunks.len() {
+            let states = self.closed(number, 0..usize::MAX, None);
+            let chunk = &mut self.chunks[number];
+            for (key, state) in states.into_iter().enumerate() {
+                let (Ok(state), Some(prepared), Some(start), false) = (
+                    state,
+                    chunk.prepared.get(key),
+                    chunk.starts.get(key),
+                    chunk.finished.contains_key(&key),
+                ) else {
+                    continue;
+                };
+                let standing = Standing {
+                    scheme: &*scheme,
+                    prepared,
+                    step: self.common.step,
+                    clock: Clock::new(*start, self.common.interval),
+                    made,
+                };
+                let member = Member::new(chunk.first + key, 0);
+                let closure = |state: &mut State<VectorOf<S>>| change(member, state);
+                let observer = &mut chunk.observers[key];
+                match standing.change(&state, closure, observer, &mut words) {
+                    Ok(false) => {}
+                    Ok(true) => {
+                        chunk.words[key * width..][..width].copy_from_slice(&words);
+                        chunk.began.resize(chunk.count, 0);
+                        chunk.began[key] = made;
+                    }
+                    Err(error) => {
+                        chunk.finished.insert(key, Finished::Failed(error, made));
+                    }
+                }
+            }
+        }
         self
     }
 

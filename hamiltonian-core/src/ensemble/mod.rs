@@ -17,6 +17,7 @@
 
 mod block;
 mod bound;
+mod change;
 mod chunk;
 mod close;
 mod drive;

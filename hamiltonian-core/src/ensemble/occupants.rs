@@ -147,7 +147,7 @@ impl<T: Real, S: System> Occupants<T, S> {
         for (run, status) in self.runs.iter_mut().zip(&self.status) {
             if let Some(run) = run.as_mut().filter(|_| *status != LaneStatus::Empty) {
                 change.parameters |= core::mem::take(&mut run.system_changed);
-                let is_at_start = run.made == 0;
+                let is_at_start = run.made == run.began;
                 change.any_at_start |= is_at_start;
                 change.all_at_start &= is_at_start;
             }
@@ -400,6 +400,17 @@ impl<T: Real, S: System> Occupants<T, S> {
     /// Records that the followed quantities of a member have changed.
     pub(crate) fn followed_changed(&mut self) {
         self.any_followed = true;
+        self.change.get_or_insert_default();
+    }
+
+    /// Loads the carried values of the running members that were changed at the present step.
+    pub(crate) fn reload(&mut self) {
+        for (run, status) in self.runs.iter().zip(&mut self.status) {
+            let is_moved = |run: &MemberRun<T, S>| run.began == run.made;
+            if *status == LaneStatus::Running && run.as_ref().is_some_and(is_moved) {
+                *status = LaneStatus::Loaded;
+            }
+        }
         self.change.get_or_insert_default();
     }
 

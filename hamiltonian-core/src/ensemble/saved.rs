@@ -55,6 +55,10 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O
             for word in &chunk.words {
                 numbers.number(*word);
             }
+            numbers.count(chunk.began.len() as u64);
+            for steps in &chunk.began {
+                numbers.count(*steps);
+            }
             for (key, observer) in chunk.observers.iter().enumerate() {
                 match chunk.finished.get(&key) {
                     None => numbers.count(ON),
@@ -79,7 +83,7 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O
             parameters: self.members_hash(),
             scheme: self.erased().describe(),
             scalar: core::any::type_name::<f64>().to_owned(),
-            counts: [self.common.steps, 0, 0],
+            counts: [self.common.steps, 0, 0, 0],
             numbers,
             observers,
         }
@@ -156,6 +160,14 @@ impl<S: System, M: Scheme<S>, A: Rounding> Ensemble<S, M, (), A> {
             for word in &mut chunk.words {
                 *word = numbers.read_number()?;
             }
+            chunk.began = match numbers.read_count()? {
+                0 => Vec::new(),
+                count if count == chunk.count as u64 => {
+                    let steps = (0..count).map(|_| numbers.read_count());
+                    steps.collect::<Result<_, Error>>()?
+                }
+                _ => return Err(damaged()),
+            };
             for key in 0..chunk.count {
                 let finished = match (numbers.read_count()?, &swarm.common.template) {
                     (ON, _) => continue,

@@ -30,6 +30,9 @@ use host::SweepHost;
 /// A closure that returns a number for each member.
 type PerMember<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
 
+/// A closure that may change the state of a member.
+type ChangeMember<'a, S> = Box<dyn Fn(Member, &mut State<VectorOf<S>>) + Send + Sync + 'a>;
+
 /// The end of members.
 pub(crate) enum EndPoint<'a> {
     /// Not set.
@@ -74,6 +77,8 @@ pub struct Sweep<'a, S: System, M, O = (), R = (), A = Fused> {
     pub(crate) step: f64,
     pub(crate) step_each: Option<PerMember<'a>>,
     pub(crate) end: EndPoint<'a>,
+    /// The number of steps between two changes of a member, and the change.
+    pub(crate) each: Option<(u64, ChangeMember<'a, S>)>,
     pub(crate) observer: Arc<dyn Fn(Member) -> O + Send + Sync + 'a>,
     pub(crate) record: R,
     pub(crate) seed: u64,
@@ -117,6 +122,7 @@ impl<'a, S: System, M: Scheme<S>> Sweep<'a, S, M> {
             step,
             step_each: None,
             end: EndPoint::Unknown,
+            each: None,
             observer: Arc::new(|_| ()),
             record: (),
             seed: 0,
@@ -216,6 +222,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
             step: self.step,
             step_each: self.step_each,
             end: self.end,
+            each: self.each,
             observer,
             record,
             seed: self.seed,
@@ -247,6 +254,33 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     #[must_use]
     pub fn until_each(mut self, t: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
         self.end = EndPoint::Each(Box::new(t));
+        self
+    }
+
+    /// Changes each member after every `n` steps (0 counts as 1), but for its last state: the closure receives the member
+    /// and its state, whose time it must keep. A member that is changed goes on as a single run after
+    /// [`set_state`](crate::Integrator::set_state). A state that cannot be a start is the error of its member.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// // A kicked oscillator, for kicks of different sizes.
+    /// let start = |_| (Oscillator {}, State::new([1.0], [0.0]));
+    /// let table = Sweep::new(10, start, StormerVerlet::default(), 0.01)
+    ///     .steps(1_000)
+    ///     .each(100, |member, state| state.p[0] += 0.1 * member.index as f64 * state.q[0].sin())
+    ///     .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
+    ///     .collect()?;
+    /// assert_eq!(table.rows(), 10);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn each(
+        mut self,
+        n: u64,
+        change: impl Fn(Member, &mut State<VectorOf<S>>) + Send + Sync + 'a,
+    ) -> Self {
+        self.each = Some((n.max(1), Box::new(change)));
         self
     }
 
@@ -297,6 +331,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
             step: self.step,
             step_each: self.step_each,
             end: self.end,
+            each: self.each,
             observer: self.observer,
             record: self.record,
             seed: self.seed,

@@ -104,6 +104,6 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
             }
         }
         let interval = self.common.interval;
-        Ok(first.map(|start| Clock { start, interval }))
+        Ok(first.map(|start| Clock::new(start, interval)))
     }
 }

@@ -212,6 +212,13 @@ impl Display for Error {
                 Number(*target),
                 Number(*now)
             ),
+            Self::OtherTime { clock, given, now } => write!(
+                f,
+                "the new state is at {clock} = {}, the run at {clock} = {}: a change keeps the time, give the state \
+                 that of the run, `state.at(run.state().t)`",
+                Number(*given),
+                Number(*now)
+            ),
             Self::Uneven => {
                 f.write_str("steps of this scheme vary in time: `advance_until` goes to any time")
             }

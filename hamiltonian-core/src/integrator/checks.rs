@@ -8,9 +8,10 @@ use crate::error::Error;
 use crate::output::names;
 use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::{Dynamics, System, VectorOf, clock, declared_energy};
+use crate::system::{Dynamics, System, VectorOf, check_shape_like, clock, declared_energy};
 use crate::vector::Vector;
 use alloc::format;
+use alloc::string::String;
 use hamiltonian_lanes::{Mask, Real};
 
 /// Returns an error for a step that is zero, NaN or infinite.
@@ -29,6 +30,31 @@ pub(crate) fn check_state<T: Real, S: System>(
     state: &State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
     system.check_shape(state)?;
+    check_numbers::<T, S>(state)
+}
+
+/// Returns an error for a state that cannot replace another one of a run: of another time or shape, with a NaN or an
+/// infinity, or for which a run cannot begin.
+pub(crate) fn check_change<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
+    from: &State<VectorOf<S, T>>,
+    to: &State<VectorOf<S, T>>,
+) -> Result<(), Error> {
+    if !to.t.equals(from.t).all() {
+        return Err(Error::OtherTime {
+            clock: clock::<S>(),
+            given: to.t.to_f64(),
+            now: from.t.to_f64(),
+        });
+    }
+    check_shape_like::<S, _>([&from.q, &from.p], to)?;
+    check_numbers::<T, S>(to)?;
+    // The parameters are those of the run, which has begun with them.
+    check_values::<T, S>(prepared, to, String::new)
+}
+
+/// Returns an error for a state with a NaN or an infinity.
+fn check_numbers<T: Real, S: System>(state: &State<VectorOf<S, T>>) -> Result<(), Error> {
     if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
         return Ok(());
     }
@@ -47,7 +73,7 @@ pub(crate) fn check_start<T: Real, S: System>(
 ) -> Result<S::Prepared<T>, Error> {
     check_state(system, start)?;
     let prepared = system.prepare();
-    check_values(system, &prepared, start)?;
+    check_values::<T, S>(&prepared, start, || parameters(system))?;
     Ok(prepared)
 }
 
@@ -71,10 +97,10 @@ pub(crate) fn check_scheme<T: Real, S: System, M: Scheme<S>>(
 
 /// Returns an error if H or a first derivative is not finite, or if the start is off the shell of
 /// another time.
-fn check_values<T: Real, S: System>(
-    system: &S,
+pub(super) fn check_values<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     start: &State<VectorOf<S, T>>,
+    parameters: impl Fn() -> String,
 ) -> Result<(), Error> {
     let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
     let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
@@ -95,7 +121,7 @@ fn check_values<T: Real, S: System>(
             derivative,
             value: found,
             lane: (T::LANES > 1).then_some(lane),
-            parameter: parameter_without_value(&parameters(system)),
+            parameter: parameter_without_value(&parameters()),
             clock: clock::<S>(),
             time: start.t.to_f64(),
             q: numbers(&start.q).into(),

@@ -110,10 +110,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             snapshot: carried.clone(),
             shown: carried.clone(),
             carried,
-            clock: Clock {
-                start: self.state.t,
-                interval: step * duration(&self.entry),
-            },
+            clock: Clock::new(self.state.t, step * duration(&self.entry)),
             step,
             began: 0,
             steps: 0,

@@ -3,7 +3,7 @@
 //! Input: the current state of a run and a time. Output: the state at that time, by one step of
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
-use super::{Integrator, MapOf, numbers};
+use super::{Integrator, MapOf, check_scheme, numbers};
 use crate::domain;
 use crate::error::Error;
 use crate::failed::Failed;
@@ -29,6 +29,8 @@ pub(crate) trait Recipe<T: Real, S: System, R: Map>: Send + Sync {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> R::Carried;
+    /// Returns an error if the scheme cannot integrate this system from this state.
+    fn check(&self, prepared: &S::Prepared<T>, state: &State<VectorOf<S, T>>) -> Result<(), Error>;
     /// The scheme with all its choices.
     fn describe(&self) -> String;
 }
@@ -52,6 +54,9 @@ impl<T: Real, S: System, M: Scheme<S>> Recipe<T, S, M::Map<T>> for M {
         h: T,
     ) -> <M::Map<T> as Map>::Carried {
         Scheme::start_alone(self, prepared, state, h)
+    }
+    fn check(&self, prepared: &S::Prepared<T>, state: &State<VectorOf<S, T>>) -> Result<(), Error> {
+        check_scheme(self, prepared, state)
     }
     fn describe(&self) -> String {
         // A saved run of another scheme is refused with the first line that differs.
@@ -107,7 +112,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T,
     }
 
     fn start(&self) -> T {
-        self.clock.start
+        self.clock.at(0)
     }
 }
 
@@ -215,9 +220,11 @@ impl<T: Real> Clock<T> {
     ) -> Result<(Option<u64>, u64), Error> {
         /// The largest number of steps that is exact in `f64`.
         const MOST: f64 = (1_u64 << 53) as f64;
+        let since = Clock::new(self.start, self.interval);
+        let made = self.first + made;
         let count = ((t - self.start) / self.interval).to_f64();
         let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
-        let reached = self.at(nearest);
+        let reached = since.at(nearest);
         // t, the start and the interval are each off by half an ulp at most, and so are the
         // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
         // user, whatever the scalar.
@@ -233,7 +240,7 @@ impl<T: Real> Clock<T> {
             return Err(Error::Behind {
                 clock,
                 target: t.to_f64(),
-                now: self.at(made).to_f64(),
+                now: since.at(made).to_f64(),
             });
         }
         if !counted {

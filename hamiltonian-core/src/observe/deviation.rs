@@ -9,6 +9,8 @@ use hamiltonian_lanes::Real;
 
 /// The largest change of a function of the state since the observer was attached.
 ///
+/// Where the state or the system of the run is changed, the change of the function is added to f₀ and counts as no drift.
+///
 /// Differences are taken in the run's scalar, then rounded to `f64`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deviation<T> {
@@ -42,6 +44,12 @@ impl<T: Real> Deviation<T> {
         self.sum += change;
     }
 
+    /// Adds a change of the function that is no drift to the reference. The mean of f stays.
+    pub(crate) fn shift(&mut self, change: T) {
+        self.start += change;
+        self.sum -= change.to_f64() * self.count as f64;
+    }
+
     pub(crate) fn save(&self, to: &mut Memory) {
         to.scalar(self.start);
         to.count(self.count);
@@ -60,7 +68,7 @@ impl<T: Real> Deviation<T> {
         })
     }
 
-    /// The value f₀ at the state at which the observer was attached.
+    /// The reference f₀: the value at the state at which the observer was attached, and the changes that the run was given.
     pub fn start(&self) -> T {
         self.start
     }

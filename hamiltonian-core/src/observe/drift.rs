@@ -66,6 +66,11 @@ impl<T: Real, S: System> Observer<T, S> for EnergyDrift<T> {
             .record(energy);
         ControlFlow::Continue(())
     }
+    fn change(&mut self, from: &View<'_, T, S>, to: &View<'_, T, S>) {
+        if let Some(drift) = &mut self.drift {
+            drift.shift(to.energy() - from.energy());
+        }
+    }
     fn save(&self, to: &mut Memory) {
         to.begin("EnergyDrift");
         to.count(u64::from(self.drift.is_some()));
@@ -144,6 +149,12 @@ impl<T: Real, S: System> Observer<T, S> for Monitors<T> {
             monitor.drift.record(view.observable(index));
         }
         ControlFlow::Continue(())
+    }
+    fn change(&mut self, from: &View<'_, T, S>, to: &View<'_, T, S>) {
+        for (index, monitor) in self.monitors.iter_mut().enumerate() {
+            let change = to.observable(index) - from.observable(index);
+            monitor.drift.shift(change);
+        }
     }
     fn save(&self, to: &mut Memory) {
         to.begin("Monitors");

@@ -1,6 +1,7 @@
 //! Ensembles and sweeps: every member is what a single run of it is.
 
 mod allocations;
+mod changes;
 mod domain;
 mod events;
 mod exponents;

@@ -166,10 +166,7 @@ where
                     *lanes = Some(DeviationLanes {
                         map,
                         work: Scratch::like(&carried),
-                        clock: Clock {
-                            start: zero,
-                            interval: all.interval.spread::<P>(),
-                        },
+                        clock: Clock::new(zero, all.interval.spread::<P>()),
                         prepared_for: Vec::new(),
                         members: Vec::new(),
                         first_failed: Vec::new(),
@@ -333,14 +330,11 @@ where
                 let Point { q, p } = self.shown[d].point();
                 let point = q.components().chain(p.components());
                 let point: Vec<f64> = point.map(|number| number.lane(lane as u32)).collect();
-                let clock = Clock {
-                    start: member.start.t,
-                    interval: all.interval,
-                };
+                let clock = Clock::new(member.start.t, all.interval);
                 let single = (&member.prepared, &member.start, all.step, clock);
                 let end = (&*point, times[lane].to_f64());
                 let only_energy = d == 0 && numbers.lane(lane as u32);
-                let error = explain(scheme, single, (made, &words), end, only_energy);
+                let error = explain(scheme, single, (made, made == 0, &words), end, only_energy);
                 member.result = Err(error);
             }
         }

@@ -4,7 +4,7 @@
 //! depends on the level.
 
 use crate::domain::{self, write_state};
-use crate::ensemble::host::Host;
+use crate::ensemble::host::{Host, RunAtStop};
 use crate::ensemble::occupants::Occupants;
 use crate::error::Error;
 use crate::failed::Failed;
@@ -28,7 +28,7 @@ pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
     durations: Option<&[T]>,
 ) {
     let recipe: &dyn Recipe<T, S, M::Map<T>> = scheme;
-    let mut is_any_changed = false;
+    let (mut is_any_changed, mut is_any_moved) = (false, false);
     occupants.for_each_due(|lane, run| {
         let part = Part {
             prepared: &run.prepared,
@@ -45,7 +45,15 @@ pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
             between: &part,
         };
         let was_followed = !run.followed.is_empty();
-        let stays = host.receive(run.key, &mut run.stop, &mut run.followed, &view);
+        let at_stop = RunAtStop {
+            stop: &mut run.stop,
+            followed: &mut run.followed,
+            words: &mut run.words,
+            began: &mut run.began,
+        };
+        let began = *at_stop.began;
+        let stays = host.receive(run.key, at_stop, &view);
+        is_any_moved |= run.began != began;
         if !was_followed && !run.followed.is_empty() {
             (run.since, run.received) = (run.made, run.made);
             is_any_changed = true;
@@ -54,6 +62,9 @@ pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
     });
     if is_any_changed {
         occupants.followed_changed();
+    }
+    if is_any_moved {
+        occupants.reload();
     }
 }
 
@@ -118,14 +129,15 @@ pub(in crate::ensemble) type ScalarMember<'a, T, S> = (
     Clock<T>,
 );
 
-/// Returns the error of a member whose step after `made` others is not finite. The step is replayed over the
+/// Returns the error of a member whose step after `made` others is not finite. `is_first` is true if the scheme started
+/// there. The step is replayed over the
 /// member's own scalar from the carried value. `point` is the state after it, `reached` its time. If `only_energy` is
 /// true, H alone is not finite there.
 #[inline(never)]
 pub(in crate::ensemble) fn explain<T: Real, S: System, M: Scheme<S>>(
     scheme: &M,
     (prepared, state, step, clock): ScalarMember<'_, T, S>,
-    (made, words): (u64, &[T]),
+    (made, is_first, words): (u64, bool, &[T]),
     (point, reached): (&[f64], f64),
     only_energy: bool,
 ) -> Error {
@@ -136,7 +148,7 @@ pub(in crate::ensemble) fn explain<T: Real, S: System, M: Scheme<S>>(
     let map = scheme.prepare(prepared, Step::of(step));
     let mut work = Scratch::like(&carried);
     let (begin, end) = (clock.at(made), clock.at(made + 1));
-    let cause = map.explain(begin, end, made == 0, &mut carried, &mut work);
+    let cause = map.explain(begin, end, is_first, &mut carried, &mut work);
     let (q, p) = point.split_at(point.len() / 2);
     let energy = only_energy.then(|| {
         let numbers: Vec<T> = point

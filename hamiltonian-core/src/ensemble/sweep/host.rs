@@ -6,9 +6,10 @@
 use super::{EndPoint, Sweep};
 use crate::ensemble::Member;
 use crate::ensemble::bound;
+use crate::ensemble::change::Standing;
 use crate::ensemble::guard::guard;
 use crate::ensemble::hash::hash_of;
-use crate::ensemble::host::{Host, MemberRun};
+use crate::ensemble::host::{Host, MemberRun, RunAtStop};
 use crate::ensemble::record::{Batch, End, MemberOutcome, Record, Status};
 use crate::ensemble::rounding::Rounding;
 use crate::error::Error;
@@ -33,6 +34,8 @@ struct ActiveMember<O> {
     end: f64,
     /// The number of whole steps after which it is recorded next; `None` if steps differ in duration.
     target: Option<u64>,
+    step: f64,
+    clock: Clock<f64>,
     /// The number of times at which it has been recorded.
     recorded: usize,
     values: Vec<f64>,
@@ -130,10 +133,7 @@ where
         }
         self.words.clear();
         (sweep.erased()).begin(&prepared, &start, step, &mut self.words)?;
-        let clock = Clock {
-            start: start.t,
-            interval: step * duration::<f64>(&sweep.erased().entry()),
-        };
+        let clock = Clock::new(start.t, step * duration::<f64>(&sweep.erased().entry()));
         self.varies = sweep.erased().varies(&prepared, &start, step);
         let end = match &sweep.end {
             EndPoint::Each(end) => guard(|| end(member))?,
@@ -147,6 +147,8 @@ where
             is_followed: false,
             end,
             target: None,
+            step,
+            clock,
             recorded: 0,
             values: Vec::new(),
         };
@@ -179,7 +181,7 @@ where
                 run.prepared = prepared;
                 run.state = start;
                 (run.key, run.clock, run.step) = (key, clock, step);
-                (run.made, run.stop) = (0, stop);
+                (run.made, run.began, run.stop) = (0, 0, stop);
                 (run.followed, run.interval) = (followed, interval);
                 (run.since, run.received) = (0, 0);
             }
@@ -191,6 +193,7 @@ where
                     step,
                     clock,
                     made: 0,
+                    began: 0,
                     stop,
                     words: self.words.clone(),
                     followed,
@@ -246,8 +249,11 @@ where
             true => u64::MAX,
             false => active.observer.interval().max(1),
         };
-        let due = (made / interval).saturating_add(1).saturating_mul(interval);
-        due.min(active.target.unwrap_or(made + 1))
+        let changes = self.sweep.each.as_ref().map_or(u64::MAX, |(n, _)| *n);
+        let next = |interval: u64| (made / interval).saturating_add(1).saturating_mul(interval);
+        next(interval)
+            .min(next(changes))
+            .min(active.target.unwrap_or(made + 1))
     }
 
     /// Passes a state to the observer of a member and records it if it is due. Returns the end of the member if this is
@@ -271,10 +277,7 @@ where
             let end = active.observer.end()?.unwrap_or(view.state).clone();
             return Ok(ControlFlow::Break((end, true)));
         }
-        let clock_of = Clock {
-            start: view.between.start(),
-            interval: view.between.interval(),
-        };
+        let clock_of = Clock::new(view.between.start(), view.between.interval());
         loop {
             let Some(t) = self.time(active) else {
                 let is_there = active.target == Some(view.step);
@@ -310,6 +313,31 @@ where
             self.write(active, view, &state, false);
             self.set_target(active, clock_of, view.step)?;
         }
+    }
+
+    /// Lets the closure of the sweep change a member, if it is due. Returns true if it did.
+    fn change(
+        &self,
+        active: &mut ActiveMember<O>,
+        words: &mut Vec<f64>,
+        view: &View<'_, f64, S>,
+    ) -> Result<bool, Error> {
+        let Some((n, closure)) = &self.sweep.each else {
+            return Ok(false);
+        };
+        if view.step == 0 || !view.step.is_multiple_of(*n) {
+            return Ok(false);
+        }
+        let standing = Standing {
+            scheme: &self.sweep.scheme,
+            prepared: view.prepared,
+            step: active.step,
+            clock: active.clock,
+            made: view.step,
+        };
+        let member = active.member;
+        let closure = |state: &mut State<VectorOf<S>>| closure(member, state);
+        standing.change(view.state, closure, &mut active.observer, words)
     }
 
     /// Records a member at a state.
@@ -409,16 +437,16 @@ where
         false
     }
 
-    fn receive(
-        &mut self,
-        key: usize,
-        stop: &mut u64,
-        followed: &mut FollowedQuantities<f64>,
-        view: &View<'_, f64, S>,
-    ) -> bool {
+    fn receive(&mut self, key: usize, run: RunAtStop<'_, f64>, view: &View<'_, f64, S>) -> bool {
         let Some(mut active) = self.active[key].take() else {
             return false;
         };
+        let RunAtStop {
+            stop,
+            followed,
+            words,
+            began,
+        } = run;
         let decision = guard(|| {
             let decision = self.decide(&mut active, view)?;
             if let ControlFlow::Break((state, stopped)) = &decision {
@@ -426,9 +454,20 @@ where
             }
             Ok(decision)
         });
-        match decision.and_then(|decision| decision) {
+        let mut is_changed = false;
+        let decision = decision.and_then(|decision| {
+            if let Ok(ControlFlow::Continue(())) = decision {
+                is_changed = self.change(&mut active, words, view)?;
+            }
+            decision
+        });
+        match decision {
             Ok(ControlFlow::Continue(())) => {
-                if !active.is_followed && view.step == 0 {
+                if is_changed {
+                    *began = view.step;
+                }
+                let is_first = !active.is_followed && view.step == 0;
+                if is_first || is_changed && active.is_followed {
                     FollowVisitor::list(followed, |visitor| active.observer.follow(visitor));
                     active.is_followed = !followed.is_empty();
                 }

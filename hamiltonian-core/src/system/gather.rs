@@ -164,6 +164,10 @@ struct Gathered<D, O> {
     kept: Kept,
 }
 
+/// What a system prepares, gathered into a pack.
+type GatheredOf<S, T, P> =
+    Gathered<<S as System>::Prepared<T>, <S as System>::Prepared<<T as Real>::Over<P>>>;
+
 /// Runs a kernel with one system in all lanes of its pack: the implementation of [`Dynamics::in_pack`] for what the
 /// system `S` prepares.
 #[inline(always)]
@@ -173,7 +177,7 @@ pub fn in_pack<T: Real, S: System, P: Pack, K: InPack<T, VectorOf<S, T>, P>>(
     kernel: K,
 ) -> Option<K::Output> {
     let Gathered { over, kept, .. } = kept.get(
-        |kept: &Gathered<S::Prepared<T>, S::Prepared<T::Over<P>>>| S::equals(&kept.of, prepared),
+        |kept: &GatheredOf<S, T, P>| S::equals(&kept.of, prepared),
         || Gathered {
             of: prepared.clone(),
             over: S::gather::<T, P>(&[prepared]),

@@ -24,6 +24,7 @@ use crate::set::{Member, Set};
 use crate::sort::Arrange;
 use budget::Questions;
 use labels::Labels;
+use std::hash::{Hash, Hasher};
 use tape::Tape;
 
 /// A variable by its number: 2i is coordinate i, 2i + 1 its momentum.
@@ -89,6 +90,18 @@ impl Variables {
     }
 }
 
+/// The bits of a point's numbers. A list would be hashed byte by byte.
+#[derive(PartialEq, Eq)]
+struct Point(Vec<u64>);
+
+impl Hash for Point {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        for bits in &self.0 {
+            hasher.write_u64(*bits);
+        }
+    }
+}
+
 /// Phase space with the known facts of expressions over it.
 pub(crate) struct Space {
     /// The model, to whose arena the search adds.
@@ -107,7 +120,7 @@ pub(crate) struct Space {
     /// Numbers of nodes, by which most comparisons are decided.
     values: [Values; 2],
     /// Numbers of nodes at points, each of which is made once.
-    points: Map<Vec<[u64; 2]>, Values>,
+    points: Map<Point, Values>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
     pub(crate) flows: Map<(Node, Node), Option<Flow>>,
     /// The flows of expressions of one pair.
@@ -255,11 +268,20 @@ impl Space {
         if let Kind::Sum(_, terms) = self.model.dag.kind(h)
             && terms.len() > 1
         {
+            let known = self.derivatives.get(&h);
+            if let Some(known) = known.and_then(|known| known.get(&variable)) {
+                return *known;
+            }
             let mut slopes = terms.clone();
             for (_, term) in &mut slopes {
                 *term = self.derivative(*term, variable);
             }
-            return self.model.dag.linear(&Rational::ZERO, &slopes);
+            let slope = self.model.dag.linear(&Rational::ZERO, &slopes);
+            self.derivatives
+                .entry(h)
+                .or_default()
+                .insert(variable, slope);
+            return slope;
         }
         if !self.derivatives.contains_key(&h) {
             let both = Dependence(Dependence::Q.0 | Dependence::P.0);
@@ -496,8 +518,11 @@ impl Space {
     }
     /// The value at a point; parameters and time have the values of a sample point.
     pub(crate) fn value_at(&mut self, node: Node, point: &[Ball]) -> Ball {
-        let key = |ball: &Ball| [ball.value.to_bits(), ball.error.to_bits()];
-        let key: Vec<[u64; 2]> = point.iter().map(key).collect();
+        let mut key = Point(Vec::with_capacity(2 * point.len()));
+        for ball in point {
+            key.0.push(ball.value.to_bits());
+            key.0.push(ball.error.to_bits());
+        }
         if self.points.len() > POINTS {
             self.points = Map::default();
         }
@@ -506,7 +531,7 @@ impl Space {
             let leaves = pairs.iter().flat_map(|(q, p)| [*q, *p]);
             let parameters = parameters.iter().map(|(leaf, value)| (*leaf, *value));
             let given = leaves.zip(point.iter().copied()).chain(parameters);
-            Values::with(&model.dag, Sample::default(), given)
+            Values::with(Sample::default(), given)
         });
         values.at(model, node)
     }

@@ -92,23 +92,26 @@ impl Values {
         Values { how, known }
     }
     /// The values of nodes for given values of some leaves.
-    pub(crate) fn with(
-        dag: &Dag,
-        how: Sample,
-        given: impl Iterator<Item = (Node, Ball)>,
-    ) -> Values {
+    pub(crate) fn with(how: Sample, given: impl Iterator<Item = (Node, Ball)>) -> Values {
         let mut values = Values::new(how);
-        values.known.resize(dag.len(), None);
         for (leaf, value) in given {
+            values.reach(leaf);
             values.known[leaf.0 as usize] = Some(value);
         }
         values
+    }
+    /// Makes place for a node and its operands, which have smaller numbers; the arena may be much longer.
+    fn reach(&mut self, node: Node) {
+        while self.known.len() <= node.0 as usize {
+            // Blocks are copied whole.
+            self.known.extend_from_slice(&[None; 256]);
+        }
     }
     /// The value of a node.
     pub(crate) fn at(&mut self, model: &Model, node: Node) -> Ball {
         let dag = &model.dag;
         let place = |node: Node| node.0 as usize;
-        self.known.resize(dag.len(), None);
+        self.reach(node);
         if let Some(known) = self.known[place(node)] {
             return known;
         }

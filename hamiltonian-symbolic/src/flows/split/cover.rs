@@ -47,7 +47,8 @@ struct Search<'a> {
     units: &'a [Unit],
     /// The places of the units in the order in which they are written.
     places: &'a [usize],
-    tried: Map<UnitSet, Option<Flow>>,
+    /// The sums of which a flow was sought.
+    tried: Map<UnitSet, Option<Block>>,
     blocks: Vec<Block>,
     /// Sums whose search for a flow ended at a limit.
     ended: Vec<UnitSet>,
@@ -67,31 +68,30 @@ impl Search<'_> {
         self.space.dag().add(&nodes)
     }
     fn block(&mut self, mask: UnitSet) -> Option<Block> {
+        if let Some(known) = self.tried.get(&mask) {
+            return known.clone();
+        }
+        // More terms cost more.
+        if self.ended.iter().any(|less| less.is_within(mask)) {
+            return None;
+        }
+        if self.tried.len() >= SUMS {
+            self.skipped |= mask;
+            return None;
+        }
         let node = self.sum(mask);
-        let known = match self.tried.get(&mask) {
-            Some(known) => known.clone(),
-            // More terms cost more.
-            None if self.ended.iter().any(|less| less.is_within(mask)) => None,
-            None if self.tried.len() >= SUMS => {
-                self.skipped |= mask;
-                None
-            }
-            None => {
-                let c = self.space.dag().coefficient();
-                let found = flow(self.space, node, c);
-                let found = found.or_else(|| exponential(self.space, node));
-                if found.is_none() && self.space.ends_at(node) {
-                    self.ended.push(mask);
-                }
-                self.tried.insert(mask, found.clone());
-                found
-            }
-        };
-        known.map(|flow| Block {
+        let c = self.space.dag().coefficient();
+        let found = flow(self.space, node, c).or_else(|| exponential(self.space, node));
+        if found.is_none() && self.space.ends_at(node) {
+            self.ended.push(mask);
+        }
+        let block = found.map(|flow| Block {
             node,
             units: mask,
             flow,
-        })
+        });
+        self.tried.insert(mask, block.clone());
+        block
     }
     /// Tries a block and keeps it.
     fn keep(&mut self, mask: UnitSet) {

@@ -58,10 +58,7 @@ fn steps<T: Pack>(system: &Pendulum, states: &mut States, n: u64) {
     let prepared = <Pendulum as System>::prepare::<T>(system);
     let scheme = StormerVerlet::default();
     let map = Scheme::<Pendulum>::prepare(&scheme, &prepared, Step::of(h));
-    let clock = Clock {
-        start: T::zero(),
-        interval: h,
-    };
+    let clock = Clock::new(T::zero(), h);
     let lanes = T::LANES as usize;
     for (some_q, some_p) in states.q.chunks_mut(lanes).zip(states.p.chunks_mut(lanes)) {
         let start = State::over([T::load(some_q, 0.0)], [T::load(some_p, 0.0)]);

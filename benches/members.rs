@@ -54,10 +54,7 @@ impl Kernel for Steps<'_> {
         let prepared = <Pendulum as System>::prepare::<L::Wide>(self.system);
         let scheme = StormerVerlet::default();
         let map = Scheme::<Pendulum>::prepare(&scheme, &prepared, Step::of(h));
-        let clock = Clock {
-            start: L::Wide::zero(),
-            interval: h,
-        };
+        let clock = Clock::new(L::Wide::zero(), h);
         let lanes = L::Wide::LANES as usize;
         for (some_q, some_p) in self.q.chunks_mut(lanes).zip(self.p.chunks_mut(lanes)) {
             let start = State::over([L::Wide::load(some_q, 0.0)], [L::Wide::load(some_p, 0.0)]);

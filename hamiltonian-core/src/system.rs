@@ -61,7 +61,7 @@ pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
 /// A Hamiltonian H(q, p, t) with its parameters, over every scalar of states: `f64`, dual numbers, lanes of packs.
 ///
 /// Signs: q̇ = ∂H/∂p, ṗ = −∂H/∂q. Units are the caller's. A bound `S: System` serves every scalar; a parameter may be
-/// of any type that is a [`Parameter`](crate::lanes::Parameter).
+/// of any type that is a [`Parameter`](hamiltonian_lanes::Parameter).
 ///
 /// The macro implements it for every definition. A system written by hand is generic over its scalar too:
 ///

@@ -65,6 +65,18 @@ pub fn uncrossed(n: usize) -> impl Fn(usize, usize) -> f64 {
     }
 }
 
+/// Makes `n` steps after the first `made`: all steps are compiled in one place.
+#[inline(never)]
+fn steps<R: Map>(
+    map: &R,
+    clock: Clock<<R::Carried as Vector>::Scalar>,
+    [made, n]: [u64; 2],
+    z: &mut R::Carried,
+    work: &mut R::Work,
+) {
+    map.run(clock, made, n, z, work);
+}
+
 /// The tangent of the visible state after `steps` steps, by dual numbers.
 pub fn visible_tangent<S, M>(
     system: &S,
@@ -113,19 +125,13 @@ where
     let mut carried = scheme.start(&prepared, start, Dual::fixed(h));
     let mut work = Scratch::like(&carried);
     let duration = f64::from(scheme.entry().duration);
-    let clock = Clock {
-        start: start.t,
-        interval: Dual::fixed(h * duration),
-    };
-    // All steps are compiled in one place.
-    let steps: fn(&M::Map<Dual<f64>>, _, _, _, &mut <M::Map<Dual<f64>> as Map>::Carried, &mut _) =
-        Map::run;
-    steps(&map, clock, 0, made, &mut carried, &mut work);
+    let clock = Clock::new(start.t, Dual::fixed(h * duration));
+    steps(&map, clock, [0, made], &mut carried, &mut work);
     (0..carried.len())
         .map(|seed| {
             let mut carried = carried.clone();
             *carried.component_mut(seed) = Dual::variable(carried.component(seed).re);
-            steps(&map, clock, made, 1, &mut carried, &mut work);
+            steps(&map, clock, [made, 1], &mut carried, &mut work);
             carried.components().map(|x| x.eps).collect()
         })
         .collect()

@@ -19,6 +19,7 @@ use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use alloc::string::ToString;
+use alloc::vec::Vec;
 use core::fmt::Write;
 
 /// The status of a saved member: it continues, has failed, or was ended by its observer.

@@ -194,7 +194,7 @@ impl<const V: bool, const T: bool> Visitor<System<V, T, true>> for Walk {
             });
             // Errors near rounding have no slope. The finest pair above it has that of the order.
             let above = |pair: &&[f64]| pair[1] > 2e-11;
-            match errors.windows(2).filter(above).last() {
+            match errors.windows(2).rfind(above) {
                 Some(pair) => {
                     let slope = (pair[0] / pair[1]).log2();
                     assert!(

@@ -6,6 +6,7 @@
 //! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
 
 mod array;
+mod bounds;
 mod map;
 mod numbers;
 pub mod op;

@@ -4,8 +4,7 @@
 //! whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it; in proofs, elements at fixed
 //! indices are there.
 
-use crate::dag::Dag;
-use crate::index::{Affine, Domain, End, Index, Loops};
+use crate::index::{Affine, Domain, End, Index};
 use crate::sort::Arrange;
 
 /// The ranges of loops, and questions about indices in them.
@@ -143,70 +142,5 @@ pub trait Ranges {
             last.is_some_and(|last| !last.is_always_negative())
         };
         followed.is_some() && loops.iter().all(runs)
-    }
-}
-
-impl Ranges for Dag {
-    fn bounds(&self, domain: Domain) -> [&Affine; 2] {
-        let range = self.range(domain);
-        [&range.start, &range.end]
-    }
-
-    fn is_never_negative(&self, form: &Affine) -> bool {
-        let is_at_least = |room: Option<&Affine>| {
-            let rest = match room {
-                Some(room) => form.checked_plus(-1, room),
-                None => Some(form.clone()),
-            };
-            let least = rest.and_then(|rest| self.extreme(&rest, End::Least));
-            least.is_some_and(|least| least.is_never_negative())
-        };
-        is_at_least(None) || self.rooms.iter().any(|room| is_at_least(Some(room)))
-    }
-}
-
-impl Dag {
-    /// The loops whose iterations are the rows, each one once: that of `i` alone in
-    /// `0..rows`, or those of `i`, `j`, … for an index of several axes, with no loop around them.
-    #[must_use]
-    pub(crate) fn loops_of_rows(&self, row: &Index, rows: &Affine) -> Option<Loops> {
-        let (mut loops, mut total) = (Loops::default(), Affine::constant(1));
-        let mut innermost = None;
-        for axis in row.axes() {
-            let domain = axis.as_loop()?;
-            let range = self.range(domain);
-            let is_new = !loops.has(domain);
-            if !(is_new && range.start == Affine::constant(0)) {
-                return None;
-            }
-            loops |= Loops::of(domain);
-            total = total.checked_times(&range.end)?;
-            innermost = self.deepest(loops);
-        }
-        let mut around = self.path(innermost).into_iter();
-        let is_alone = around.all(|domain| loops.has(domain));
-        (is_alone && self.fill_axes(row) && total == *rows).then_some(loops)
-    }
-    /// Returns true if the loop of each axis but the first runs over its extent.
-    fn fill_axes(&self, row: &Index) -> bool {
-        let Some(outer) = &row.outer else {
-            return true;
-        };
-        let runs = |(domain, _): &(Domain, i64)| self.runs_over(*domain, &outer.extent);
-        row.affine.loops.iter().all(runs) && self.fill_axes(&outer.index)
-    }
-    /// `i % N` for i in 0..N is `i`.
-    pub(crate) fn unwrapped(&self, index: Index) -> Index {
-        let plain = index.try_map(&mut |axis| {
-            let is_bare = |&(domain, _): &(Domain, i64)| {
-                self.rotation(axis, domain) == Some(Affine::default())
-            };
-            let affine = axis.affine.clone();
-            Some(match axis.affine.loops.first().is_some_and(is_bare) {
-                true => Index::plain(affine),
-                false => axis.clone(),
-            })
-        });
-        plain.unwrap_or(index)
     }
 }

@@ -7,7 +7,7 @@ use crate::dag::{Array, Dag, Kind, Node, Side};
 use crate::rational::Rational;
 
 /// A linear form of coordinates, or of momenta: the elements with their factors.
-type Form = Vec<(Node, Rational)>;
+type LinearForm = Vec<(Node, Rational)>;
 
 /// Returns true if a term is a function of one linear form, of coordinates or of momenta, and the others together change
 /// neither the form nor a momentum, or coordinate, along which it changes: where the first is infinite, so is that
@@ -21,7 +21,7 @@ pub fn are_along_other_lines(dag: &Dag, one: Node, others: &[Node]) -> bool {
     };
     let (beside, across): (Vec<_>, Vec<_>) = others.iter().partition(|(of, _)| of == side);
     // The bracket of the form with one of the other side.
-    let changes = |(_, through): &&(Side, Form)| {
+    let changes = |(_, through): &&(Side, LinearForm)| {
         let products = form.iter().flat_map(|(a, k)| {
             let is_partner = |b: Node| partner(dag, *a) == place(dag, b);
             let pairs = through.iter().filter(move |(b, _)| is_partner(*b));
@@ -30,12 +30,12 @@ pub fn are_along_other_lines(dag: &Dag, one: Node, others: &[Node]) -> bool {
         let bracket = products.fold(Rational::ZERO, |sum, product| sum.add(&product));
         !bracket.is_zero()
     };
-    let beside: Vec<Form> = beside.into_iter().map(|(_, form)| form.clone()).collect();
+    let beside: Vec<LinearForm> = beside.into_iter().map(|(_, form)| form.clone()).collect();
     !across.iter().any(changes) && !is_spanned(form, beside)
 }
 
 /// Returns true if a form is a linear combination of others.
-fn is_spanned(form: &Form, others: Vec<Form>) -> bool {
+fn is_spanned(form: &LinearForm, others: Vec<LinearForm>) -> bool {
     let (mut rest, mut rows) = (form.clone(), others);
     while let Some(row) = rows.pop() {
         let Some((at, by)) = row.first().and_then(|(at, k)| Some((*at, k.recip()?))) else {
@@ -53,7 +53,7 @@ fn is_spanned(form: &Form, others: Vec<Form>) -> bool {
 }
 
 /// Adds a multiple of another form.
-fn add(form: &mut Form, other: &Form, by: &Rational) {
+fn add(form: &mut LinearForm, other: &LinearForm, by: &Rational) {
     for (element, k) in other {
         let k = k.mul(by);
         match form.iter_mut().find(|(own, _)| own == element) {
@@ -65,8 +65,8 @@ fn add(form: &mut Form, other: &Form, by: &Rational) {
 }
 
 /// The linear forms that expressions are functions of; `None` if one reads the time, or elements of loops.
-fn forms(dag: &Dag, roots: &[Node]) -> Option<Vec<(Side, Form)>> {
-    let mut found: Vec<(Side, Form)> = Vec::new();
+fn forms(dag: &Dag, roots: &[Node]) -> Option<Vec<(Side, LinearForm)>> {
+    let mut found: Vec<(Side, LinearForm)> = Vec::new();
     let mut left = roots.to_vec();
     while let Some(node) = left.pop() {
         if matches!(dag.kind(node), Kind::Time | Kind::Reduce(..)) {
@@ -87,14 +87,14 @@ fn forms(dag: &Dag, roots: &[Node]) -> Option<Vec<(Side, Form)>> {
 }
 
 /// A sum of elements at fixed indices, up to a number.
-fn linear(dag: &Dag, node: Node) -> Option<(Side, Form)> {
+fn linear(dag: &Dag, node: Node) -> Option<(Side, LinearForm)> {
     let single = [(Rational::ONE, node)];
     let terms = match dag.kind(node) {
         Kind::Sum(_, terms) => terms.as_slice(),
         _ => &single,
     };
     let (side, ..) = place(dag, terms[0].1)?;
-    let mut form = Form::new();
+    let mut form = LinearForm::new();
     for (k, element) in terms {
         let (of, _, _, row) = place(dag, *element)?;
         if of != side || row.is_none() {

@@ -92,9 +92,9 @@ impl Variables {
 
 /// The bits of a point's numbers. A list would be hashed byte by byte.
 #[derive(PartialEq, Eq)]
-struct Point(Vec<u64>);
+struct PointBits(Vec<u64>);
 
-impl Hash for Point {
+impl Hash for PointBits {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         for bits in &self.0 {
             hasher.write_u64(*bits);
@@ -120,7 +120,7 @@ pub(crate) struct Space {
     /// Numbers of nodes, by which most comparisons are decided.
     values: [Values; 2],
     /// Numbers of nodes at points, each of which is made once.
-    points: Map<Point, Values>,
+    points: Map<PointBits, Values>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
     pub(crate) flows: Map<(Node, Node), Option<Flow>>,
     /// The flows of expressions of one pair.
@@ -518,7 +518,7 @@ impl Space {
     }
     /// The value at a point; parameters and time have the values of a sample point.
     pub(crate) fn value_at(&mut self, node: Node, point: &[Ball]) -> Ball {
-        let mut key = Point(Vec::with_capacity(2 * point.len()));
+        let mut key = PointBits(Vec::with_capacity(2 * point.len()));
         for ball in point {
             key.0.push(ball.value.to_bits());
             key.0.push(ball.error.to_bits());

@@ -161,22 +161,35 @@ impl Tree {
     pub fn value<T: Real>(&self, variables: &[T]) -> T {
         *self.values(variables).last().unwrap()
     }
-    /// The value where operations that leave their domain give some number instead, the same for
-    /// the same operation on the same operands: what holds for every number shows.
-    pub fn licensed_value(&self, point: &[f64]) -> f64 {
-        let mut values: Vec<f64> = Vec::with_capacity(self.0.len());
+    /// The value where operations that leave their domain give some function of the variables instead, the same for
+    /// the same operation on the same operands: what holds for every function shows. `variables` are the point's.
+    pub fn licensed_value<T: Real>(&self, point: &[f64], variables: &[T]) -> T {
+        let mut numbers: Vec<f64> = Vec::with_capacity(self.0.len());
+        let mut values: Vec<T> = Vec::with_capacity(self.0.len());
         for (at, part) in self.0.iter().enumerate() {
-            let mut value = part.value(point, |at| values[at]);
-            if value.is_nan() {
+            let mut number = part.value(point, |at| numbers[at]);
+            let mut value = part.value(variables, |at| values[at]);
+            if number.is_nan() {
                 let seed = self
                     .text_of(at)
                     .bytes()
                     .fold(7, |h, b| Random(h ^ u64::from(b)).next());
-                value = 0.5 + Random(seed).unit();
+                let mut random = Random(seed);
+                number = 0.5 + random.unit();
+                value = T::constant(number, 0.0);
+                for (x, here) in variables.iter().zip(point) {
+                    let slope = T::constant(random.unit() - 0.5, 0.0);
+                    value += slope * (*x - T::constant(*here, 0.0));
+                }
             }
+            numbers.push(number);
             values.push(value);
         }
-        values.last().copied().unwrap_or(f64::NAN)
+        *values.last().unwrap()
+    }
+    /// Returns true if an operation leaves its domain at a point, whatever becomes of its value.
+    pub fn leaves_domain(&self, point: &[f64]) -> bool {
+        self.values(point).iter().any(|value| value.is_nan())
     }
     /// Returns true if functions of exponentials occur.
     pub fn has_exponentials(&self) -> bool {

@@ -28,7 +28,7 @@ hamiltonian! {
     let cut(s) = if s < reach^2 { V(s) - V(reach^2) - slope*(s - reach^2) } else { 0 };
     H(q[n][3]; p[n][3]) = sum(i in 0..n) { sum(k in 0..3) { p[i][k]^2 }/2 }
         + sum(i in 0..n, j in 0..i) { cut(sum(k in 0..3) { remainder(q[i][k] - q[j][k], side)^2 }) };
-    #[assume] invariant momentum = sum(i in 0..n) { p[i][0] }
+    monitor momentum = sum(i in 0..n) { p[i][0] }
 }
 
 /// Cells of the crystal along an edge, of four atoms each.

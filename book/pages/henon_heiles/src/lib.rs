@@ -3,7 +3,7 @@
 //! Input: an energy, points (y, p_y) of the section x = 0. Output: the points at which each orbit crosses the section
 //! upwards, and the largest relative change of H of all orbits.
 
-use hamiltonian::System;
+use hamiltonian::VectorOf;
 use hamiltonian::observers::{Event, Events};
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, Section, on_section};
@@ -23,8 +23,7 @@ const TURN: u64 = 64;
 /// The most points of one orbit.
 const POINTS: u64 = 4000;
 
-type Orbit =
-    Run<HenonHeiles, GaussNystrom<8>, (EnergyDrift, Events<<HenonHeiles as System<f64>>::Vector>)>;
+type Orbit = Run<HenonHeiles, GaussNystrom<8>, (EnergyDrift, Events<VectorOf<HenonHeiles>>)>;
 
 thread_local! {
     static ORBITS: RefCell<Vec<Orbit>> = const { RefCell::new(Vec::new()) };

@@ -304,12 +304,16 @@ fn saturating_functions_are_right_at_any_argument() {
         let first = e.mul(&slope);
         let e = Jet([e, first.clone(), first.mul(&slope)]);
         let exact = formula.jet(x, &e).0.map(|x| x.to_f64());
-        let found = computed(&format!("p^2/2 + {}", formula.text()), at);
+        // Where the quotient x/(eˣ − 1) has a value at 0 for every parameter, the definition shows it.
+        let text = match r {
+            0.0 => formula.text().replace("(x - r)", "x"),
+            _ => formula.text(),
+        };
+        let found = computed(&format!("p^2/2 + {text}"), at);
         let errors = off(found, exact, at);
         if errors.iter().any(|error| *error > 1.0) {
             wrong.push(format!(
-                "{} at {at:?}: {found:?} for {exact:?}, {errors:?}",
-                formula.text()
+                "{text} at {at:?}: {found:?} for {exact:?}, {errors:?}"
             ));
         }
         worst = errors.into_iter().fold(worst, f64::max);
@@ -322,6 +326,41 @@ fn saturating_functions_are_right_at_any_argument() {
     println!("{worst} of the bound; {control} of {count} wrong without rewriting");
     assert!(wrong.is_empty(), "{} wrong: {wrong:#?}", wrong.len());
     assert!(control * 12 > count, "{control} of {count}");
+}
+
+/// x/(eˣ − 1) and its derivatives near x = 0, and on both sides of the end of its series.
+#[test]
+fn a_quotient_with_a_value_at_zero_is_right_there() {
+    let mut control = 0.0_f64;
+    for k in [1.0, -1.0, 2.0, 0.5] {
+        let formula = Div(Box::new(X), Box::new(Call("exp_m1", k)));
+        let text = formula.text().replace("(x - r)", "x");
+        for exponent in -40..=8 {
+            for (sign, s) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -0.7)] {
+                let x = f64::from((sign * 10_f64.powf(f64::from(exponent) / 8.0)) as f32);
+                let at = [x, 0.0, s];
+                let slope = Fixed::of(1.0).div(&Fixed::of(2.0 * s));
+                let e = Fixed::of(x).mul(&slope).exp();
+                let first = e.mul(&slope);
+                let e = Jet([e, first.clone(), first.mul(&slope)]);
+                let exact = formula.jet(x, &e).0.map(|x| x.to_f64());
+                let found = computed(&format!("p^2/2 + {text}"), at);
+                let errors = off(found, exact, at);
+                assert!(
+                    errors.iter().all(|error| *error < 1.0),
+                    "{text} at {at:?}: {errors:?}"
+                );
+                let inner = Dual::new(Dual::variable(x), Dual::fixed(1.0));
+                let plain = formula.plain(inner, inner / Dual::fixed(Dual::fixed(s)));
+                let plain = [plain.re.re, plain.re.eps, plain.eps.eps];
+                control = off(plain, exact, at).into_iter().fold(control, f64::max);
+            }
+        }
+        let [value, slope, second] = computed(&format!("p^2/2 + {text}"), [0.0, 0.0, 1.0]);
+        assert_eq!([value, slope], [1.0 / k, -0.5], "{text}");
+        assert!((second - k / 6.0).abs() < 1e-16, "{text}: {second}");
+    }
+    assert!(control > 1e6, "the quotient itself is wrong: {control}");
 }
 
 /// Logarithms of sums of exponentials, whose value overflows or vanishes.

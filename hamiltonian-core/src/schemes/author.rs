@@ -31,6 +31,6 @@ pub use crate::vector::{Over, Shape};
 
 pub use super::catalogue::catalogue;
 pub use super::iterate::{Contraction, Outcome, iterate};
-pub use super::splitting::{Durations, Negated, Reversed, Splitting, Weight};
+pub use super::splitting::{Durations, Reversed, Splitting, Weight};
 pub use super::variational::Ends;
 pub use super::zigzag::{Zigzag, ZigzagOf};

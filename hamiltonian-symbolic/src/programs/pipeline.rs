@@ -11,7 +11,7 @@ use crate::program::{Program, Purpose, Step};
 use crate::programs::balance::balance;
 use crate::programs::factor::factor;
 use crate::programs::request::request;
-use crate::programs::saturate::{powers_as_exponentials, saturate};
+use crate::programs::saturate::{before_derivatives, saturate};
 use crate::programs::share::share;
 use crate::programs::support::support;
 use crate::schedule::{Request, prepared, schedule};
@@ -49,7 +49,7 @@ pub enum NoProgram {
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgram> {
     let mut functions = model.functions();
     support(&mut model.dag, &mut functions);
-    powers_as_exponentials(&mut model.dag, &mut functions);
+    before_derivatives(&mut model.dag, &mut functions);
     model.set_roots(&functions);
     let mut all = model.roots();
     balance(&mut model.dag, &mut all);

@@ -10,7 +10,7 @@ use crate::index::{Affine, Index};
 use crate::model::{ExactFlow, Model, Motion, Piece, VectorEntry};
 use crate::op::Op;
 use crate::program::{Purpose, Target};
-use crate::programs::saturate::powers_as_exponentials;
+use crate::programs::saturate::before_derivatives;
 use crate::programs::stencil::at_sites;
 use crate::programs::support::support;
 use crate::schedule::{Request, Store};
@@ -180,7 +180,7 @@ fn updates(dag: &mut Dag, motion: &Motion) -> Vec<Store> {
 fn rates(model: &mut Model, h: Node) -> Vec<Store> {
     let mut h = [h];
     support(&mut model.dag, &mut h);
-    powers_as_exponentials(&mut model.dag, &mut h);
+    before_derivatives(&mut model.dag, &mut h);
     let [h] = h;
     let entries = model.partials(h);
     sums(&mut model.dag, entries)

@@ -9,12 +9,14 @@
 
 mod emit;
 mod form;
+mod removable;
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::op::Op;
 use crate::product::Product;
 use crate::rational::Rational;
 use form::{Direction, Form};
+use removable::series_near_zero;
 
 /// The highest power of e that a function has.
 const HIGHEST: i32 = 8;
@@ -30,10 +32,16 @@ pub(crate) fn saturate(dag: &mut Dag, roots: &mut [Node]) {
     rewrite(dag, roots, Exponentials::image);
 }
 
+/// What is rewritten before differentiation: w/(eʷ − 1) near 0, and powers of sums of exponentials.
+pub(crate) fn before_derivatives(dag: &mut Dag, roots: &mut [Node]) {
+    series_near_zero(dag, roots);
+    powers_as_exponentials(dag, roots);
+}
+
 /// Writes roots and powers of positive sums that may overflow or vanish before the power does as exponentials of
-/// logarithms, and 2^x as one where it stands in such a sum or in a divisor. Before differentiation: the derivatives of
-/// these are quotients of the sums.
-pub(crate) fn powers_as_exponentials(dag: &mut Dag, roots: &mut [Node]) {
+/// logarithms, and 2^x as one where it stands in such a sum or in a divisor. The derivatives of these are quotients of the
+/// sums.
+fn powers_as_exponentials(dag: &mut Dag, roots: &mut [Node]) {
     let is_power = |kind: &Kind| matches!(kind, Kind::Call(Op::Sqrt | Op::Cbrt | Op::Pow, _));
     if dag.has(roots, is_power) {
         let inner = powers_in_sums(dag, roots);

@@ -1,9 +1,10 @@
 //! Packs from all types of numbers that a parameter may have.
 //!
-//! Input: floats, integers. Output: [`Lift`] for packs, [`LiftEvery`]. Invariant: every lane is the
+//! Input: floats, integers. Output: [`Lift`] for packs, [`LiftEvery`], [`Parameter`]. Invariant: every lane is the
 //! number as `f64`.
 
-use hamiltonian_real::Lift;
+use core::any::Any;
+use hamiltonian_real::{Lift, Parameter, Real};
 
 use super::{Base, Nf, V, W};
 use crate::level::register::Register;
@@ -43,3 +44,15 @@ macro_rules! lift_every {
     };
 }
 lift_every!(f64 f32 i8 i16 i32 i64 isize u8 u16 u32 u64 usize);
+
+/// A pack has parameters of its own in each lane, for states over the same pack alone. Over another scalar they have no
+/// value, so that a start there is refused.
+impl<P: Base, const K: usize> Parameter for W<P, K> {
+    #[inline(always)]
+    fn into_real<T: Real>(self) -> T {
+        let own: &dyn Any = &self;
+        own.downcast_ref::<T>()
+            .copied()
+            .unwrap_or_else(|| T::constant(f64::NAN, 0.0))
+    }
+}

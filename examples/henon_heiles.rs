@@ -12,9 +12,9 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::analysis::{Branch, momentum_from_energy};
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use hamiltonian::start::{Branch, momentum_from_energy};
 use std::path::Path;
 
 #[path = "support/checks.rs"]

@@ -16,9 +16,9 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::analysis::{Branch, momentum_from_energy};
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use hamiltonian::start::{Branch, momentum_from_energy};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 

@@ -13,9 +13,9 @@
 use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::View;
+use hamiltonian::analysis::{Branch, momentum_from_energy};
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use hamiltonian::start::{Branch, momentum_from_energy};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 

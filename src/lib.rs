@@ -31,7 +31,10 @@
 //! | [`language`] | the reference of the macro |
 //! | [`schemes`] | the list of schemes |
 //! | [`observers`] | what a run can record |
-//! | [`tangents`] | Lyapunov exponents and periodic orbits |
+//! | [`results`] | tables, saved runs and stores |
+//! | [`analysis`] | Lyapunov exponents, periodic orbits, starts on a surface |
+//! | [`systems`] | functions with data, coordinates of bodies |
+//! | [`errors`] | the parts of [`Error`] |
 //! | `plot` | pictures of results, with the feature `plot` |
 //! | [`gallery`] | the pictures of the examples |
 //!
@@ -47,8 +50,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
-// This crate has no code of its own: it joins the macro and the library under one name, also in a program that renames
-// the dependency.
+// Beside pictures, this crate has no code of its own: it joins the macro and the library under one name, also in a program
+// that renames the dependency.
 
 pub use hamiltonian_core::*;
 
@@ -66,6 +69,9 @@ pub use hamiltonian_core::private;
 
 #[doc(hidden)]
 pub use hamiltonian_macros as __private_macros;
+
+#[cfg(feature = "plot")]
+pub mod plot;
 
 /// The names that a program needs to define and run systems.
 pub mod prelude {

@@ -2,14 +2,29 @@
 //!
 //! An entry of a folder is a file with its own subfolder, or a subfolder with a `mod.rs`. Parent and
 //! child may name each other; a re-exported name counts as its defining file. A page, which re-exports and
-//! does nothing else, names nobody itself. The engine's folders are layers, of which each reads only those
-//! below it.
+//! does nothing else, names nobody itself. The folders of the engine and of the core are layers, of which each reads only
+//! those below it.
 
 use crate::source::{CRATES, Module, Texts, is_word, texts, texts_of};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The layers of the engine, the lowest first.
-const LAYERS: [&str; 4] = ["algebra", "proofs", "flows", "programs"];
+const ENGINE: &[&str] = &["algebra", "proofs", "flows", "programs"];
+
+/// The layers of the core, the lowest first.
+const CORE: &[&str] = &[
+    "error",
+    "systems",
+    "flows",
+    "loops",
+    "schemes",
+    "results",
+    "observers",
+    "runs",
+    "analysis",
+    "ensembles",
+    "private",
+];
 
 /// Every path in a text that begins with `crate`, `super`, `self` or, in a `use`, a child module; with
 /// the lists in braces written out.
@@ -163,8 +178,8 @@ fn circles(texts: &Texts) -> Vec<String> {
 }
 
 /// Modules that are in no layer, and uses of a layer by one below it.
-fn against_layers(texts: &Texts) -> Vec<String> {
-    let level = |name: &String| LAYERS.iter().position(|layer| layer == name);
+fn against_layers(texts: &Texts, layers: &[&str]) -> Vec<String> {
+    let level = |name: &String| layers.iter().position(|layer| layer == name);
     let outside = texts.keys().filter_map(|module| module.first());
     let outside = outside.filter(|name| level(name).is_none()).cloned();
     let graph = uses(texts).remove(&vec![]).unwrap_or_default();
@@ -183,28 +198,31 @@ fn no_folder_names_itself_in_a_circle() {
 }
 
 #[test]
-fn layers_of_the_engine_read_those_below_them() {
-    let engine = texts_of("hamiltonian-symbolic");
-    let found = against_layers(&engine);
-    assert!(found.is_empty(), "{found:#?}");
-    // Each layer but the lowest is seen to read another one.
-    let graph = uses(&engine).remove(&vec![]).expect("layers use layers");
-    let readers: BTreeSet<&str> = graph.keys().map(String::as_str).collect();
-    assert_eq!(readers, LAYERS[1..].iter().copied().collect());
+fn layers_read_those_below_them() {
+    for (name, layers) in [("hamiltonian-symbolic", ENGINE), ("hamiltonian-core", CORE)] {
+        let crate_texts = texts_of(name);
+        let found = against_layers(&crate_texts, layers);
+        assert!(found.is_empty(), "{name}: {found:#?}");
+        // Each layer but the lowest is seen to read another one.
+        let graph = (uses(&crate_texts).remove(&vec![])).expect("layers use layers");
+        let readers: BTreeSet<&str> = graph.keys().map(String::as_str).collect();
+        assert_eq!(readers, layers[1..].iter().copied().collect(), "{name}");
+    }
 }
 
 #[test]
 fn a_use_of_a_layer_above_is_found() {
     let root = "mod algebra; mod flows; pub use algebra::dag; pub use flows::split;";
     let with = |dag, other| {
-        against_layers(&texts(&[
+        let crate_texts = texts(&[
             ("", root),
             ("algebra", "pub mod dag;"),
             ("algebra/dag", dag),
             ("flows", "pub mod split;"),
             ("flows/split", "use crate::dag::Dag;"),
             (other, ""),
-        ]))
+        ]);
+        against_layers(&crate_texts, ENGINE)
     };
     assert!(with("", "programs").is_empty());
     assert_eq!(

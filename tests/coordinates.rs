@@ -253,11 +253,11 @@ fn bodies() {
     same_system!(bodies.clone(), helio.clone(), state.clone());
     // The same as the maps of the library.
     let ours = jacobi.from_declared(&state);
-    let theirs = hamiltonian::coordinates::to_jacobi(&state, &m).unwrap();
+    let theirs = hamiltonian::systems::coordinates::to_jacobi(&state, &m).unwrap();
     equal(&ours.q, &theirs.q);
     equal(&ours.p, &theirs.p);
     let ours = helio.from_declared(&state);
-    let theirs = hamiltonian::coordinates::to_heliocentric(&state);
+    let theirs = hamiltonian::systems::coordinates::to_heliocentric(&state);
     equal(&ours.q, &theirs.q);
     equal(&ours.p, &theirs.p);
     equal(
@@ -394,10 +394,10 @@ fn any_number<const N: usize>() {
         m: m.into(),
     };
     let there = new.from_declared(&state);
-    let theirs = hamiltonian::coordinates::to_heliocentric(&state);
+    let theirs = hamiltonian::systems::coordinates::to_heliocentric(&state);
     equal(&there.q, &theirs.q);
     equal(&there.p, &theirs.p);
-    let back = hamiltonian::coordinates::from_heliocentric(&there);
+    let back = hamiltonian::systems::coordinates::from_heliocentric(&there);
     equal(&new.to_declared(&there).q, &back.q);
     equal(&new.to_declared(&there).p, &back.p);
     close(new.last(&there), state.q[(N - 1, 0)]);
@@ -406,7 +406,7 @@ fn any_number<const N: usize>() {
     let (force, old) = (new.force(&there), declared.force(&state));
     // Generic code has it too.
     assert_eq!(System::force_at::<f64>(&new, &there), force);
-    let pushed = hamiltonian::coordinates::to_heliocentric(&State { p: old, ..state });
+    let pushed = hamiltonian::systems::coordinates::to_heliocentric(&State { p: old, ..state });
     equal(&force, &pushed.p);
     same_system!(declared, new, state);
 }
@@ -423,7 +423,7 @@ fn heliocentric_coordinates_of_any_number_of_bodies() {
         let planets = Planets::new(n, m.clone()).unwrap();
         let new = PlanetsAroundSun::new(n, m).unwrap();
         let there = new.from_declared(&state);
-        let theirs = hamiltonian::coordinates::to_heliocentric(&state);
+        let theirs = hamiltonian::systems::coordinates::to_heliocentric(&state);
         equal(&there.q, &theirs.q);
         equal(&there.p, &theirs.p);
         close(planets.angular(&state), new.angular(&there));

@@ -2,8 +2,8 @@
 //! Here they are also followed along a run.
 
 use hamiltonian::VectorOf;
+use hamiltonian::analysis::{Branch, momentum_from_energy};
 use hamiltonian::prelude::*;
-use hamiltonian::start::{Branch, momentum_from_energy};
 use hamiltonian::{observers::Monitor, schemes::author::ObservableKind};
 
 hamiltonian! {

@@ -39,9 +39,12 @@ mod pages;
 pub mod paper;
 mod periodic;
 pub mod planets;
+mod plot;
 mod potentials;
 mod processed;
 mod products;
+#[path = "../hamiltonian-core/tests/common/python.rs"]
+mod python;
 pub mod readme;
 mod reindexed;
 pub mod sizes;

@@ -1,8 +1,8 @@
 //! Indices that only the sizes keep in range, of sizes set at run time: `new` checks them. Const generics are checked by
 //! rustc (`toolchain/sizes.rs`).
 
+use hamiltonian::analysis::{Branch, momentum_from_energy};
 use hamiltonian::prelude::*;
-use hamiltonian::start::{Branch, momentum_from_energy};
 
 hamiltonian! {
     /// Reads an element that short lattices do not have, and ends that empty ones do not.

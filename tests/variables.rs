@@ -3,8 +3,8 @@
 #[path = "variables/friction.rs"]
 mod friction;
 
+use hamiltonian::analysis::{Branch, Section, momentum_from_energy, on_section};
 use hamiltonian::prelude::*;
-use hamiltonian::start::{Branch, Section, momentum_from_energy, on_section};
 use hamiltonian::{Dual, schemes::author::Dynamics};
 
 use crate::common::canonical::{close, equal};
@@ -157,7 +157,7 @@ fn forces_on_arrays() {
     let q = [[0.1, 0.2], [1.0, 0.3], [-1.5, 0.4]];
     let p = [[0.1, -0.3], [0.2, 1.3], [-0.1, -0.4]];
     let bodies = State::new(q, p);
-    let jacobi = hamiltonian::coordinates::to_jacobi(&bodies, &m).unwrap();
+    let jacobi = hamiltonian::systems::coordinates::to_jacobi(&bodies, &m).unwrap();
     let state = State {
         t: 0.0,
         q: DraggedVector {

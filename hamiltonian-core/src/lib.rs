@@ -31,9 +31,9 @@
 //! # Ok::<(), hamiltonian_core::errors::KnotError>(())
 //! ```
 //!
-//! The modules follow the data: vectors and states, the system at a state, what moves it (vector
-//! fields and exact flows), one-step maps and the schemes that make them, the run and parts of its
-//! steps, observers, saved runs; starts on a surface and other coordinates of a state.
+//! The folders are layers, and each reads only those before it: `error`; [`systems`], with vectors and states; `flows`,
+//! what moves a state; `loops` over arrays; [`schemes`]; [`results`]; [`observers`]; `runs`; [`analysis`]; `ensembles`;
+//! `private`, for emitted code. The page of each says what enters and what leaves. The types of a run are at the root.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
@@ -43,134 +43,49 @@ mod readme {}
 
 extern crate alloc;
 
-mod lattice;
-mod uneven;
-mod vector;
-
-mod state;
-
-mod system;
-
-mod domain;
-
-mod exponential;
-mod flow;
-mod held;
-mod kernel;
-mod push;
-
-mod map;
-
-mod scheme;
-pub mod schemes;
-
-mod integrator;
-
-mod events;
-mod observe;
-mod observed;
-mod output;
-#[cfg(feature = "plot")]
-pub mod plot;
-#[cfg(feature = "progress")]
-mod progress;
-mod root;
-mod shard;
-#[cfg(feature = "std")]
-mod store;
-mod table;
-mod tangent;
-
-mod periodic;
-mod times;
-mod transformed;
-
-mod checkpoint;
-mod resume;
-
-mod any;
-
-mod ensemble;
-
-mod calls;
+pub mod analysis;
+mod ensembles;
+mod flows;
 mod loops;
-mod pairs;
-mod slabs;
-
-pub mod function;
-
-pub mod start;
-
-pub mod coordinates;
-
-mod derivatives;
+pub mod observers;
+pub mod results;
+mod runs;
+pub mod schemes;
+pub mod systems;
 
 mod error;
-mod failed;
-
-mod reach;
-
 #[doc(hidden)]
 pub mod private;
 
-pub use any::AnyRun;
-pub use checkpoint::Checkpoint;
-pub use ensemble::{
+pub use ensembles::{
     End, Ensemble, Fused, Lyapunov, Member, Record, Rounding, Row, Status, Sweep, Unfused,
 };
 pub use error::Error;
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Real};
-pub use integrator::{ErrorEstimate, Integrator, Run, States};
-pub use lattice::Lattice;
-pub use observe::{Observer, View};
-pub use scheme::Scheme;
-pub use shard::Shard;
-pub use state::{Gradient, IntoStart, Plain, State};
-pub use system::{
+pub use observers::observe::{Observer, View};
+pub use results::checkpoint::Checkpoint;
+pub use results::shard::Shard;
+pub use results::table::Table;
+pub use runs::any::AnyRun;
+pub use runs::integrator::{ErrorEstimate, Integrator, Run, States};
+pub use schemes::scheme::Scheme;
+pub use systems::lattice::Lattice;
+pub use systems::state::{Gradient, IntoStart, Plain, State};
+pub use systems::system::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced, VectorOf,
 };
-pub use table::Table;
-pub use transformed::TimeTransformed;
-pub use vector::{IntoVector, Vector, shape};
+pub use systems::transformed::TimeTransformed;
+pub use systems::vector::{IntoVector, Vector, shape};
 
 // Hidden, since the glob of the facade would put its pages among those of the library.
 #[doc(hidden)]
 pub use nalgebra;
-
-/// Observers receive the states of a run; events are located between steps.
-///
-/// An [`Observer`] receives a [`View`] of the run after each step, or after each n-th step
-/// ([`every`](observers::every)). [`watch`](observers::watch) makes an observer from a closure. A tuple of observers is
-/// an observer.
-pub mod observers {
-    pub use crate::checkpoint::Memory;
-    pub use crate::events::{Event, Events, Located};
-    pub use crate::observe::{
-        Deviation, EnergyDrift, Every, Monitor, Monitors, Unobserved, Verdict, Watch, every, watch,
-    };
-    pub use crate::output::Recorder;
-    #[cfg(feature = "progress")]
-    pub use crate::progress::Progress;
-    pub use crate::times::{AtTimes, at_times};
-}
 
 /// The parts of [`Error`]: errors of saved runs, tables, stores, shards and the knots of splines.
 pub mod errors {
     #[cfg(feature = "std")]
     pub use crate::error::StoreError;
     pub use crate::error::{CheckpointError, KnotError, ShardError, TableError};
-}
-
-/// Zarr stores of sweeps, written chunk by chunk.
-#[cfg(feature = "std")]
-pub mod stores {
-    pub use crate::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
-}
-
-/// Derivatives of the numerical map: Lyapunov exponents, Floquet multipliers, periodic orbits.
-pub mod tangents {
-    pub use crate::periodic::{Closing, OrbitSearch, PeriodicOrbit};
-    pub use crate::tangent::{Tangent, megno, monodromy, multipliers, symplectic_defect};
 }
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
@@ -187,7 +102,9 @@ pub mod prelude {
     #[doc(hidden)]
     pub use crate::private::EveryParameterHasADefault as _;
 
-    pub use crate::function::{Function, Grid, Spline};
+    pub use crate::analysis::{
+        Closing, OrbitSearch, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,
+    };
     pub use crate::observers::{
         EnergyDrift, Event, Events, Monitors, Recorder, at_times, every, watch,
     };
@@ -202,9 +119,7 @@ pub mod prelude {
         SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational, WisdomHolman3,
         WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
     };
-    pub use crate::tangents::{
-        Closing, OrbitSearch, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,
-    };
+    pub use crate::systems::function::{Function, Grid, Spline};
     pub use crate::{
         AnyRun, Checkpoint, DoubleDouble, Dual, Ensemble, Error, Gradient, Integrator, Lyapunov,
         Member, Observer, Real, Run, Scheme, Shard, Split, State, StateOf, Status, Sweep, System,

@@ -24,36 +24,36 @@ pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
 
-pub use crate::calls::*;
 pub use crate::error::Error;
-pub use crate::exponential::Exponential;
-use crate::flow::{Flow, Piece, Pieces};
-pub use crate::function::Function;
-pub use crate::held::{Given, Held, LaneValue, gathered};
-pub use crate::kernel::{
+pub use crate::flows::exponential::Exponential;
+pub use crate::flows::held::{Given, Held, LaneValue, gathered};
+pub use crate::flows::kernel::{
     Adds, Damped, Drift, FieldBody, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
     Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole, WithData,
     gradient_by_field, slopes_by_kick, velocities_by_drift,
 };
-use crate::lattice::write_indices;
-pub use crate::lattice::{
-    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
-};
-pub use crate::loops::{
+pub use crate::flows::push::Coupled;
+pub use crate::loops::calls::*;
+pub use crate::loops::pairs::{TILED, TileRow, Triangle, pairs};
+pub use crate::loops::slabs::rows;
+pub use crate::loops::stretch::{
     Body, Change, ColumnStore, LONG, Mode, Nest, STRIDE, Stretch, nest, total, worth, wrapped,
 };
-pub use crate::pairs::{TILED, TileRow, Triangle, pairs};
-pub use crate::push::Coupled;
-pub use crate::reach::{Reach, product};
-pub use crate::slabs::rows;
-pub use crate::state::{Gradient, Plain, Point, State};
-pub use crate::system::gather::{InPack, Kept, in_pack};
-pub use crate::system::{
+use crate::systems::flow::{Flow, Piece, Pieces};
+pub use crate::systems::function::Function;
+use crate::systems::lattice::write_indices;
+pub use crate::systems::lattice::{
+    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
+};
+pub use crate::systems::reach::{Reach, product};
+pub use crate::systems::state::{Gradient, Plain, Point, State};
+pub use crate::systems::system::gather::{InPack, Kept, in_pack};
+pub use crate::systems::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced, VectorOf,
 };
-pub use crate::uneven::Uneven;
-pub use crate::vector::{IntoVector, Over, Shape, Vector};
+pub use crate::systems::uneven::Uneven;
+pub use crate::systems::vector::{IntoVector, Over, Shape, Vector};
 pub use crate::{
     __computed_as_chosen as computed_as_chosen, __each as each, __gathers as gathers,
     __halves as halves, __known as known, __prepared as prepared,

@@ -3,7 +3,7 @@
 use hamiltonian_core::{
     Dual, Real,
     errors::KnotError,
-    function::{Function, Grid, Spline},
+    systems::function::{Function, Grid, Spline},
 };
 use hamiltonian_lanes::{Nf, W};
 

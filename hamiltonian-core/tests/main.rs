@@ -18,8 +18,6 @@ mod lanes;
 mod observers;
 mod orbits;
 mod own;
-#[cfg(feature = "plot")]
-mod plot;
 mod preserving;
 mod processed;
 #[cfg(feature = "progress")]

@@ -2,9 +2,11 @@
 
 use crate::common::systems::{Formula, Hand, HenonHeiles, Paper34, Relativistic, scalar};
 use hamiltonian_core::VectorOf;
-use hamiltonian_core::coordinates::{from_heliocentric, from_jacobi, to_heliocentric, to_jacobi};
-use hamiltonian_core::start::{
+use hamiltonian_core::analysis::{
     Branch, Section, coordinate_on_event, momentum_from_energy, on_section,
+};
+use hamiltonian_core::systems::coordinates::{
+    from_heliocentric, from_jacobi, to_heliocentric, to_jacobi,
 };
 use hamiltonian_core::{
     DoubleDouble, Dual, Error, Real, State, System, Vector,

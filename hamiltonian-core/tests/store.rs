@@ -7,7 +7,7 @@ use crate::common::python;
 use hamiltonian_core::{
     Error, Real,
     errors::StoreError,
-    stores::{ChunkData, Layout, Rows, Store},
+    results::{ChunkData, Layout, Rows, Store},
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::nalgebra::{Complex, DMatrix, DVector};
 use hamiltonian_core::private::{Group, SVector};
-use hamiltonian_core::{Scheme, tangents::multipliers};
+use hamiltonian_core::{Scheme, analysis::multipliers};
 
 type Heiles = Hand<HenonHeiles, 2>;
 type Plane = State<SVector<f64, 2>>;

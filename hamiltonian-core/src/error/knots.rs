@@ -3,7 +3,7 @@
 use super::Error;
 use core::fmt::{self, Display, Formatter};
 
-/// Data that a [`Spline`](crate::function::Spline) or a [`Grid`](crate::function::Grid) cannot pass through.
+/// Data that a [`Spline`](crate::systems::function::Spline) or a [`Grid`](crate::systems::function::Grid) cannot pass through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum KnotError {

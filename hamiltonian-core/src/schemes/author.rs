@@ -17,20 +17,20 @@
 //! assert!(catalogue().any(|entry| entry.name == "Tao"));
 //! ```
 
-pub use crate::derivatives::{WrongDerivative, check_derivatives};
-pub use crate::flow::{Flow, Nothing, Piece, Pieces, Scratch, VectorField};
-pub use crate::integrator::MapOf;
-pub use crate::map::{Cause, Clock, Map, ScalarOf, Step};
-pub use crate::observed::Observed;
-pub use crate::scheme::{CarriedBy, Entry, Form, Listed, Needs, OneStep, Symmetric};
-pub use crate::state::{Carried, CarriedShape, Pair, Point};
-pub use crate::system::gather::{self, InLanes, InPack, Kept};
-pub use crate::system::{Arithmetic, Cyclic, Dynamics, Group, Observable, ObservableKind};
-pub use crate::transformed::WithTime;
-pub use crate::vector::{Over, Shape};
+pub use crate::flows::map::{Cause, Clock, Map, ScalarOf, Step};
+pub use crate::runs::integrator::MapOf;
+pub use crate::schemes::scheme::{CarriedBy, Entry, Form, Listed, Needs, OneStep, Symmetric};
+pub use crate::systems::derivatives::{WrongDerivative, check_derivatives};
+pub use crate::systems::flow::{Flow, Nothing, Piece, Pieces, Scratch, VectorField};
+pub use crate::systems::observed::Observed;
+pub use crate::systems::state::{Carried, CarriedShape, Pair, Point};
+pub use crate::systems::system::gather::{self, InLanes, InPack, Kept};
+pub use crate::systems::system::{Arithmetic, Cyclic, Dynamics, Group, Observable, ObservableKind};
+pub use crate::systems::transformed::WithTime;
+pub use crate::systems::vector::{Over, Shape};
 
 pub use super::catalogue::catalogue;
-pub use super::iterate::{Contraction, Outcome, iterate};
 pub use super::splitting::{Durations, Reversed, Splitting, Weight};
 pub use super::variational::Ends;
 pub use super::zigzag::{Zigzag, ZigzagOf};
+pub use crate::flows::iterate::{Contraction, Outcome, iterate};

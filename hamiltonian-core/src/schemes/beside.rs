@@ -3,7 +3,7 @@
 //! Input: a map ([`StagedMap`]). Output: its steps. Invariant: the bits are those of the steps stage by stage.
 
 use super::rows::{Abreast, LEAST, Width};
-use crate::map::{Cause, Clock, Map, ScalarOf};
+use crate::flows::map::{Cause, Clock, Map, ScalarOf};
 
 /// A map whose steps are computed stage by stage, or with several stages in the lanes of a pack.
 pub(super) trait StagedMap<const S: usize>: Map {

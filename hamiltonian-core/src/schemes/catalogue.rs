@@ -14,11 +14,11 @@ use super::{
     TransformedVerlet, TwoStepMidpoint, Variational, WisdomHolman3, WisdomHolman5, WisdomHolman7,
     WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
 };
-use crate::scheme::{Entry, Listed, OneStep, Scheme};
-use crate::system::{
+use crate::schemes::scheme::{Entry, Listed, OneStep, Scheme};
+use crate::systems::system::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
 };
-use crate::transformed::TimeTransformed;
+use crate::systems::transformed::TimeTransformed;
 
 /// A visitor of the schemes of the catalogue.
 pub trait Visitor<S: System> {

@@ -7,11 +7,11 @@ use super::processed::{Kernel4, PostProcessor, Processed, ProcessedMap, Processo
 use super::splitting::{Durations, Negated, Splitting};
 use super::tables::processed as tables;
 use super::zigzag::{Zigzag, ZigzagOf};
-use crate::flow::{Flow, Pieces};
-use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Carried, Point, State};
-use crate::system::{Exact, Split, VectorOf};
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::{Flow, Pieces};
+use crate::systems::state::{Carried, Point, State};
+use crate::systems::system::{Exact, Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// A [`Processed`] scheme whose observed states are means instead of images under π:

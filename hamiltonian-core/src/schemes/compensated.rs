@@ -9,12 +9,12 @@
 
 use super::splitting::Splitting;
 use super::zigzag::Zigzag;
-use crate::flow::{Flow, Piece, Pieces, Scratch};
-use crate::map::Step;
-use crate::scheme::{Entry, Listed, Needs, Scheme, Symmetric};
-use crate::state::{Pair, Point, State};
-use crate::system::{Separable, Unforced, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::Step;
+use crate::schemes::scheme::{Entry, Listed, Needs, Scheme, Symmetric};
+use crate::systems::flow::{Flow, Piece, Pieces, Scratch};
+use crate::systems::state::{Pair, Point, State};
+use crate::systems::system::{Separable, Unforced, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::Real;
 
 /// A splitting into kicks and drifts by the table `M`, with compensated summation: its rounding errors

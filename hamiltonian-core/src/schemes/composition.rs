@@ -3,16 +3,16 @@
 //! Input: any one-step scheme, weights. Output: [`Composition`], [`Adjoint`]. Invariant: the closing
 //! piece of a stage and the opening piece of the next are one, across steps too.
 
-use super::iterate::{Contraction, iterate};
 use super::splitting::Weight;
 use super::tables::{Coefficients, general as tables};
 use crate::error::Error;
-use crate::flow::Scratch;
-use crate::map::{Cause, Either, Map, ScalarOf, Step};
-use crate::scheme::{Entry, Listed, OneStep, Scheme, Symmetric};
-use crate::state::{Point, State};
-use crate::system::{System, VectorOf};
-use crate::vector::Vector;
+use crate::flows::iterate::{Contraction, iterate};
+use crate::flows::map::{Cause, Either, Map, ScalarOf, Step};
+use crate::schemes::scheme::{Entry, Listed, OneStep, Scheme, Symmetric};
+use crate::systems::flow::Scratch;
+use crate::systems::state::{Point, State};
+use crate::systems::system::{System, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
 /// A scheme made of steps of another: Φ(γₛh) ∘ … ∘ Φ(γ₂h) ∘ Φ(γ₁h).

@@ -3,13 +3,13 @@
 //! Input: a system without forces. Output: [`DiscreteGradient`]. Invariant: the difference of H
 //! over a step is rounding error, for any step size.
 
-use super::iterate::{Contraction, iterate};
-use crate::flow::Scratch;
-use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System, Unforced, VectorOf};
-use crate::vector::Vector;
+use crate::flows::iterate::{Contraction, iterate};
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::Scratch;
+use crate::systems::state::{Pair, Point, State};
+use crate::systems::system::{Dynamics, System, Unforced, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
 /// The midpoint discrete gradient of Gonzalez: order 2, preserves H to rounding error,

@@ -6,12 +6,12 @@
 
 use super::strang::Strang;
 use super::zigzag::Zigzag;
-use crate::flow::{Flow, Piece, Pieces, VectorField};
-use crate::map::{Either, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System, Unforced, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::{Either, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::{Flow, Piece, Pieces, VectorField};
+use crate::systems::state::{Pair, Point, State};
+use crate::systems::system::{Dynamics, System, Unforced, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::Real;
 
 /// Two copies (q, p) and (q̃, p̃) of a point; the first is the observed one.

@@ -5,10 +5,10 @@
 
 use super::collocation::{Collocation, multiples};
 use super::stages::{Carries, Collocated, at_rest, of_fixed_point};
-use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::State;
-use crate::system::{Dynamics, System, VectorOf};
+use crate::flows::map::Step;
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::state::State;
+use crate::systems::system::{Dynamics, System, VectorOf};
 use core::fmt;
 use hamiltonian_lanes::Real;
 

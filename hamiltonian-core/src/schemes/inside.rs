@@ -2,11 +2,11 @@
 //!
 //! A scheme's author names what is in [`author`](super::author).
 
-pub use crate::flow::{Sandwich, Turn};
-pub use crate::map::Either;
-pub use crate::observed::{FieldObserved, ReadyObserved};
-pub use crate::push::{Both, Coupled, SubStep};
-pub use crate::transformed::{FieldInNewTime, InNewTime};
+pub use crate::flows::map::Either;
+pub use crate::flows::push::{Both, Coupled, SubStep};
+pub use crate::systems::flow::{Sandwich, Turn};
+pub use crate::systems::observed::{FieldObserved, ReadyObserved};
+pub use crate::systems::transformed::{FieldInNewTime, InNewTime};
 
 pub use super::compensated::Carrying;
 pub use super::composition::{Composed, Inverted, InvertedWork};

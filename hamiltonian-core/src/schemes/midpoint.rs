@@ -3,13 +3,13 @@
 //! Input: any system. Output: [`ImplicitMidpoint`]. Invariant: a step is finished only when its
 //! equations hold to rounding; otherwise it is an error.
 
-use super::iterate::{Contraction, iterate};
-use crate::flow::{Scratch, VectorField};
-use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System, VectorOf};
-use crate::vector::Vector;
+use crate::flows::iterate::{Contraction, iterate};
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::{Scratch, VectorField};
+use crate::systems::state::{Pair, Point, State};
+use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
 /// The implicit midpoint rule (Gauss collocation with one stage): order 2, symplectic for every

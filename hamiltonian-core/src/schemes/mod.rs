@@ -54,13 +54,13 @@
 /// A scheme that is its own adjoint: `symmetric!(Strang)`, `symmetric!(Gauss<S>, const S: usize)`.
 macro_rules! symmetric {
     ($scheme:ty $(, $($generics:tt)*)?) => {
-        impl<$($($generics)*)?> crate::scheme::OneStep for $scheme {
+        impl<$($($generics)*)?> crate::schemes::scheme::OneStep for $scheme {
             type Adjoint = Self;
             fn adjoint(&self) -> Self {
                 *self
             }
         }
-        impl<$($($generics)*)?> crate::scheme::Symmetric for $scheme {}
+        impl<$($($generics)*)?> crate::schemes::scheme::Symmetric for $scheme {}
     };
 }
 
@@ -89,7 +89,6 @@ mod trajectories;
 mod beside;
 pub mod collocation;
 mod gauss;
-mod iterate;
 mod midpoint;
 mod rows;
 mod second_order;
@@ -98,6 +97,7 @@ mod variational;
 
 mod discrete_gradient;
 mod runge_kutta;
+pub(crate) mod scheme;
 
 mod composition;
 mod paced;

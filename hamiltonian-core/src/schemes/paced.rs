@@ -4,12 +4,12 @@
 //! in the point and the density together, so it adds no drift to that of a fixed step.
 
 use crate::error::Error;
-use crate::flow::{Scratch, VectorField};
-use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, OneStep, Scheme};
-use crate::state::{Carried, CarriedShape, Point, State};
-use crate::system::{Dynamics, System, VectorOf};
-use crate::vector::{Over, Shape, Vector};
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, OneStep, Scheme};
+use crate::systems::flow::{Scratch, VectorField};
+use crate::systems::state::{Carried, CarriedShape, Point, State};
+use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::vector::{Over, Shape, Vector};
 use core::fmt::Debug;
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;

@@ -8,12 +8,12 @@ use super::splitting::{Durations, Negated, Reversed, Splitting};
 use super::strang::Strang;
 use super::tables::processed as tables;
 use super::zigzag::{Zigzag, ZigzagOf};
-use crate::flow::{Flow, Pieces, Scratch};
-use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
-use crate::state::{Carried, Point, State};
-use crate::system::{Exact, Split, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::systems::flow::{Flow, Pieces, Scratch};
+use crate::systems::state::{Carried, Point, State};
+use crate::systems::system::{Exact, Split, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
 /// A kernel K between a processor π and its inverse, on pieces with exact flows:

@@ -8,12 +8,12 @@ use super::extended::{Copies, Cross, Doubled};
 use super::splitting::Splitting;
 use super::stages::Stages;
 use super::zigzag::Zigzag;
-use crate::flow::Scratch;
-use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
-use crate::state::{Carried, Pair, Point, State};
-use crate::system::{System, Unforced, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
+use crate::systems::flow::Scratch;
+use crate::systems::state::{Carried, Pair, Point, State};
+use crate::systems::system::{System, Unforced, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
 /// The splitting of H(q, p̃) + H(q̃, p) by the table `W`.

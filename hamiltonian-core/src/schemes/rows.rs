@@ -4,8 +4,8 @@
 //! all stages. Invariant: every layout adds in the same order, so that a step has the same bits in all
 //! of them where products do not fuse. The lanes of the last row that are left repeat its last stage.
 
-use super::iterate::Outcome;
-use crate::vector::Vector;
+use crate::flows::iterate::Outcome;
+use crate::systems::vector::Vector;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Base, Cpu, Level, Mask, Pack, Real};
 

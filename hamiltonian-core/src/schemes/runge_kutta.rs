@@ -3,12 +3,12 @@
 //! Input: any system. Output: [`RungeKutta4`]. Invariant: none but its order.
 
 use super::composition::Adjoint;
-use crate::flow::{Scratch, VectorField};
-use crate::map::{Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
-use crate::state::{Point, State};
-use crate::system::{Dynamics, System, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::{Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::systems::flow::{Scratch, VectorField};
+use crate::systems::state::{Point, State};
+use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::Real;
 
 /// The classical Runge–Kutta method: order 4, explicit, **not symplectic**. H drifts; it is here

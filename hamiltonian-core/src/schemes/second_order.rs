@@ -6,19 +6,19 @@
 use super::beside::StagedMap;
 use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
-use super::iterate::Outcome;
 use super::rows::{
     Abreast, Apart, Beside, Equations, LEVELS, RowLayout, Width, in_rows, load, matrix_in_rows,
     of_the_guess, product, rows, solve, spread, store, sum,
 };
 use super::stages::{Stages, extrapolation};
-use crate::flow::Scratch;
-use crate::map::{Cause, Clock, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Pair, Point, State};
-use crate::system::gather::{InLanes, Kept, in_lanes};
-use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf};
-use crate::vector::{Over, Vector};
+use crate::flows::iterate::Outcome;
+use crate::flows::map::{Cause, Clock, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::Scratch;
+use crate::systems::state::{Pair, Point, State};
+use crate::systems::system::gather::{InLanes, Kept, in_lanes};
+use crate::systems::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf};
+use crate::systems::vector::{Over, Vector};
 use core::fmt;
 use hamiltonian_lanes::{Cpu, DoubleDouble, Level, Mask, Pack, Real};
 

@@ -6,10 +6,10 @@
 use super::splitting::{Durations, Splitting, Weight};
 use super::strang::Strang;
 use super::zigzag::{Zigzag, ZigzagOf};
-use crate::map::{Either, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
-use crate::state::{Point, State};
-use crate::system::{Separable, VectorOf};
+use crate::flows::map::{Either, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::systems::state::{Point, State};
+use crate::systems::system::{Separable, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// Störmer–Verlet (leapfrog): order 2, symplectic, time-reversible; equations (27).

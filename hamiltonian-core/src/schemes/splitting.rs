@@ -4,7 +4,7 @@
 //! the step. Invariant: the durations of a table sum to one, down and up together; those of a processor
 //! to zero.
 
-use crate::scheme::{Listed, OneStep};
+use crate::schemes::scheme::{Listed, OneStep};
 use hamiltonian_lanes::Real;
 
 /// A coefficient in two words, `.0 + .1`, exact to 106 bits.
@@ -112,8 +112,8 @@ impl<T: Real> Clocks<T> {
 pub struct Reversed<W>(pub W);
 
 impl<W: Splitting> Listed for Reversed<W> {
-    fn entry(&self) -> crate::scheme::Entry {
-        crate::scheme::Entry {
+    fn entry(&self) -> crate::schemes::scheme::Entry {
+        crate::schemes::scheme::Entry {
             variant: "adjoint",
             ..self.0.entry()
         }
@@ -151,8 +151,8 @@ where
 pub struct Negated<W>(pub W);
 
 impl<W: Splitting> Listed for Negated<W> {
-    fn entry(&self) -> crate::scheme::Entry {
-        crate::scheme::Entry {
+    fn entry(&self) -> crate::schemes::scheme::Entry {
+        crate::schemes::scheme::Entry {
             variant: "adjoint",
             ..self.0.entry()
         }

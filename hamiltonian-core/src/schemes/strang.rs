@@ -5,10 +5,10 @@
 
 use super::splitting::{Durations, Splitting, Weight};
 use super::zigzag::{Zigzag, ZigzagOf};
-use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Point, State};
-use crate::system::{Split, VectorOf};
+use crate::flows::map::Step;
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::state::{Point, State};
+use crate::systems::system::{Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// Strang's splitting: the flows of all pieces for half a step, down, and up again; order 2,

@@ -9,10 +9,10 @@ use super::composition::Composition;
 use super::splitting::{Durations, Reversed, Splitting};
 use super::tables::{Coefficients, general, near_integrable, nystrom};
 use super::zigzag::{Zigzag, ZigzagOf};
-use crate::map::{Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
-use crate::state::{Point, State};
-use crate::system::{Exact, Nystrom, Split, VectorOf};
+use crate::flows::map::{Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
+use crate::systems::state::{Point, State};
+use crate::systems::system::{Exact, Nystrom, Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// The line of a table in the catalogue.

@@ -7,12 +7,12 @@
 use super::extended::{Copies, Cross};
 use super::strang::Strang;
 use super::zigzag::Zigzag;
-use crate::flow::{Flow, Piece, Pieces};
-use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Pair, State};
-use crate::system::{Dynamics, System, Unforced, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::Step;
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::{Flow, Piece, Pieces};
+use crate::systems::state::{Pair, State};
+use crate::systems::system::{Dynamics, System, Unforced, VectorOf};
+use crate::systems::vector::Vector;
 use hamiltonian_lanes::Real;
 
 /// Tao's scheme: Pihajoki's two copies, bound together by ω; order 2, explicit for every H.

@@ -4,12 +4,12 @@
 //! [`ConsecutiveSubTrajectories`] (26), [`IntersectingSubTrajectories`] (33). Invariant: with
 //! z = (q, p) and J∇H = (∂H/∂p, −∂H/∂q), every move is `z_earlier + leap·J∇H(z_between)`.
 
-use crate::flow::VectorField;
-use crate::map::{Clock, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, System, Unforced, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::{Clock, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::VectorField;
+use crate::systems::state::{Pair, Point, State};
+use crate::systems::system::{Dynamics, System, Unforced, VectorOf};
+use crate::systems::vector::Vector;
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 

@@ -3,17 +3,17 @@
 //! Input: H = ½pᵀM⁻¹p + V(q) in the time of a monitor function g(q). Output: [`TransformedVerlet`].
 //! Invariant: one ∂V/∂q a step; only two equations, for one number each, are implicit.
 
-use super::iterate::{Contraction, iterate};
 use crate::error::Error;
-use crate::flow::Scratch;
-use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Pair, Point, State};
-use crate::system::{
+use crate::flows::iterate::{Contraction, iterate};
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::flow::Scratch;
+use crate::systems::state::{Pair, Point, State};
+use crate::systems::system::{
     Autonomous, Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf,
 };
-use crate::transformed::{InNewTime, TimeTransformed, WithTime};
-use crate::vector::{Vector, dot};
+use crate::systems::transformed::{InNewTime, TimeTransformed, WithTime};
+use crate::systems::vector::{Vector, dot};
 use hamiltonian_lanes::{Mask, Real};
 use nalgebra::SVector;
 

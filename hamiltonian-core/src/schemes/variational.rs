@@ -7,11 +7,11 @@
 use super::collocation::{Collocation, constant, multiples};
 use super::stages::{Carries, Collocated, CollocatedWork, Modes, Stages, at_rest, of_fixed_point};
 use crate::error::Error;
-use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
-use crate::state::{Point, State};
-use crate::system::{Dynamics, System, VectorOf};
-use crate::vector::{Vector, dot};
+use crate::flows::map::Step;
+use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
+use crate::systems::state::{Point, State};
+use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::vector::{Vector, dot};
 use core::fmt;
 use core::ops::Range;
 use hamiltonian_lanes::{DoubleDouble, Mask, Real};

@@ -10,11 +10,11 @@
 //! tables keep their order.) Störmer–Verlet thus kicks at t and t + h and drifts at t + h/2.
 
 use super::splitting::{Clocks, Splitting, Weight};
-use crate::flow::{Flow, Pieces};
-use crate::map::{Cause, Map, Step};
-use crate::state::{Carried, Point};
-use crate::system::{System, VectorOf};
-use crate::vector::Vector;
+use crate::flows::map::{Cause, Map, Step};
+use crate::systems::flow::{Flow, Pieces};
+use crate::systems::state::{Carried, Point};
+use crate::systems::system::{System, VectorOf};
+use crate::systems::vector::Vector;
 use core::fmt;
 use hamiltonian_lanes::{DoubleDouble, Real};
 

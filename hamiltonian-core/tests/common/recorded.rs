@@ -38,7 +38,7 @@ fn renewed(record: &str, version: u64, found: &BTreeMap<String, u64>) -> Result<
         if !changed.is_empty() {
             return Err(format!(
                 "the bits of these runs changed, and the version of saved runs is still {version}:\n{}\nhelp: raise \
-                 `VERSION` in `hamiltonian-core/src/checkpoint.rs`, say there what changed, and record the bits with \
+                 `VERSION` in `hamiltonian-core/src/results/checkpoint.rs`, say there what changed, and record the bits with \
                  HAMILTONIAN_RECORD=1",
                 changed.join("\n")
             ));

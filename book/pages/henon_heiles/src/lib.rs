@@ -6,7 +6,7 @@
 use hamiltonian::VectorOf;
 use hamiltonian::observers::{Event, Events};
 use hamiltonian::prelude::*;
-use hamiltonian::start::{Branch, Section, on_section};
+use hamiltonian::analysis::{Branch, Section, on_section};
 use std::cell::RefCell;
 
 hamiltonian! {

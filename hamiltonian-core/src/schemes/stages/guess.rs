@@ -3,7 +3,7 @@
 //! Input: nodes and weights, this step and the one before. Output: matrices for the slopes of the step before.
 //! Invariant: a guess changes the number of iterations, and what they converge to by rounding alone.
 
-use crate::map::Step;
+use crate::flows::map::Step;
 use crate::schemes::collocation::{Collocation, constant};
 use crate::schemes::rows::of_the_guess;
 use hamiltonian_lanes::{DoubleDouble, Real};

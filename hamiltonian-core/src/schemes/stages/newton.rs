@@ -4,9 +4,9 @@
 //! further. Invariant: lanes do not mix; rows are exchanged lane by lane.
 
 use super::Stages;
-use crate::state::Point;
-use crate::system::Dynamics;
-use crate::vector::Vector;
+use crate::systems::state::Point;
+use crate::systems::system::Dynamics;
+use crate::systems::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 

@@ -4,18 +4,18 @@
 //! Invariant: the bits do not depend on the [`RowLayout`].
 
 use super::{Carries, Collocated, Stages};
-use crate::flow::VectorField;
-use crate::map::Clock;
+use crate::flows::iterate::Outcome;
+use crate::flows::map::Clock;
 use crate::schemes::compensated::carry;
-use crate::schemes::iterate::Outcome;
 use crate::schemes::rows::{
     Abreast, Beside, Equations, LEVELS, RowLayout, Width, in_rows, load, matrix_in_rows, product,
     rows, solve, spread, store, sum,
 };
-use crate::state::Point;
-use crate::system::Dynamics;
-use crate::system::gather::{InLanes, Kept};
-use crate::vector::{Over, Vector};
+use crate::systems::flow::VectorField;
+use crate::systems::state::Point;
+use crate::systems::system::Dynamics;
+use crate::systems::system::gather::{InLanes, Kept};
+use crate::systems::vector::{Over, Vector};
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 

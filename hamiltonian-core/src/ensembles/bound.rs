@@ -1,0 +1,177 @@
+//! The entry of an ensemble into the level of the CPU, and into the pack that is fastest there.
+//!
+//! Input: a scheme, members, a rounding. Output: the members at their ends. Invariant: a level is compiled only for the
+//! roundings that a program names.
+
+use super::drive;
+use super::drive::deviations::{self, Deviations};
+use super::host::Host;
+use super::rounding::Rounding;
+use crate::error::Error;
+use crate::flows::map::Map;
+use crate::runs::integrator::{Recipe, check_scheme};
+use crate::schemes::scheme::{CarriedBy, Entry, Listed, Scheme};
+use crate::systems::state::{Carried, State};
+use crate::systems::system::{System, VectorOf};
+use crate::systems::vector::Vector;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, Real, W, dispatch};
+
+/// Drives the members of a host to their ends.
+pub(super) fn drive<T: Real, S: System, M: Scheme<S>, A: Rounding>(
+    scheme: &M,
+    host: &mut dyn Host<T, S>,
+) {
+    dispatch(WorkOnMembers::<T, S, M, A, _>::new(
+        scheme,
+        DriveMembers(host),
+    ));
+}
+
+/// Advances members with deviations to their ends.
+pub(super) fn deviate<T: Real, S: System, M: Scheme<S>, A: Rounding>(
+    scheme: &M,
+    all: &mut Deviations<'_, T, S>,
+) {
+    dispatch(WorkOnMembers::<T, S, M, A, _>::new(
+        scheme,
+        DeviateMembers(all),
+    ));
+}
+
+/// Work on members in the lanes of one pack type.
+trait MemberWork<T: Real, S: System> {
+    /// Does the work inside the level `L` of the pack.
+    fn at<L: Level, P: Pack, M: Scheme<S>>(self, scheme: &M);
+}
+
+/// Drives the members of a host to their ends.
+struct DriveMembers<'a, T: Real, S: System>(&'a mut dyn Host<T, S>);
+
+impl<T: Real, S: System> MemberWork<T, S> for DriveMembers<'_, T, S> {
+    #[inline(always)]
+    fn at<L: Level, P: Pack, M: Scheme<S>>(self, scheme: &M) {
+        drive::drive::<L, T, S, P, M>(scheme, self.0);
+    }
+}
+
+/// Advances members with deviations to their ends.
+struct DeviateMembers<'a, 'r, T: Real, S: System>(&'a mut Deviations<'r, T, S>);
+
+impl<T: Real, S: System> MemberWork<T, S> for DeviateMembers<'_, '_, T, S> {
+    #[inline(always)]
+    fn at<L: Level, P: Pack, M: Scheme<S>>(self, scheme: &M) {
+        deviations::advance::<L, T, S, P, M>(scheme, self.0);
+    }
+}
+
+/// Work on members as a kernel that chooses the pack of its level.
+struct WorkOnMembers<'a, T, S, M, A, W> {
+    scheme: &'a M,
+    work: W,
+    of: PhantomData<fn(T, S, A)>,
+}
+
+impl<'a, T, S, M, A, W> WorkOnMembers<'a, T, S, M, A, W> {
+    fn new(scheme: &'a M, work: W) -> Self {
+        let of = PhantomData;
+        WorkOnMembers { scheme, work, of }
+    }
+}
+
+/// Two registers of a level in lock-step.
+type W2<L> = W<<L as Level>::Pack, 2>;
+
+impl<T, S, M, A, W> Kernel for WorkOnMembers<'_, T, S, M, A, W>
+where
+    T: Real,
+    S: System,
+    M: Scheme<S>,
+    A: Rounding,
+    W: MemberWork<T, S>,
+{
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        // The widths differ only in speed: more registers in lock-step hide more of the latency of a step, until its
+        // numbers do not stay in registers. Two lanes gain too little for a copy of this code: such a CPU has one
+        // member at a time. The conditions are constant, so the compiler emits no code for the other widths.
+        if const { matches!(L::CPU, Cpu::Portable | Cpu::Sse2) } {
+            self.work.at::<L, f64, M>(self.scheme);
+        } else if const { numbers::<T, S, M>() <= 2 } {
+            self.at::<L, L::Wide, Nf<L::Several>>();
+        } else if const { numbers::<T, S, M>() <= 4 } {
+            self.at::<L, L::Several, Nf<L::Several>>();
+        } else {
+            self.at::<L, W2<L>, Nf<W2<L>>>();
+        }
+    }
+}
+
+impl<T, S, M, A, W> WorkOnMembers<'_, T, S, M, A, W>
+where
+    T: Real,
+    S: System,
+    M: Scheme<S>,
+    A: Rounding,
+    W: MemberWork<T, S>,
+{
+    /// Does the work in the pack of the rounding. Levels without fused products have only one.
+    #[inline(always)]
+    fn at<L: Level, Fused: Pack, Unfused: Pack>(self) {
+        if const { A::FUSES || !L::FUSES } {
+            self.work.at::<L, Fused, M>(self.scheme);
+        } else {
+            self.work.at::<L, Unfused, M>(self.scheme);
+        }
+    }
+}
+
+/// The numbers of a step: those that it carries and its scratch.
+const fn numbers<T: Real, S: System, M: Scheme<S>>() -> usize {
+    let size = size_of::<CarriedBy<M, S, T>>() + size_of::<<M::Map<T> as Map>::Work>();
+    size.div_ceil(size_of::<f64>())
+}
+
+/// The operations of a scheme that starts of ensembles of `S` require, with its type erased.
+pub(crate) trait ErasedScheme<S: System>: Send + Sync {
+    /// Checks a start, and appends the scheme's carried value at it to `words`.
+    fn begin(
+        &self,
+        prepared: &S::Prepared<f64>,
+        start: &State<VectorOf<S>>,
+        step: f64,
+        words: &mut Vec<f64>,
+    ) -> Result<(), Error>;
+    /// Returns true if steps of this size differ in duration.
+    fn varies(&self, prepared: &S::Prepared<f64>, start: &State<VectorOf<S>>, step: f64) -> bool;
+    /// Returns the scheme's entry in the catalogue.
+    fn entry(&self) -> Entry;
+    /// Returns the scheme's description, with all its options.
+    fn describe(&self) -> String;
+}
+
+impl<S: System, M: Scheme<S>> ErasedScheme<S> for M {
+    fn begin(
+        &self,
+        prepared: &S::Prepared<f64>,
+        start: &State<VectorOf<S>>,
+        step: f64,
+        words: &mut Vec<f64>,
+    ) -> Result<(), Error> {
+        check_scheme::<f64, S, M>(self, prepared, start)?;
+        words.extend(self.start(prepared, start, step).components());
+        Ok(())
+    }
+    fn varies(&self, prepared: &S::Prepared<f64>, start: &State<VectorOf<S>>, step: f64) -> bool {
+        self.start(prepared, start, step).duration(step).is_some()
+    }
+    fn entry(&self) -> Entry {
+        Listed::entry(self)
+    }
+    fn describe(&self) -> String {
+        Recipe::<f64, S, M::Map<f64>>::describe(self)
+    }
+}

@@ -1,0 +1,109 @@
+//! Members in memory, advanced to a time.
+//!
+//! Input: an ensemble and a time. Output: the states of its members at that time. Invariant: only whole steps change
+//! members. A state between two steps is computed on a copy, by a part of a step.
+
+use super::chunk::Shared;
+use super::in_memory::Ensemble;
+use super::rounding::Rounding;
+use crate::error::Error;
+use crate::flows::map::Clock;
+use crate::observers::observe::Observer;
+use crate::schemes::scheme::Scheme;
+use crate::systems::state::State;
+use crate::systems::system::{System, VectorOf, clock};
+
+impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<S, M, O, A> {
+    /// Advances all members to the time `t` by a whole number of steps, as
+    /// [`Integrator::advance_to`](crate::Integrator::advance_to) does.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.0]));
+    /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 0.01)?;
+    /// assert_eq!(swarm.advance_to(1.0)?.steps(), 100);
+    /// assert!(matches!(swarm.advance_to(1.005), Err(Error::OffGrid { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OffGrid`], [`Error::Behind`], [`Error::Unreachable`]; [`Error::Apart`] if members start at different
+    /// times or if their steps vary in time. After an error no step has been made.
+    pub fn advance_to(&mut self, t: f64) -> Result<&mut Self, Error> {
+        let Some(time) = self.clock()? else {
+            return Ok(self);
+        };
+        let made = self.common.steps;
+        match time.whole_steps(made, t, clock::<S>())? {
+            (None, steps) => Ok(self.advance(steps)),
+            (Some(before), after) => Err(Error::OffGrid {
+                clock: clock::<S>(),
+                target: t,
+                before: time.at(made + before),
+                after: time.at(made + after),
+            }),
+        }
+    }
+
+    /// Advances by the whole steps that do not pass `t`, and returns the state of each member at `t`.
+    ///
+    /// `t` is any time ahead, and states are in the order of the index. The remaining part of a step is made on a copy,
+    /// as in [`Integrator::advance_until`](crate::Integrator::advance_until). A member that its observer has ended has
+    /// the state of its end.
+    ///
+    /// The part of a step is computed over `f64` without fused products, in both modes of [bits](Ensemble#bits).
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.0]));
+    /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 0.01)?;
+    /// for end in swarm.advance_until(1.005)? {
+    ///     assert_eq!(end?.t, 1.005);
+    /// }
+    /// assert_eq!(swarm.steps(), 100);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Behind`], [`Error::Unreachable`], [`Error::Apart`]. The error of a member is in its place,
+    /// see [`states`](Ensemble::states).
+    pub fn advance_until(
+        &mut self,
+        t: f64,
+    ) -> Result<impl Iterator<Item = Result<State<VectorOf<S>>, Error>>, Error> {
+        let mut between = None;
+        if let Some(time) = self.clock()? {
+            let (before, after) = time.whole_steps(self.common.steps, t, clock::<S>())?;
+            between = before.map(|_| t);
+            self.advance(before.unwrap_or(after));
+        }
+        let chunks = 0..self.chunks.len();
+        Ok(chunks.flat_map(move |number| self.closed(number, 0..usize::MAX, between)))
+    }
+
+    /// Returns the clock that all members share; `None` if no member could start.
+    fn clock(&self) -> Result<Option<Clock<f64>>, Error> {
+        if self.common.varies {
+            let reason = "their steps vary in time";
+            return Err(Error::Apart { reason });
+        }
+        let mut first: Option<f64> = None;
+        for chunk in &self.chunks {
+            let starts = match &chunk.starts {
+                Shared::Nothing => &[],
+                Shared::One(start) => core::slice::from_ref(start),
+                Shared::Each(starts) => starts.as_slice(),
+            };
+            for start in starts {
+                if first.get_or_insert(*start).to_bits() != start.to_bits() {
+                    let reason = "they start at different times";
+                    return Err(Error::Apart { reason });
+                }
+            }
+        }
+        let interval = self.common.interval;
+        Ok(first.map(|start| Clock::new(start, interval)))
+    }
+}

@@ -1,0 +1,425 @@
+//! The contract of kernels: bodies that a definition gives, and the fields, flows and pieces made of them.
+//!
+//! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`Motion`] and [`FieldBody`] for a
+//! prepared system, one for each kind. Output: [`Kernel`], the vector field, the flow and the piece of each kind.
+//! Invariant: a body has two stages. The first computes the held values from the prepared system and a coefficient, once
+//! for each map. The second computes the change of a point from the held values, the data of the prepared system and the
+//! point.
+
+use crate::flows::exponential::Exponential;
+use crate::flows::push::{Both, Coupled, SubStep};
+use crate::systems::flow::{Flow, Piece, VectorField};
+use crate::systems::state::Point;
+use crate::systems::system::Dynamics;
+use crate::systems::vector::Vector;
+use core::fmt::{self, Debug};
+use core::marker::PhantomData;
+use hamiltonian_lanes::Real;
+
+/// A prepared system with the data that its bodies read beside held values.
+pub trait WithData<T: Real>: Dynamics<T> {
+    /// The arithmetic of loops, the sizes set at run time, the functions and the arrays. A flow or a field has a copy.
+    type Data: Clone + Debug;
+    /// The data.
+    fn data(&self) -> &Self::Data;
+}
+
+/// A body that reads one half of phase space and adds to the other: a kick, a drift.
+pub trait Shift<K, T: Real>: WithData<T> {
+    /// The piece in the author's notation.
+    const NAME: &'static str;
+    /// True if momenta move, false if coordinates do.
+    const KICKS: bool = true;
+    /// See [`Flow::MERGES`].
+    const MERGES: bool = true;
+    /// The values that depend on the prepared system and the coefficient alone.
+    type Held: Clone + Debug;
+    /// Computes these values.
+    fn fold(&self, c: T) -> Self::Held;
+    /// Adds to one half of phase space the change that the other half determines.
+    fn add(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        from: &Self::Vector,
+        into: &mut Self::Vector,
+    );
+}
+
+/// A body that reads and writes one point: an exact flow.
+pub trait Motion<K, T: Real>: WithData<T> {
+    /// The piece in the author's notation.
+    const NAME: &'static str;
+    /// See [`Flow::MERGES`].
+    const MERGES: bool = true;
+    /// The values that depend on the prepared system and the coefficient alone.
+    type Held: Clone + Debug;
+    /// Computes these values.
+    fn fold(&self, c: T) -> Self::Held;
+    /// Moves a point.
+    fn apply(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        q: &mut Self::Vector,
+        p: &mut Self::Vector,
+    );
+    /// The same with the terms of loops in the opposite order.
+    #[inline(always)]
+    fn apply_reversed(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        q: &mut Self::Vector,
+        p: &mut Self::Vector,
+    ) {
+        Self::apply(held, data, t, q, p);
+    }
+}
+
+/// A system without sizes set at run time that has a flow with a matrix.
+pub trait Origin<T: Real>: Dynamics<T> {
+    /// The zero vector.
+    fn origin() -> Self::Vector;
+}
+
+/// A body that adds the values of a vector field at a point.
+pub trait FieldBody<K, T: Real>: WithData<T> {
+    /// The values that depend on the prepared system and the coefficient alone.
+    type Held: Clone + Debug;
+    /// Computes these values.
+    fn fold(&self, c: T) -> Self::Held;
+    /// See [`VectorField::add`].
+    fn add(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        into_q: &mut Self::Vector,
+        into_p: &mut Self::Vector,
+    );
+}
+
+impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
+    type Held = (<D as Shift<Kick, T>>::Held, <D as Shift<Drift, T>>::Held);
+    #[inline(always)]
+    fn fold(&self, c: T) -> Self::Held {
+        (
+            Shift::<Kick, T>::fold(self, c),
+            Shift::<Drift, T>::fold(self, c),
+        )
+    }
+    #[inline(always)]
+    fn add(
+        (kick, drift): &Self::Held,
+        data: &Self::Data,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        into_q: &mut Self::Vector,
+        into_p: &mut Self::Vector,
+    ) {
+        <D as Shift<Kick, T>>::add(kick, data, t, q, into_p);
+        <D as Shift<Drift, T>>::add(drift, data, t, p, into_q);
+    }
+}
+
+impl<T: Real, D: WithData<T>> FieldBody<OfGradient, T> for D {
+    type Held = (D, T);
+    #[inline(always)]
+    fn fold(&self, c: T) -> Self::Held {
+        (self.clone(), c)
+    }
+    #[inline(always)]
+    fn add(
+        (prepared, c): &Self::Held,
+        _: &Self::Data,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        into_q: &mut Self::Vector,
+        into_p: &mut Self::Vector,
+    ) {
+        let (mut x, mut y) = (into_q.clone(), into_p.clone());
+        let _ = prepared.energy_and_gradient(t, q, p, &mut x, &mut y);
+        into_q.accumulate(*c, &y);
+        into_p.accumulate(-*c, &x);
+    }
+}
+
+/// ∂V/∂q of a separable H without a force, by its kick.
+#[inline(always)]
+pub fn slopes_by_kick<T: Real, D: Shift<Kick, T>>(
+    prepared: &D,
+    t: T,
+    q: &D::Vector,
+    out: &mut D::Vector,
+) {
+    out.set_zero();
+    D::add(&prepared.fold(-T::one()), prepared.data(), t, q, out);
+}
+
+/// ∂T/∂p of a separable H, by its drift.
+#[inline(always)]
+pub fn velocities_by_drift<T: Real, D: Shift<Drift, T>>(
+    prepared: &D,
+    t: T,
+    p: &D::Vector,
+    out: &mut D::Vector,
+) {
+    out.set_zero();
+    D::add(&prepared.fold(T::one()), prepared.data(), t, p, out);
+}
+
+/// ∂H/∂q and ∂H/∂p of an H without a force, by its field.
+#[inline(always)]
+pub fn gradient_by_field<T: Real, D: FieldBody<Whole, T>>(
+    prepared: &D,
+    t: T,
+    [q, p]: [&D::Vector; 2],
+    [by_q, by_p]: [&mut D::Vector; 2],
+) {
+    by_q.set_zero();
+    by_p.set_zero();
+    D::add(
+        &prepared.fold(-T::one()),
+        prepared.data(),
+        t,
+        q,
+        p,
+        by_p,
+        by_q,
+    );
+    for k in 0..D::Vector::PARTS {
+        for place in by_p.part_mut(k) {
+            *place = -*place;
+        }
+    }
+}
+
+/// The kick of V, or the part of it that reads no momenta.
+#[derive(Debug)]
+pub struct Kick;
+/// The drift of T.
+#[derive(Debug)]
+pub struct Drift;
+/// The part of a kick that reads momenta.
+#[derive(Debug)]
+pub struct Push;
+/// c·(J∇H + f).
+#[derive(Debug)]
+pub struct Whole;
+/// The same of a separable H, as the kick and the drift.
+#[derive(Debug)]
+pub struct Halves;
+/// The same of a large system, whose code is not written out a second time: the gradient, then two
+/// accumulations. The vectors of such systems have no size set at run time, so that nothing allocates.
+#[derive(Debug)]
+pub struct OfGradient;
+/// c·(f − ∂V/∂q).
+#[derive(Debug)]
+pub struct Rates;
+/// c·A·p of a force A·p + b.
+#[derive(Debug)]
+pub struct Linear;
+/// The kick in two parts, of which the first reads momenta.
+#[derive(Debug)]
+pub struct Damped;
+/// The kick of momenta that push each other.
+#[derive(Debug)]
+pub struct Pushed;
+/// The kick by a symmetric sub-step.
+#[derive(Debug)]
+pub struct Stepped;
+
+/// The piece of this number.
+#[derive(Debug)]
+pub struct Numbered<const K: usize>;
+
+/// The [`Shift`] of a kind.
+#[derive(Debug)]
+pub struct Shifts<K>(K);
+/// The [`Motion`] of a kind.
+#[derive(Debug)]
+pub struct Moves<K>(K);
+/// The [`FieldBody`] of a kind.
+#[derive(Debug)]
+pub struct Adds<K>(K);
+/// The [`Motion`] of a kind as a matrix of `N` rows.
+#[derive(Debug)]
+pub struct Matrices<K, const N: usize>(K);
+/// The kernel of kind `K` of a prepared system `D`: a piece, or with held values a flow or a field.
+pub struct Kernel<D, K, H = ()> {
+    held: H,
+    of: PhantomData<fn() -> (D, K)>,
+}
+
+impl<D, K> Kernel<D, K> {
+    /// The piece.
+    pub const PIECE: Self = Kernel::holding(());
+}
+
+impl<D, K, H> Kernel<D, K, H> {
+    #[inline(always)]
+    const fn holding(held: H) -> Self {
+        let of = PhantomData;
+        Kernel { held, of }
+    }
+}
+
+impl<D, K, H: Clone> Clone for Kernel<D, K, H> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        Kernel::holding(self.held.clone())
+    }
+}
+
+impl<D, K, H: Copy> Copy for Kernel<D, K, H> {}
+
+impl<D, K, H: Debug> Debug for Kernel<D, K, H> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.held.fmt(f)
+    }
+}
+
+/// The flow of the [`Shift`] of kind `K`.
+pub type ShiftOf<D, K, T> =
+    Kernel<D, Shifts<K>, (<D as Shift<K, T>>::Held, <D as WithData<T>>::Data)>;
+/// The flow of the [`Motion`] of kind `K`.
+pub type MotionOf<D, K, T> =
+    Kernel<D, Moves<K>, (<D as Motion<K, T>>::Held, <D as WithData<T>>::Data)>;
+/// The [`FieldBody`] of kind `K`.
+pub type FieldOf<D, K, T> =
+    Kernel<D, Adds<K>, (<D as FieldBody<K, T>>::Held, <D as WithData<T>>::Data)>;
+
+impl<V, D, K, H, A> Flow<Point<V>> for Kernel<D, Shifts<K>, (H, A)>
+where
+    V: Vector,
+    D: Shift<K, V::Scalar, Vector = V, Held = H, Data = A>,
+    H: Clone + Debug,
+    A: Clone + Debug,
+{
+    const NAME: &'static str = D::NAME;
+    const MERGES: bool = D::MERGES;
+    const MOVES: [bool; 2] = [!D::KICKS, D::KICKS];
+    type Work = ();
+    #[inline(always)]
+    fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        let (held, data) = &self.held;
+        if D::KICKS {
+            D::add(held, data, t, &x.q, &mut x.p);
+        } else {
+            D::add(held, data, t, &x.p, &mut x.q);
+        }
+    }
+}
+
+impl<V, D, K, H, A> Flow<Point<V>> for Kernel<D, Moves<K>, (H, A)>
+where
+    V: Vector,
+    D: Motion<K, V::Scalar, Vector = V, Held = H, Data = A>,
+    H: Clone + Debug,
+    A: Clone + Debug,
+{
+    const NAME: &'static str = D::NAME;
+    const MERGES: bool = D::MERGES;
+    type Work = ();
+    #[inline(always)]
+    fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        D::apply(&self.held.0, &self.held.1, t, &mut x.q, &mut x.p);
+    }
+    #[inline(always)]
+    fn apply_reversed(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        D::apply_reversed(&self.held.0, &self.held.1, t, &mut x.q, &mut x.p);
+    }
+}
+
+impl<V, D, K, H, A> VectorField<V> for Kernel<D, Adds<K>, (H, A)>
+where
+    V: Vector,
+    D: FieldBody<K, V::Scalar, Vector = V, Held = H, Data = A>,
+    H: Clone + Debug,
+    A: Clone + Debug,
+{
+    #[inline(always)]
+    fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
+        D::add(&self.held.0, &self.held.1, t, q, p, into_q, into_p);
+    }
+}
+
+impl<D, K, H, A: Clone> Kernel<D, Adds<K>, (H, A)> {
+    /// The field for the coefficient `c`.
+    #[inline(always)]
+    pub fn fold<T: Real>(prepared: &D, c: T) -> Self
+    where
+        D: FieldBody<K, T, Held = H, Data = A>,
+    {
+        Kernel::holding((prepared.fold(c), prepared.data().clone()))
+    }
+}
+
+/// The flow that a piece makes for the coefficient `c`.
+macro_rules! piece {
+    ($kind:ty, [$($of:tt)*], [$($condition:tt)*], $flow:ty, |$prepared:ident, $c:ident| $body:expr) => {
+        impl<T: Real, D, $($of)*> Piece<T, D> for Kernel<D, $kind>
+        where
+            D: $($condition)* + 'static,
+        {
+            type Point = Point<D::Vector>;
+            type Flow = $flow;
+            #[inline(always)]
+            fn flow(&self, $prepared: &D, $c: T) -> Self::Flow {
+                $body
+            }
+        }
+    };
+}
+
+piece!(Shifts<K>, [K: 'static], [Shift<K, T>], ShiftOf<D, K, T>, |prepared, c| {
+    Kernel::holding((prepared.fold(c), prepared.data().clone()))
+});
+piece!(Moves<K>, [K: 'static], [Motion<K, T>], MotionOf<D, K, T>, |prepared, c| {
+    Kernel::holding((prepared.fold(c), prepared.data().clone()))
+});
+piece!(
+    Matrices<K, N>,
+    [K: 'static, const N: usize],
+    [Motion<K, T> + Origin<T>],
+    Exponential<MotionOf<D, K, T>, T, N>,
+    |prepared, c| {
+        let raised = Self::Flow::raised(c);
+        let rates = MotionOf::<D, K, T>::holding((prepared.fold(raised), prepared.data().clone()));
+        Exponential::new(&rates, &Point { q: D::origin(), p: D::origin() })
+    }
+);
+piece!(
+    Damped,
+    [],
+    [Motion<Push, T> + Shift<Kick, T>],
+    Both<MotionOf<D, Push, T>, ShiftOf<D, Kick, T>>,
+    |prepared, c| Both(
+        Kernel::holding((
+            Motion::<Push, T>::fold(prepared, c),
+            prepared.data().clone()
+        )),
+        Kernel::holding((Shift::<Kick, T>::fold(prepared, c), prepared.data().clone())),
+    )
+);
+piece!(
+    Pushed,
+    [],
+    [FieldBody<Rates, T> + FieldBody<Linear, T>],
+    Coupled<FieldOf<D, Rates, T>, FieldOf<D, Linear, T>>,
+    |prepared, c| Coupled {
+        field: Kernel::fold(prepared, c),
+        linear: Kernel::fold(prepared, c),
+    }
+);
+piece!(
+    Stepped,
+    [],
+    [FieldBody<Rates, T>],
+    SubStep<FieldOf<D, Rates, T>>,
+    |prepared, c| SubStep(Kernel::fold(prepared, c))
+);

@@ -1,0 +1,470 @@
+//! Loops over arrays: the iterations of an innermost loop, in lanes where the scalar has lanes.
+//!
+//! Input: the arithmetic of one iteration ([`Body`]), written by the macro, and a stretch of the loop in
+//! which every element moves on by one ([`Stretch`]). Output: what the iterations store and sum. Invariant:
+//! each element is added to in the order of the iterations and, within one, in the order of its stores;
+//! sums of [`LONG`] iterations or more are [`STRIDE`] partial sums and a tree, whatever the scalar. So a
+//! result does not depend on whether, or on which CPU, iterations went through lanes, unless products
+//! [fuse](Arithmetic::fused) there.
+
+mod nest;
+mod packs;
+mod waiting;
+
+use crate::loops::slabs::{both, slabs};
+use crate::systems::system::Arithmetic;
+use hamiltonian_lanes::{Kernel, Level, Nf, Real, dispatch};
+pub use nest::{Mode, Nest, nest};
+use packs::packs;
+
+/// The least extent of a loop whose sums are partial sums, and whose iterations may go through lanes.
+pub const LONG: usize = 32;
+
+/// The least number of iterations of a loop without sums that are faster in lanes than one after the other, from the
+/// number of sums and products in one and that of other operations: the way into a level takes as long as some fifty
+/// additions. (At 64 sites a step of the FPUT chain took 57 ns without lanes and 91 with them; at 128 sites it is the
+/// other way round. Zen 4.)
+#[must_use]
+pub const fn worth(sums_and_products: usize, others: usize) -> usize {
+    match (sums_and_products, others) {
+        (0..=8, 0) => 3 * LONG,
+        _ => LONG,
+    }
+}
+
+/// The number of partial sums: iteration k of a loop adds to sum k mod 8.
+pub const STRIDE: usize = 8;
+
+/// The most iterations whose results wait for the order in which elements are changed.
+const BLOCK: usize = 128;
+
+/// The largest distance of elements of a column that an iteration changes at once.
+const REACH: usize = 32;
+
+/// The number of results that are kept from the block before: as far as stores reach, and what did not
+/// fill a pack.
+const CARRY: usize = REACH + STRIDE;
+
+/// How an element is changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// `= a`
+    Set,
+    /// `+= a`
+    Add,
+    /// `−= a`
+    Sub,
+    /// `+= a·b`, fused where the scalar fuses
+    AddProduct,
+    /// `−= a·b`, fused where the scalar fuses
+    SubProduct,
+}
+
+impl Change {
+    /// Returns true if the element before is part of the new one.
+    const fn reads(self) -> bool {
+        !matches!(self, Change::Set)
+    }
+}
+
+/// A store of an iteration to a column.
+#[derive(Debug, Clone, Copy)]
+pub struct ColumnStore {
+    /// The number of the column that is written.
+    column: usize,
+    /// How its element is changed.
+    change: Change,
+    /// The results that change it: `a` and, for a product, `b`.
+    by: [usize; 2],
+    /// True if another store of the iteration reaches other elements of the column.
+    is_shared: bool,
+}
+
+impl ColumnStore {
+    /// The only store to a column.
+    #[must_use]
+    pub const fn to(column: usize, change: Change, by: [usize; 2]) -> ColumnStore {
+        ColumnStore {
+            column,
+            change,
+            by,
+            is_shared: false,
+        }
+    }
+    /// One of the stores to several elements of a column.
+    #[must_use]
+    pub const fn among(column: usize, change: Change, by: [usize; 2]) -> ColumnStore {
+        ColumnStore {
+            column,
+            change,
+            by,
+            is_shared: true,
+        }
+    }
+}
+
+/// The arithmetic of one iteration: of `G` numbers that are the same in all of them, `R` elements that are
+/// read, and the number of the iteration where it counts as a real.
+pub trait Body<const G: usize, const R: usize, const W: usize> {
+    /// True if the number of the iteration is read.
+    const COUNTS: bool = false;
+    /// The stores, in order.
+    const STORES: &'static [ColumnStore] = &[];
+    /// The sums that results are added to, in order: number of the sum, number of the result.
+    const SUMS: &'static [(usize, usize)] = &[];
+
+    /// The results.
+    fn compute<T: Real>(given: [T; G], read: [T; R], number: T) -> [T; W];
+}
+
+/// A stretch of a loop: as many iterations as move every element on by one.
+#[derive(Debug)]
+pub struct Stretch<
+    'a,
+    T,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const A: usize,
+> {
+    /// The number of iterations.
+    pub length: usize,
+    /// The number of the first one in the loop, from 0 on.
+    pub first: usize,
+    /// The loop variable there.
+    pub number: usize,
+    /// What does not vary.
+    pub given: [T; G],
+    /// What is read, from the first iteration's element on.
+    pub reads: [&'a [T]; R],
+    /// The columns that are written.
+    pub columns: [&'a mut [T]; C],
+    /// For each store the place of the first iteration's element in its column.
+    pub starts: [usize; S],
+    /// The partial sums.
+    pub sums: &'a mut [[T; STRIDE]; A],
+    /// The arithmetic: lanes or one iteration after the other, and in lanes, fused products or none.
+    pub arithmetic: Arithmetic,
+}
+
+/// The sum of partial sums, as a tree: ((0+4)+(2+6)) + ((1+5)+(3+7)).
+#[inline(always)]
+#[must_use]
+pub fn total<T: Real>(s: &[T; STRIDE]) -> T {
+    ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]))
+}
+
+/// `i % n`; most indices are below n and are not divided.
+#[inline(always)]
+#[must_use]
+pub fn wrapped(i: usize, n: usize) -> usize {
+    if i < n { i } else { i % n }
+}
+
+impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, const A: usize>
+    Stretch<'_, T, G, R, C, S, A>
+{
+    /// Runs the iterations of a loop of at least [`LONG`] ones.
+    #[inline(always)]
+    pub fn run<B: Body<G, R, W>, const W: usize>(self, _: B) {
+        if T::WIDENS && self.arithmetic.lanes && self.length >= STRIDE {
+            self.in_lanes::<B, W>();
+        } else {
+            let length = self.length;
+            self.one_by_one::<B, W>(length);
+        }
+    }
+
+    /// The iterations through lanes; those before the first partial sum one by one.
+    #[inline(never)]
+    fn in_lanes<B: Body<G, R, W>, const W: usize>(mut self) {
+        let before = self.before::<B, W>();
+        if before > 0 {
+            self.again().some::<B, W>(before);
+            self.skip(before);
+        }
+        if self.length == 0 {
+            return;
+        }
+        let slabs = match B::SUMS.is_empty() {
+            true => slabs(self.arithmetic, self.length),
+            false => 1,
+        };
+        if slabs > 1
+            && let Some(ends) = self.ends::<B, W>()
+        {
+            return self.cut::<B, W>(&ends, slabs, false);
+        }
+        self.dispatch::<B, W>(false);
+    }
+
+    /// The number of iterations before the first pack: up to one that adds to the first partial sum, and all
+    /// if those after it fill no pack.
+    #[inline(always)]
+    fn before<B: Body<G, R, W>, const W: usize>(&self) -> usize {
+        let before = match B::SUMS.is_empty() {
+            true => 0,
+            false => (STRIDE - self.first % STRIDE) % STRIDE,
+        };
+        match self.length < before + STRIDE {
+            true => self.length,
+            false => before,
+        }
+    }
+
+    /// Leaves the first iterations out.
+    #[inline(always)]
+    fn skip(&mut self, count: usize) {
+        self.length -= count;
+        self.first += count;
+        self.number += count;
+        let mut r = 0;
+        while r < R {
+            self.reads[r] = &self.reads[r][count..];
+            r += 1;
+        }
+        let mut s = 0;
+        while s < S {
+            self.starts[s] += count;
+            s += 1;
+        }
+    }
+
+    /// The iterations through lanes. Where the stretch is followed, the elements that its last iterations
+    /// share with those after it were changed before.
+    fn dispatch<B: Body<G, R, W>, const W: usize>(self, is_followed: bool) {
+        dispatch(StretchKernel::<_, B, G, R, C, S, A, W> {
+            stretch: self,
+            is_followed,
+            body: core::marker::PhantomData,
+        });
+    }
+
+    /// For each column the least and the largest start of a store. `None` if stores lie too far apart for
+    /// slabs, or if results that wait have other bits outside of lanes.
+    fn ends<B: Body<G, R, W>, const W: usize>(&self) -> Option<[[usize; 2]; C]> {
+        if has_shared(B::STORES) && self.arithmetic.fused {
+            return None;
+        }
+        let mut ends = [[usize::MAX, 0]; C];
+        for (store, &start) in B::STORES.iter().zip(&self.starts) {
+            let [least, most] = &mut ends[store.column];
+            (*least, *most) = (start.min(*least), start.max(*most));
+        }
+        let is_near = |[least, most]: &[usize; 2]| most.saturating_sub(*least) <= REACH;
+        ends.iter().all(is_near).then_some(ends)
+    }
+
+    /// The iterations through lanes in so many slabs, on threads; `ends` are those of this stretch.
+    #[inline(never)]
+    fn cut<B: Body<G, R, W>, const W: usize>(
+        mut self,
+        ends: &[[usize; 2]; C],
+        slabs: usize,
+        is_followed: bool,
+    ) {
+        if slabs < 2 {
+            return self.dispatch::<B, W>(is_followed);
+        }
+        let half = slabs / 2;
+        let middle = self.length * half / slabs / STRIDE * STRIDE;
+        // Of the elements that both slabs reach, the iterations of the first one come first.
+        if has_shared(B::STORES) {
+            self.ahead::<B, W>(ends, middle);
+        }
+        let mut columns = self.columns;
+        let mut after = columns.each_mut().map(|_| &mut [][..]);
+        for ((column, after), [least, _]) in columns.iter_mut().zip(&mut after).zip(ends) {
+            if *least != usize::MAX {
+                (*column, *after) = core::mem::take(column).split_at_mut(least + middle);
+            }
+        }
+        let mut starts = self.starts;
+        for (store, start) in B::STORES.iter().zip(&mut starts) {
+            *start -= ends[store.column][0];
+        }
+        let mut no_sums = ([[T::zero(); STRIDE]; A], [[T::zero(); STRIDE]; A]);
+        let mut first = Some(Stretch {
+            length: middle,
+            reads: self.reads.map(|read| &read[..middle]),
+            columns,
+            sums: &mut no_sums.0,
+            ..self
+        });
+        let mut second = Some(Stretch {
+            length: self.length - middle,
+            first: self.first + middle,
+            number: self.number + middle,
+            reads: self.reads.map(|read| &read[middle..]),
+            columns: after,
+            starts,
+            sums: &mut no_sums.1,
+            ..self
+        });
+        let from_0 = ends.map(|[least, most]| [0, most.saturating_sub(least)]);
+        both(
+            &mut || {
+                if let Some(first) = first.take() {
+                    first.cut::<B, W>(ends, half, true);
+                }
+            },
+            &mut || {
+                if let Some(second) = second.take() {
+                    second.cut::<B, W>(&from_0, slabs - half, is_followed);
+                }
+            },
+        );
+    }
+
+    /// Adds the terms of the iterations before the middle to elements that the iterations after it reach too.
+    #[inline(never)]
+    fn ahead<B: Body<G, R, W>, const W: usize>(&mut self, ends: &[[usize; 2]; C], middle: usize) {
+        for k in middle - REACH..middle {
+            let number = match B::COUNTS {
+                true => T::constant((self.number + k) as f64, 0.0),
+                false => T::zero(),
+            };
+            let out = B::compute(self.given, self.reads.map(|read| read[k]), number);
+            for (store, start) in B::STORES.iter().zip(self.starts) {
+                if start + k >= ends[store.column][0] + middle {
+                    let place = &mut self.columns[store.column][start + k];
+                    *place = changed(store.change, *place, store.by.map(|by| out[by]));
+                }
+            }
+        }
+    }
+
+    /// The same stretch, for a part of its iterations.
+    #[inline(always)]
+    fn again(&mut self) -> Stretch<'_, T, G, R, C, S, A> {
+        Stretch {
+            columns: self.columns.each_mut().map(|column| &mut **column),
+            sums: &mut *self.sums,
+            ..*self
+        }
+    }
+
+    /// The first iterations one by one: the one copy of them beside those in lanes.
+    #[inline(never)]
+    fn some<B: Body<G, R, W>, const W: usize>(self, count: usize) {
+        self.one_by_one::<B, W>(count);
+    }
+
+    /// The first iterations one by one.
+    #[inline(always)]
+    fn one_by_one<B: Body<G, R, W>, const W: usize>(self, count: usize) {
+        let Stretch {
+            first,
+            number,
+            given,
+            reads,
+            columns,
+            starts,
+            sums,
+            ..
+        } = self;
+        for k in 0..count {
+            let mut read = [T::zero(); R];
+            let mut r = 0;
+            while r < R {
+                read[r] = reads[r][k];
+                r += 1;
+            }
+            let number = match B::COUNTS {
+                true => T::constant((number + k) as f64, 0.0),
+                false => T::zero(),
+            };
+            let out = B::compute(given, read, number);
+            let mut s = 0;
+            while s < B::STORES.len() {
+                let store = &B::STORES[s];
+                let place = &mut columns[store.column][starts[s] + k];
+                *place = changed(store.change, *place, store.by.map(|by| out[by]));
+                s += 1;
+            }
+            let mut s = 0;
+            while s < B::SUMS.len() {
+                let (sum, by) = B::SUMS[s];
+                sums[sum][(first + k) % STRIDE] += out[by];
+                s += 1;
+            }
+        }
+    }
+}
+
+/// An element after a store.
+#[inline(always)]
+fn changed<T: Real>(change: Change, place: T, [a, b]: [T; 2]) -> T {
+    match change {
+        Change::Set => a,
+        Change::Add => place + a,
+        Change::Sub => place - a,
+        Change::AddProduct => a.fma(b, place),
+        Change::SubProduct => (-a).fma(b, place),
+    }
+}
+
+/// A stretch as a kernel that enters a level.
+struct StretchKernel<
+    'a,
+    T,
+    B,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const A: usize,
+    const W: usize,
+> {
+    stretch: Stretch<'a, T, G, R, C, S, A>,
+    is_followed: bool,
+    body: core::marker::PhantomData<B>,
+}
+
+impl<
+    T: Real,
+    B: Body<G, R, W>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const A: usize,
+    const W: usize,
+> Kernel for StretchKernel<'_, T, B, G, R, C, S, A, W>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        let (stretch, is_followed) = (self.stretch, self.is_followed);
+        if L::FUSES && stretch.arithmetic.fused {
+            packs::<T, B, L::Eight, G, R, C, S, A, W>(stretch, is_followed);
+        } else {
+            packs::<T, B, Nf<L::Eight>, G, R, C, S, A, W>(stretch, is_followed);
+        }
+    }
+}
+
+/// Returns true if results of any store wait.
+const fn has_shared(stores: &[ColumnStore]) -> bool {
+    let mut s = 0;
+    while s < stores.len() {
+        if stores[s].is_shared {
+            return true;
+        }
+        s += 1;
+    }
+    false
+}
+
+/// Returns true if no earlier store is to the same column.
+const fn is_first_of_column(stores: &[ColumnStore], at: usize) -> bool {
+    let mut s = 0;
+    while s < at {
+        if stores[s].column == stores[at].column {
+            return false;
+        }
+        s += 1;
+    }
+    true
+}

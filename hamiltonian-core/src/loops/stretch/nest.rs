@@ -1,0 +1,161 @@
+//! Nests of loops, which enter the level of the CPU once for all iterations.
+//!
+//! Input: a nest of loops over rows ([`Nest`]), written by the macro. Output: the stored elements. Invariant: the rows
+//! are computed in order, each as by [`Stretch::run`].
+
+use super::packs::packs;
+use super::{Body, STRIDE, Stretch};
+use crate::systems::system::Arithmetic;
+use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
+
+/// A nest of loops with `G` loop-invariant numbers, `R` columns to read, `C` columns to write, and `Z` sizes.
+pub trait Nest<T: Real, const G: usize, const R: usize, const C: usize, const Z: usize> {
+    /// Computes all iterations.
+    fn run<M: Mode>(
+        given: [T; G],
+        reads: [&[T]; R],
+        columns: [&mut [T]; C],
+        sizes: [usize; Z],
+        arithmetic: Arithmetic,
+    );
+}
+
+/// The way in which the stretches of a nest are computed.
+pub trait Mode {
+    /// Computes the iterations of a stretch.
+    fn run<
+        T: Real,
+        B: Body<G, R, W>,
+        const G: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const A: usize,
+        const W: usize,
+    >(
+        stretch: Stretch<'_, T, G, R, C, S, A>,
+        body: B,
+    );
+}
+
+/// One iteration after the other.
+struct OneByOne;
+
+impl Mode for OneByOne {
+    #[inline(always)]
+    fn run<
+        T: Real,
+        B: Body<G, R, W>,
+        const G: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const A: usize,
+        const W: usize,
+    >(
+        stretch: Stretch<'_, T, G, R, C, S, A>,
+        _: B,
+    ) {
+        let length = stretch.length;
+        stretch.one_by_one::<B, W>(length);
+    }
+}
+
+/// Iterations in packs.
+struct In<P>(core::marker::PhantomData<P>);
+
+impl<P: Pack> Mode for In<P> {
+    #[inline(always)]
+    fn run<
+        T: Real,
+        B: Body<G, R, W>,
+        const G: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const A: usize,
+        const W: usize,
+    >(
+        mut stretch: Stretch<'_, T, G, R, C, S, A>,
+        _: B,
+    ) {
+        let before = stretch.before::<B, W>();
+        if before > 0 {
+            stretch.again().some::<B, W>(before);
+            stretch.skip(before);
+        }
+        if stretch.length >= STRIDE {
+            packs::<T, B, P, G, R, C, S, A, W>(stretch, false);
+        }
+    }
+}
+
+/// Computes all iterations of a nest, in lanes if `is_long`.
+#[inline(always)]
+pub fn nest<
+    T: Real,
+    N: Nest<T, G, R, C, Z>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const Z: usize,
+>(
+    _: N,
+    is_long: bool,
+    given: [T; G],
+    reads: [&[T]; R],
+    columns: [&mut [T]; C],
+    sizes: [usize; Z],
+    arithmetic: Arithmetic,
+) {
+    if T::WIDENS && arithmetic.lanes && is_long {
+        dispatch(NestKernel::<T, N, G, R, C, Z> {
+            given,
+            reads,
+            columns,
+            sizes,
+            arithmetic,
+            nest: core::marker::PhantomData,
+        });
+    } else {
+        N::run::<OneByOne>(given, reads, columns, sizes, arithmetic);
+    }
+}
+
+/// A nest as a kernel that enters a level.
+struct NestKernel<'a, T, N, const G: usize, const R: usize, const C: usize, const Z: usize> {
+    given: [T; G],
+    reads: [&'a [T]; R],
+    columns: [&'a mut [T]; C],
+    sizes: [usize; Z],
+    arithmetic: Arithmetic,
+    nest: core::marker::PhantomData<N>,
+}
+
+impl<
+    T: Real,
+    N: Nest<T, G, R, C, Z>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const Z: usize,
+> Kernel for NestKernel<'_, T, N, G, R, C, Z>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        let NestKernel {
+            given,
+            reads,
+            columns,
+            sizes,
+            arithmetic,
+            ..
+        } = self;
+        if L::FUSES && arithmetic.fused {
+            N::run::<In<L::Eight>>(given, reads, columns, sizes, arithmetic);
+        } else {
+            N::run::<In<Nf<L::Eight>>>(given, reads, columns, sizes, arithmetic);
+        }
+    }
+}

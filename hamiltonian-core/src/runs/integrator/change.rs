@@ -1,0 +1,160 @@
+//! Changes of a run between two steps.
+//!
+//! Input: a run, and another step, state or system. Output: the run, which goes on from there. Invariants: the number of
+//! steps, the observers and the times of steps stay; a change that is refused leaves the run as it was.
+
+use super::checks::{check_change, check_values};
+use super::part::Part;
+use super::{Integrator, MapOf, check_step, duration, parameters};
+use crate::error::Error;
+use crate::flows::map::{Clock, Step};
+use crate::observers::observe::{Observer, View};
+use crate::systems::state::{Carried, IntoStart, State};
+use crate::systems::system::{Dynamics, System, VectorOf};
+use alloc::string::String;
+use hamiltonian_lanes::{Mask, Real};
+
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// Continues with another step: the scheme starts anew at the current state and makes the other
+    /// carried values again, for example the second point of (25), (26) and (33).
+    ///
+    /// # Errors
+    /// [`Error::Step`] for a zero, NaN or infinite step.
+    pub fn change_step(&mut self, step: T) -> Result<(), Error> {
+        check_step(step)?;
+        self.carried = self.recipe.start(&self.prepared, &self.state, step);
+        self.map = self.recipe.prepare(&self.prepared, Step::of(step));
+        self.clock = Clock::new(self.state.t, step * duration(&self.entry));
+        self.step = step;
+        self.began = self.steps;
+        // The second copy that can be observed is the one of the new start.
+        self.arrives(self.steps);
+        Ok(())
+    }
+}
+
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+    /// Replaces the state between two steps, for example by a kick or a thermostat. The scheme, the step, the number of
+    /// steps, the times and the observers stay. The state has the time of the run.
+    ///
+    /// The scheme starts anew at the state, as in [`change_step`](Integrator::change_step). Observers receive the
+    /// change by [`Observer::change`]: [`EnergyDrift`](crate::observers::EnergyDrift) does not count it as a drift, and
+    /// [`Events`](crate::observers::Events) locate no event in it. After the end of a run by an observer,
+    /// [`go_on`](Integrator::go_on) continues from the new state.
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?
+    ///     .observe(EnergyDrift::new());
+    /// for _ in 0..10 {
+    ///     run.advance(100)?;
+    ///     let mut state = run.state().clone();
+    ///     state.p[0] += 0.5; // a kick
+    ///     run.set_state(state)?;
+    /// }
+    /// assert_eq!(run.steps(), 1_000);
+    /// assert!(run.observer().drift().is_some_and(|drift| drift.max_absolute() < 1e-4));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OtherTime`] if the state has another time than the run; [`Error::Shape`], [`Error::Start`],
+    /// [`Error::Values`], [`Error::Shell`] as for a [new](Integrator::new) run. The run then is as before.
+    pub fn set_state(&mut self, state: impl IntoStart<VectorOf<S, T>>) -> Result<(), Error> {
+        let state = state.into_start();
+        check_change::<T, S>(&self.prepared, &self.state, &state)?;
+        self.go_on_from(self.prepared.clone(), self.parameters.clone(), state)
+    }
+
+    /// Replaces the system between two steps by one with other parameters, for example for a slider or the elements of a
+    /// ring. The state, the scheme, the step, the number of steps, the times and the observers stay, and observers
+    /// receive the change as that of a [state](Integrator::set_state).
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// hamiltonian! {
+    ///     /// A spring.
+    ///     pub struct Spring { k = 1.0 }
+    ///     H(q; p) = p^2/2 + k*q^2/2
+    /// }
+    ///
+    /// let spring = Spring::default();
+    /// let mut run = Integrator::new(&spring, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?;
+    /// run.advance(100)?;
+    /// run.set_system(&Spring { k: 2.0 })?;
+    /// run.advance(100)?;
+    /// assert_eq!(run.steps(), 200);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Shape`] for a system of other sizes; [`Error::Values`], [`Error::Shell`] as for a
+    /// [new](Integrator::new) run. The run then is as before.
+    pub fn set_system(&mut self, system: &S) -> Result<(), Error> {
+        system.check_shape(&self.state)?;
+        let mut prepared = system.prepare();
+        check_values::<T, S>(&prepared, &self.state, || parameters(system))?;
+        prepared.set_arithmetic(self.prepared.arithmetic());
+        self.go_on_from(prepared, parameters(system), self.state.clone())
+    }
+
+    /// Goes on with this system from this state, which has the time of the run.
+    fn go_on_from(
+        &mut self,
+        prepared: S::Prepared<T>,
+        parameters: String,
+        state: State<VectorOf<S, T>>,
+    ) -> Result<(), Error> {
+        if let Some(error) = &self.refused {
+            return Err(error.clone());
+        }
+        self.memory.refuse_rest()?;
+        self.recipe.check(&prepared, &state)?;
+        let carried = self.recipe.start(&prepared, &state, self.step);
+        // At the end of a step the times stay those of the run. An observer may have ended it between two steps.
+        let made = self.steps - self.began;
+        let now = self.clock.at(made);
+        let is_end_of_step = self.shown.time(now).equals(state.t).all();
+        let clock = match is_end_of_step {
+            true => Clock {
+                first: self.clock.first + made,
+                ..self.clock
+            },
+            false => Clock::new(state.t, self.clock.interval),
+        };
+        let after = Part {
+            prepared: &prepared,
+            recipe: &*self.recipe,
+            state: &state,
+            step: self.step,
+            clock,
+            duration: carried.duration(clock.interval),
+        };
+        let before = Part {
+            prepared: &self.prepared,
+            recipe: &*self.recipe,
+            state: &self.state,
+            step: self.step,
+            clock: self.clock,
+            duration: self.carried.duration(self.clock.interval),
+        };
+        let [from, to] = [&before, &after].map(|part| View {
+            step: self.steps,
+            state: part.state,
+            prepared: part.prepared,
+            between: part,
+        });
+        self.observer.change(&from, &to);
+        self.map = self.recipe.prepare(&prepared, Step::of(self.step));
+        self.carried = carried;
+        self.prepared = prepared;
+        self.parameters = parameters;
+        self.clock = clock;
+        self.began = self.steps;
+        self.arrives(self.steps);
+        Ok(())
+    }
+}

@@ -1,0 +1,168 @@
+//! Reasons to refuse a run.
+//!
+//! Input: a step, a start. Output: nothing, or the error. Invariant: a run begins where H and all its
+//! first derivatives are finite, and in another time on the shell H = 0.
+
+use super::{numbers, parameter_without_value, parameters};
+use crate::error::Error;
+use crate::observers::output::names;
+use crate::schemes::scheme::Scheme;
+use crate::systems::state::State;
+use crate::systems::system::{
+    Dynamics, System, VectorOf, check_shape_like, clock, declared_energy,
+};
+use crate::systems::vector::Vector;
+use alloc::format;
+use alloc::string::String;
+use hamiltonian_lanes::{Mask, Real};
+
+/// Returns an error for a step that is zero, NaN or infinite.
+pub(crate) fn check_step<T: Real>(step: T) -> Result<(), Error> {
+    if step.is_finite() && !step.equals(T::zero()).any() {
+        return Ok(());
+    }
+    Err(Error::Step {
+        step: step.to_f64(),
+    })
+}
+
+/// Returns an error for a state of another shape, or with a NaN or an infinity.
+pub(crate) fn check_state<T: Real, S: System>(
+    system: &S,
+    state: &State<VectorOf<S, T>>,
+) -> Result<(), Error> {
+    system.check_shape(state)?;
+    check_numbers::<T, S>(state)
+}
+
+/// Returns an error for a state that cannot replace another one of a run: of another time or shape, with a NaN or an
+/// infinity, or for which a run cannot begin.
+pub(crate) fn check_change<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
+    from: &State<VectorOf<S, T>>,
+    to: &State<VectorOf<S, T>>,
+) -> Result<(), Error> {
+    if !to.t.equals(from.t).all() {
+        return Err(Error::OtherTime {
+            clock: clock::<S>(),
+            given: to.t.to_f64(),
+            now: from.t.to_f64(),
+        });
+    }
+    check_shape_like::<S, _>([&from.q, &from.p], to)?;
+    check_numbers::<T, S>(to)?;
+    // The parameters are those of the run, which has begun with them.
+    check_values::<T, S>(prepared, to, String::new)
+}
+
+/// Returns an error for a state with a NaN or an infinity.
+fn check_numbers<T: Real, S: System>(state: &State<VectorOf<S, T>>) -> Result<(), Error> {
+    if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Start {
+        clock: clock::<S>(),
+        time: state.t.to_f64(),
+        q: numbers(&state.q),
+        p: numbers(&state.p),
+    })
+}
+
+/// Prepares the system of a run from a start, or returns an error for a start that is refused.
+pub(crate) fn check_start<T: Real, S: System>(
+    system: &S,
+    start: &State<VectorOf<S, T>>,
+) -> Result<S::Prepared<T>, Error> {
+    check_state(system, start)?;
+    let prepared = system.prepare();
+    check_values::<T, S>(&prepared, start, || parameters(system))?;
+    Ok(prepared)
+}
+
+/// Returns an error for a scheme that cannot integrate this system from this state.
+pub(crate) fn check_scheme<T: Real, S: System, M: Scheme<S>>(
+    scheme: &M,
+    prepared: &S::Prepared<T>,
+    start: &State<VectorOf<S, T>>,
+) -> Result<(), Error> {
+    /// Sums of weights are rounded.
+    const ROUNDING: f64 = 1e-9;
+    if S::JUMPS {
+        let [first, last] = scheme.times_of_jumps();
+        if !(first > ROUNDING && last < 1.0 - ROUNDING) {
+            let (scheme, system) = (scheme.entry().name, S::NAME);
+            return Err(Error::Jumps { scheme, system });
+        }
+    }
+    scheme.check(prepared, start)
+}
+
+/// Returns an error if H or a first derivative is not finite, or if the start is off the shell of
+/// another time.
+pub(super) fn check_values<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
+    start: &State<VectorOf<S, T>>,
+    parameters: impl Fn() -> String,
+) -> Result<(), Error> {
+    let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
+    let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
+    let bad = |name: &str, value: T| {
+        let lane = (!value.finite()).first()?;
+        let mut found = value.lane(lane);
+        let derivative = found.is_finite();
+        if derivative {
+            // The first words are the value.
+            value.write_words(&mut |word| {
+                if found.is_finite() {
+                    found = word;
+                }
+            });
+        }
+        Some(Error::Values {
+            name: name.into(),
+            derivative,
+            value: found,
+            lane: (T::LANES > 1).then_some(lane),
+            parameter: parameter_without_value(&parameters()),
+            clock: clock::<S>(),
+            time: start.t.to_f64(),
+            q: numbers(&start.q).into(),
+            p: numbers(&start.p).into(),
+        })
+    };
+    if let Some(error) = bad("H", h) {
+        return Err(error);
+    }
+    if !(slopes.is_finite() && velocities.is_finite()) {
+        for name in names(S::GROUPS, &start.q) {
+            let by = [
+                (name.group.coordinate, &slopes),
+                (name.group.momentum, &velocities),
+            ];
+            for (variable, values) in by {
+                let derivative = format!("∂H/∂{}", name.of(variable));
+                if let Some(error) = bad(&derivative, values.component(name.index)) {
+                    return Err(error);
+                }
+            }
+        }
+    }
+    if S::FICTITIOUS_TIME.is_none() {
+        return Ok(());
+    }
+    let Some(&given) = numbers(&start.p).last() else {
+        return Ok(());
+    };
+    // H = g·(h + p_t) is compared with Σ p ∂H/∂p, in which g·p_t is one term. The bound is wide
+    // enough that a run can continue from the end of another that has errors in its energy.
+    let terms = start.p.components().zip(velocities.components());
+    let scale: f64 = terms.map(|(p, velocity)| (p * velocity).magnitude()).sum();
+    if h.to_f64().abs() <= 1e-3 * scale {
+        return Ok(());
+    }
+    Err(Error::Shell {
+        momentum: S::GROUPS.last().map_or("", |group| group.momentum),
+        given,
+        due: -declared_energy::<T, S>(prepared, start).to_f64(),
+    })
+}

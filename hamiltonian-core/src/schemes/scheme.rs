@@ -1,0 +1,224 @@
+//! Schemes: types that make one-step maps for a prepared system and a step.
+//!
+//! Input: a prepared system. Output: [`Scheme::prepare`] returns a [`Map`], [`Scheme::start`] the value that it
+//! carries. Invariant: the requirements of a scheme are the bounds of its implementation, so a wrong pairing is a
+//! compile error.
+
+use crate::error::Error;
+use crate::flows::map::{Map, Step};
+use crate::systems::state::{CarriedShape, State};
+use crate::systems::system::{System, VectorOf};
+use core::fmt::Debug;
+use hamiltonian_lanes::Real;
+
+/// The 2-form a step preserves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// dq∧dp of the state itself: the scheme is symplectic.
+    OnePoint,
+    /// dq∧dp + dq̃∧dp̃ of two copies of the state that the scheme carries, and not dq∧dp of the
+    /// observed one.
+    TwoCopies,
+    /// dq_a∧dp_b + dq_b∧dp_a of two points a and b that the scheme carries, and not dq∧dp of
+    /// the observed one.
+    TwoPoint,
+    /// dq∧dp of the point that the scheme carries, and not of the observed one.
+    CarriedPoint,
+    /// dq∧dp of the state up to O(h^(2p+2)) a step for order p: the scheme is pseudo-symplectic.
+    Nearly,
+    /// None.
+    Nothing,
+}
+
+/// The structure that a scheme requires of a system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Needs {
+    /// Nothing: any H(q, p, t), with forces.
+    Any,
+    /// No forces, [`Unforced`](crate::Unforced).
+    Unforced,
+    /// Pieces, [`Split`](crate::Split).
+    Split,
+    /// Pieces whose flows are all exact, [`Split`](crate::Split) and [`Exact`](crate::Exact).
+    Exact,
+    /// H = T(p, t) + V(q, t), [`Separable`](crate::Separable).
+    Separable,
+    /// H = A(q, p) + V(q, t), A at most quadratic in p: [`Nystrom`](crate::Nystrom).
+    Nystrom,
+    /// H = ½ pᵀM⁻¹p + V(q, t) with constant M: [`Separable`](crate::Separable) and
+    /// [`QuadraticKinetic`](crate::QuadraticKinetic).
+    QuadraticKinetic,
+    /// The same in another time, [`TimeTransformed`](crate::TimeTransformed).
+    TimeTransformed,
+}
+
+/// Facts about a scheme: one line of the [catalogue](crate::schemes::author::catalogue).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry {
+    /// The type's name.
+    pub name: &'static str,
+    /// The variant, in words; empty if there is none.
+    pub variant: &'static str,
+    /// The numbers of its equations in the paper; empty if it is not in the paper.
+    pub equations: &'static str,
+    /// The error of a trajectory is O(Δt^order).
+    pub order: u32,
+    /// The time that one step advances, in units of the step size Δt.
+    pub duration: u32,
+    /// The structure that it requires of a system.
+    pub needs: Needs,
+    /// The form it preserves.
+    pub preserves: Form,
+    /// Author, year, equation, DOI.
+    pub source: &'static str,
+}
+
+/// The name, with the setting in parentheses: `StormerVerlet (kick-drift-kick)`.
+impl core::fmt::Display for Entry {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.variant {
+            "" => f.write_str(self.name),
+            variant => write!(f, "{} ({variant})", self.name),
+        }
+    }
+}
+
+/// A scheme with an entry in the catalogue. Its `Debug` text contains all its settings; a saved run resumes only with a
+/// scheme of the same text.
+pub trait Listed: Clone + Debug + Send + Sync + 'static {
+    /// The entry.
+    fn entry(&self) -> Entry;
+}
+
+/// What the scheme `M` carries from step to step of the system `S` over a scalar.
+pub type CarriedBy<M, S, T = f64> =
+    <<M as Scheme<S>>::Carried as CarriedShape<<S as System>::Shape>>::Of<T>;
+
+/// A scheme for the system `S`, over every scalar.
+///
+/// The bounds of the implementation state what the scheme requires of a system, so a wrong pairing is a
+/// compile error in the call that makes the run. Code that is generic over systems and schemes needs these bounds only:
+///
+/// ```
+/// use hamiltonian::{Separable, prelude::*};
+#[doc = include_str!("../doc/oscillator.md")]
+///
+/// fn study<S: Separable, M: Scheme<S>>(system: &S, scheme: M, start: StateOf<S>) -> Result<f64, Error> {
+///     let run = Integrator::new(system, scheme.clone(), start.clone(), 0.01)?;
+///     let mut run = run.observe(EnergyDrift::new());
+///     run.advance(100)?;
+///     // A run over dual numbers for each deviation.
+///     let matrix = monodromy(system, scheme, start, 1.0, 100)?;
+///     assert!(symplectic_defect(&matrix) < 1e-9);
+///     Ok(run.observer().max_relative())
+/// }
+/// assert!(study(&Oscillator {}, Yoshida4, State::new([1.0], [0.0]))? < 1e-8);
+/// # Ok::<(), Error>(())
+/// ```
+pub trait Scheme<S: System>: Listed {
+    /// What is carried from step to step, over each scalar: the [`Point`](crate::schemes::author::Point) of most
+    /// schemes is `Point<S::Shape>` here.
+    type Carried: CarriedShape<S::Shape>;
+    /// The map: the scheme with the system's flows and all coefficients folded in.
+    type Map<T: Real>: Map<Carried = CarriedBy<Self, S, T>>;
+    /// Folds the step into the flows. This does not allocate.
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T>;
+    /// One step of size `h` from `t` to `end`, with the bits of [`Map::step`] of the map for this step. [`Paced`]
+    /// calls it in each step. The provided method prepares the map. A splitting of several stages makes each flow where
+    /// it applies it, by [`Zigzag::once`](crate::schemes::author::Zigzag::once), which stores no stages.
+    ///
+    /// [`Paced`]: crate::schemes::Paced
+    #[inline(always)]
+    fn step<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        h: T,
+        [t, end]: [T; 2],
+        z: &mut CarriedBy<Self, S, T>,
+        work: &mut <Self::Map<T> as Map>::Work,
+    ) {
+        self.prepare(prepared, Step::of(h)).step(t, end, z, work);
+    }
+    /// The first and the last time at which a step evaluates parts of H that [jump](System::JUMPS), in units of its
+    /// duration. Systems with such parts require times inside of the step. The provided method returns the ends of the
+    /// step, so that they are refused.
+    fn times_of_jumps(&self) -> [f64; 2] {
+        [0.0, 1.0]
+    }
+    /// Returns an error if the scheme cannot integrate this system from this state for a reason
+    /// that the bounds of the implementation do not express. The provided method returns none.
+    ///
+    /// # Errors
+    /// [`Error::MonitorOfMomenta`].
+    fn check<T: Real>(&self, _: &S::Prepared<T>, _: &State<VectorOf<S, T>>) -> Result<(), Error> {
+        Ok(())
+    }
+    /// Prepares a map that follows a step of `before`, a scheme with other settings: the closing
+    /// piece that [`Map::join`] absorbs is that of `before`. `None` if the two cannot be joined.
+    #[inline(always)]
+    fn prepare_after<T: Real>(
+        &self,
+        before: &Self,
+        prepared: &S::Prepared<T>,
+        step: Step<T>,
+    ) -> Option<Self::Map<T>>
+    where
+        Self: OneStep,
+    {
+        (self == before).then(|| self.prepare(prepared, step))
+    }
+    /// The carried value at the beginning of steps of size `h` from a state.
+    fn start<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> CarriedBy<Self, S, T>;
+    /// The carried value for a single step, a part of a step of a run: a second point that the
+    /// scheme's own start computes to first order is computed to second order here.
+    fn start_alone<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> CarriedBy<Self, S, T> {
+        self.start(prepared, state, h)
+    }
+}
+
+/// A scheme whose step depends on the state alone, so that steps of different sizes can follow each
+/// other.
+///
+/// The paper's (25), (26) and (33) are no such schemes: a value that they carry lags behind by a
+/// time that depends on the step, and a composition of them loses its order (Yoshida's of (33) has
+/// slope 0.8 instead of 4). A scheme whose observed state is a mean,
+/// [`CheapProcessed`](crate::schemes::CheapProcessed), is none either: the inverse of a mean is no composition of
+/// flows.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no one-step scheme",
+    label = "steps of different sizes cannot be composed of it",
+    note = "the paper's (25), (26) and (33) carry a second point that lags behind by a time which \
+            depends on the step: a composition of them loses its order; compose `Strang`, \
+            `StormerVerlet`, `ImplicitMidpoint` or `Pihajoki`",
+    note = "the observed state of a `CheapProcessed` scheme is a mean, whose inverse is no composition of flows: \
+            compose `Processed4` instead"
+)]
+pub trait OneStep: Listed + PartialEq {
+    /// The type of its adjoint.
+    type Adjoint: OneStep;
+    /// The adjoint scheme Φ*ₕ = (Φ₋ₕ)⁻¹; symmetric schemes are their own.
+    fn adjoint(&self) -> Self::Adjoint;
+}
+
+/// A scheme that is its own adjoint, Φₕ = (Φ₋ₕ)⁻¹, for all settings: its order is even.
+///
+/// An adjoint of the same type is not enough: that of `SymplecticEuler::KickDrift` is
+/// `SymplecticEuler::DriftKick`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not known to be symmetric",
+    label = "expected a scheme that is its own adjoint",
+    note = "weights for symmetric schemes have their order with those alone; \
+            `Composition::with_adjoint(…)` makes a symmetric scheme of order 2 of one whose adjoint has its type",
+    note = "for a scheme of yours that is its own adjoint: `impl Symmetric for … {{}}`"
+)]
+pub trait Symmetric: OneStep<Adjoint = Self> {}

@@ -1,0 +1,30 @@
+//! What a system is, and the data at which it is evaluated.
+//!
+//! What enters: the numbers of parameters, coordinates and momenta. What leaves: a
+//! [`State`](crate::State), a [`System`](crate::System) prepared from its parameters, and H, its derivatives and the
+//! contracts of its flows at a state. No step is made here.
+//!
+//! | layer | modules |
+//! |---|---|
+//! | vectors and states | `vector`, `uneven`, `lattice`, `state` |
+//! | fields and flows, as traits | `flow` |
+//! | systems, as traits | `system` |
+//! | checks | `domain`: is H finite; `reach`: are indices in range; `derivatives`: are those by hand right |
+//! | systems made of systems | `observed`, `transformed` |
+//! | parameters that are functions | [`function`] |
+//! | coordinates of bodies | [`coordinates`] |
+
+pub mod coordinates;
+pub(crate) mod derivatives;
+pub(crate) mod domain;
+pub(crate) mod flow;
+pub mod function;
+pub(crate) mod hash;
+pub(crate) mod lattice;
+pub(crate) mod observed;
+pub(crate) mod reach;
+pub(crate) mod state;
+pub(crate) mod system;
+pub(crate) mod transformed;
+pub(crate) mod uneven;
+pub(crate) mod vector;

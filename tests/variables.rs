@@ -493,3 +493,57 @@ fn pieces_take_the_states_of_the_whole() {
     equal(&g.q, &b.q);
     equal(&g.p, &a.p);
 }
+
+/// In another time, p_t = −h: a changed state, or a changed system, goes on on its own shell.
+#[test]
+fn runs_in_another_time_can_be_changed() {
+    let kepler = Sundman {
+        drag: 0.0,
+        ..Default::default()
+    };
+    let start = || kepler.from_declared(&State::new([1.0, 0.0], [0.0, 1.1]));
+    let mut run = Integrator::new(&kepler, Gauss::<2>::default(), start(), 0.01).unwrap();
+    run.advance(100).unwrap();
+    let mut kicked = run.state().clone();
+    kicked.p[1] += 0.2;
+    let energy = |run: &Integrator<f64, Sundman, _>| kepler.energy(run.state());
+    run.set_state(kicked.clone()).unwrap();
+    let state = run.state();
+    assert_eq!(
+        (&state.q, state.p[0], state.p[1]),
+        (&kicked.q, kicked.p[0], kicked.p[1])
+    );
+    assert!(energy(&run).abs() < 1e-15, "on the shell");
+    assert!(kepler.energy(&kicked).abs() > 0.1, "the kick left it");
+    let before = run.state().clone();
+    let heavier = Sundman {
+        mu: 1.3,
+        ..kepler.clone()
+    };
+    run.set_system(&heavier).unwrap();
+    assert!(heavier.energy(run.state()).abs() < 1e-15 && heavier.energy(&before).abs() > 0.1);
+    // The same run, begun there.
+    let mut new =
+        Integrator::new(&heavier, Gauss::<2>::default(), run.state().clone(), 0.01).unwrap();
+    run.advance(50).unwrap();
+    new.advance(50).unwrap();
+    assert!(
+        (run.state().q - new.state().q)
+            .iter()
+            .all(|x| x.abs() < 1e-14)
+    );
+
+    let mut swarm = Ensemble::new(
+        9,
+        |_| (kepler.clone(), start()),
+        Gauss::<2>::default(),
+        0.01,
+    )
+    .unwrap();
+    swarm.advance(10);
+    swarm.update(|member, state| state.p[0] += 0.05 * member.index as f64);
+    swarm.advance(10);
+    for state in swarm.states() {
+        assert!(kepler.energy(&state.unwrap()).abs() < 1e-4);
+    }
+}

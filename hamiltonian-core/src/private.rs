@@ -50,7 +50,7 @@ pub use crate::systems::state::{Gradient, Plain, Point, State};
 pub use crate::systems::system::gather::{InPack, Kept, in_pack};
 pub use crate::systems::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
-    QuadraticKinetic, Separable, Split, System, Unforced, VectorOf,
+    QuadraticKinetic, Separable, Split, System, Unforced, VectorOf, deepest,
 };
 pub use crate::systems::uneven::Uneven;
 pub use crate::systems::vector::{IntoVector, Over, Shape, Vector};

@@ -256,3 +256,36 @@ fn states_at_times_lie_on_their_side_of_a_change() {
     }
     assert_eq!(p.len(), 3);
 }
+
+/// An event ends the run between two steps, and an observer of every second state has not received the step before.
+/// Times before the event are passed on, though the run is changed there.
+#[test]
+fn times_before_a_change_are_not_lost() {
+    let system = pendulum(true);
+    let run = |from: f64| {
+        let wall = Event::of("wall", |state: &State<SVector<f64, 1>>| state.q[0] - 0.2);
+        let events = Events::new([wall.rising().ending()]);
+        let start = State::new([-0.5], [0.0]);
+        let times = at_times([from], Recorder::new());
+        Integrator::new(&system, StormerVerlet::default(), start, 0.1)
+            .unwrap()
+            .observe((events, every(2, times)))
+    };
+    let mut first = run(1e9);
+    first.advance(100_000).unwrap();
+    // The number of steps before the event is odd: the last state that the observer received is a step older.
+    let (steps, end) = (first.steps(), first.time());
+    assert!(first.has_ended() && steps % 2 == 1, "{steps}");
+    let t = 0.1 * (steps - 1) as f64 + 0.02;
+    assert!(t < end);
+    let mut run = run(t);
+    run.advance(100_000).unwrap();
+    let mut back = run.state().clone();
+    back.p[0] = -back.p[0];
+    run.set_state(back).unwrap();
+    run.go_on();
+    run.advance(3).unwrap();
+    let recorder = &run.observer().1.inner.inner;
+    let [theta, p] = ["theta", "p"].map(|name| recorder.column(name).unwrap().next().unwrap());
+    assert!(theta < 0.2 && p > 0.0, "before the wall: {theta} {p}");
+}

@@ -13,7 +13,7 @@ use crate::flows::map::Map;
 use crate::runs::integrator::{Integrator, MapOf};
 use crate::schemes::scheme::{CarriedBy, Scheme};
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf};
+use crate::systems::system::{System, VectorOf, derivatives_are_free};
 use crate::systems::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Dual, Real};
@@ -278,6 +278,7 @@ pub(crate) fn lifted<T: Real, S: System>(
     system: &S,
     start: &State<VectorOf<S, T>>,
 ) -> Result<State<VectorOf<S, Dual<T>>>, Error> {
+    derivatives_are_free::<T, S>();
     system.check_shape(start)?;
     let zeros = || system.zeros::<Dual<T>>();
     let mut lifted = State {

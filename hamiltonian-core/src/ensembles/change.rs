@@ -7,7 +7,7 @@ use super::bound::ErasedScheme;
 use super::guard::guard;
 use crate::error::Error;
 use crate::flows::map::Clock;
-use crate::observers::observe::{Observer, View};
+use crate::observers::observe::Observer;
 use crate::runs::integrator::{Part, Recipe, check_change};
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::{Carried, State};
@@ -26,35 +26,36 @@ pub(super) struct Standing<'a, S: System, M> {
 }
 
 impl<S: System, M: Scheme<S>> Standing<'_, S, M> {
-    /// Lets a closure change the state. Returns true if it did: `words` then has the new carried value, and the observer
-    /// has received the change.
+    /// Lets a closure change the state, and returns the state from which the member goes on, if that is another one. Then
+    /// `words` has the carried value there, and the observer has received the change. A change that is refused leaves
+    /// `words` as they were.
     pub(super) fn change<O: Observer<f64, S>>(
         &self,
         state: &State<VectorOf<S>>,
         closure: impl FnOnce(&mut State<VectorOf<S>>),
         observer: &mut O,
         words: &mut Vec<f64>,
-    ) -> Result<bool, Error> {
+    ) -> Result<Option<State<VectorOf<S>>>, Error> {
         let mut to = state.clone();
         guard(|| closure(&mut to))?;
         if is_same(state, &to) {
-            return Ok(false);
+            return Ok(None);
         }
-        check_change::<f64, S>(self.prepared, state, &to)?;
-        words.clear();
-        ErasedScheme::<S>::begin(self.scheme, self.prepared, &to, self.step, words)?;
-        let [from, to] = [state, &to].map(|state| self.part(state));
-        let [from, to] = [&from, &to].map(|part| View {
-            step: self.made,
-            state: part.state,
-            prepared: self.prepared,
-            between: part,
-        });
-        guard(|| observer.change(&from, &to))?;
-        Ok(true)
+        check_change::<f64, S>(self.prepared, state, &mut to)?;
+        let mut carried = Vec::with_capacity(words.len());
+        ErasedScheme::<S>::begin(self.scheme, self.prepared, &to, self.step, &mut carried)?;
+        let [from, after] = [state, &to].map(|state| self.part(state));
+        let [from, after] = [&from, &after].map(|part| part.view(self.made));
+        guard(|| observer.change(&from, &after))?;
+        words.clone_from(&carried);
+        Ok(Some(to))
     }
 
-    fn part<'a>(&'a self, state: &'a State<VectorOf<S>>) -> Part<'a, f64, S, M::Map<f64>> {
+    /// The member at a state between two steps.
+    pub(super) fn part<'a>(
+        &'a self,
+        state: &'a State<VectorOf<S>>,
+    ) -> Part<'a, f64, S, M::Map<f64>> {
         let recipe: &dyn Recipe<f64, S, M::Map<f64>> = self.scheme;
         let carried = recipe.start(self.prepared, state, self.step);
         Part {

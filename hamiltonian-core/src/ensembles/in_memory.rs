@@ -296,8 +296,8 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
                 let closure = |state: &mut State<VectorOf<S>>| change(member, state);
                 let observer = &mut chunk.observers[key];
                 match standing.change(&state, closure, observer, &mut words) {
-                    Ok(false) => {}
-                    Ok(true) => {
+                    Ok(None) => {}
+                    Ok(Some(_)) => {
                         chunk.words[key * width..][..width].copy_from_slice(&words);
                         chunk.began.resize(chunk.count, 0);
                         chunk.began[key] = made;

@@ -155,7 +155,7 @@ where
         let described = self.erased().describe();
         let mut described: Vec<&str> = described.lines().collect();
         described.dedup();
-        let attributes = vec![
+        let mut attributes = vec![
             ("system".to_string(), S::NAME.into()),
             ("hamiltonian".to_string(), S::FORMULA.into()),
             ("scheme".to_string(), described.join(": ").into()),
@@ -166,6 +166,10 @@ where
             ("level".to_string(), level.into()),
             ("version".to_string(), env!("CARGO_PKG_VERSION").into()),
         ];
+        // A store of members that are changed otherwise is not continued.
+        if let Some((n, _)) = &self.each {
+            attributes.push(("changes".to_string(), format!("every {n} steps").into()));
+        }
         let failures = ["start", "not_finite", "unsolved", "panicked", "failed"];
         Layout {
             rows,

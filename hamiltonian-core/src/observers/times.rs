@@ -161,6 +161,13 @@ where
     }
 
     fn change(&mut self, from: &View<'_, T, S>, to: &View<'_, T, S>) {
+        // Another observer may have ended the run between two steps: times before that belong to the state before the
+        // change. The inner observer cannot end a run that goes on.
+        if self.failure.is_none()
+            && let Some(before) = self.before.take()
+        {
+            let _ = self.go(from, before);
+        }
         self.before = Some(to.state.clone());
         self.end = None;
         if self.shown > 0 {

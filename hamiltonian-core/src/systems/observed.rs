@@ -6,7 +6,9 @@
 use crate::error::Error;
 use crate::systems::flow::VectorField;
 use crate::systems::system::gather::{InPack, Kept, with_whole};
-use crate::systems::system::{Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf};
+use crate::systems::system::{
+    Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf, derivatives_are_free,
+};
 use crate::systems::vector::{Over, Vector};
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -70,6 +72,7 @@ impl<S: System> System for Observed<S> {
     const NAME: &'static str = S::NAME;
     const GROUPS: &'static [Group] = S::GROUPS;
     const OBSERVABLES: &'static [Observable] = &[];
+    const DUALS: u32 = S::DUALS;
 
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
         let observable = S::OBSERVABLES.get(self.index);
@@ -78,6 +81,7 @@ impl<S: System> System for Observed<S> {
         self.system.describe_parameters(to)
     }
     fn prepare<T: Real>(&self) -> Self::Prepared<T> {
+        derivatives_are_free::<T, S>();
         ReadyObserved {
             plain: self.system.prepare(),
             first: ready::<_, Dual<T>>(&self.system),

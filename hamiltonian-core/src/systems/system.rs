@@ -172,6 +172,29 @@ pub trait System {
     /// then evaluate it inside of their steps only, or are refused, so that steps may end at the jumps.
     const JUMPS: bool = false;
 
+    /// The number of dual numbers inside each other in its parameters: 1 for parameters `Dual<f64>`. Derivatives by
+    /// coordinates are outside of these. They need as many dual numbers in the scalar of the states, or do not compile:
+    /// the two derivatives would be one number.
+    ///
+    /// ```compile_fail,E0080
+    /// use hamiltonian::prelude::*;
+    ///
+    /// let k = Dual::variable(4.0);
+    /// let spring = hamiltonian! { H(x; y) = y^2/2 + k*x^2/2; monitor v = k*x };
+    /// // ∂v/∂x + ∂v/∂k would come out.
+    /// spring.observable_gradient("v", &State::new([0.5], [1.0]));
+    /// ```
+    /// Over the scalar of the parameters, both are there:
+    /// ```
+    /// # use hamiltonian::prelude::*;
+    /// # let k = Dual::variable(4.0);
+    /// # let spring = hamiltonian! { H(x; y) = y^2/2 + k*x^2/2; monitor v = k*x };
+    /// let state = State::over([Dual::fixed(0.5)], [Dual::fixed(1.0)]);
+    /// let slope = spring.observable_gradient("v", &state).unwrap().q[0];
+    /// assert_eq!((slope.re, slope.eps), (4.0, 1.0)); // ∂v/∂x = k, and its derivative by k
+    /// ```
+    const DUALS: u32 = 0;
+
     /// H in the author's notation, with a force and pieces where there are some; by it a saved run is
     /// recognised.
     const FORMULA: &'static str = "";
@@ -268,6 +291,7 @@ pub trait System {
         name: &str,
         state: &State<VectorOf<Self, T>>,
     ) -> Option<Gradient<VectorOf<Self, T>>> {
+        derivatives_are_free::<T, Self>();
         let index = Self::observable_index(name)?;
         let prepared = self.prepare::<Dual<T>>();
         let dual = |from: &VectorOf<Self, T>| {
@@ -291,6 +315,29 @@ pub trait System {
             *p.component_mut(i) = Dual::fixed(state.p.component(i));
         }
         Some(gradient)
+    }
+}
+
+/// The largest number; 0 of none.
+pub const fn deepest(all: &[u32]) -> u32 {
+    let (mut most, mut at) = (0, 0);
+    while at < all.len() {
+        if all[at] > most {
+            most = all[at];
+        }
+        at += 1;
+    }
+    most
+}
+
+/// Refuses to compile where derivatives by coordinates over `Dual<T>` would meet those of parameters.
+pub(crate) fn derivatives_are_free<T: Real, S: System + ?Sized>() {
+    const {
+        assert!(
+            T::DUALS >= S::DUALS,
+            "the parameters are dual numbers, and the states are not: derivatives by coordinates would be added to those \
+             by parameters. Use states over the scalar of the parameters, such as `Dual<f64>`"
+        );
     }
 }
 

@@ -10,7 +10,7 @@ use crate::systems::observed::Observed;
 use crate::systems::state::{Pair, State};
 use crate::systems::system::gather::{InPack, Kept, with_whole};
 use crate::systems::system::{
-    Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf,
+    Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf, deepest,
 };
 use crate::systems::vector::{Over, Vector, dot};
 use alloc::vec::Vec;
@@ -182,6 +182,7 @@ where
     const OBSERVABLES: &'static [Observable] = S::OBSERVABLES;
     const FICTITIOUS_TIME: Option<&'static str> = Some("s");
     const FORMULA: &'static str = S::FORMULA;
+    const DUALS: u32 = deepest(&[S::DUALS, G::DUALS]);
 
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
         self.system.describe_parameters(to)?;

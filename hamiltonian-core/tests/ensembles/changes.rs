@@ -183,3 +183,46 @@ fn a_bad_change_is_the_error_of_its_member() {
     let good = table.column("q").unwrap().filter(|q| q.is_finite());
     assert_eq!(good.count(), 19);
 }
+
+/// Times between the step of a change and the next one are reached from the changed state; the time of that step is
+/// recorded before the change.
+#[test]
+fn a_sweep_records_states_on_their_side_of_a_change() {
+    let times = [0.99, 1.0, 1.013, 1.04, 1.21];
+    let table = Sweep::new(MEMBERS, swaying, StormerVerlet::default(), 0.05)
+        .each(20, kick)
+        .reproducible()
+        .record_at(times, ["q", "p"], |at| [at.state.q[0], at.state.p[0]])
+        .collect()
+        .unwrap();
+    let [q, p] = ["q", "p"].map(|name| table.column(name).unwrap().collect::<Vec<_>>());
+    let mut differs = false;
+    for index in 0..MEMBERS {
+        let (system, start) = swaying(Member::new(index, 0));
+        let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.05).unwrap();
+        run.advance(20).unwrap();
+        let before = run.state().clone();
+        let mut state = before.clone();
+        kick(Member::new(index, 0), &mut state);
+        let early = run.state_at(0.99).unwrap();
+        let unchanged = run.state_at(1.013).unwrap();
+        if state != before {
+            run.set_state(state).unwrap();
+        }
+        let near = [1.013, 1.04].map(|t| run.state_at(t).unwrap());
+        run.advance(4).unwrap();
+        let [first, second] = near;
+        differs |= first != unchanged;
+        let late = run.state_at(1.21).unwrap();
+        let due = [early, before, first, second, late];
+        for (k, due) in due.iter().enumerate() {
+            let row = times.len() * index + k;
+            // A state before the step is reached from the step before it.
+            let tolerance = if k == 0 { 1e-4 } else { 0.0 };
+            let [there_q, there_p] = [due.q[0], due.p[0]];
+            let off = (q[row] - there_q).abs().max((p[row] - there_p).abs());
+            assert!(off <= tolerance, "member {index}, time {}: {off}", times[k]);
+        }
+    }
+    assert!(differs, "no kick is seen between steps");
+}

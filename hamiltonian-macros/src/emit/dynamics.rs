@@ -8,6 +8,7 @@
 use super::construct::{as_slice, set_by_new};
 use super::context::Context;
 use super::function::{Body, BodyWriter};
+use super::generics::Generics;
 use super::halves::are_apart;
 use super::holder::{Holder, Receiver, shape};
 use super::layout::{Layout, Slice};
@@ -90,7 +91,7 @@ impl<'a> Emission<'a> {
             "#[automatically_derived]\nimpl{} __h::System for {} {{\n\
              type Shape = {};\n__h::gathers!({});\n\
              const NAME: &'static __h::str = {:?};\n\
-             const GROUPS: &'static [__h::Group] = &[{}];\n{}{}{}{}\
+             const GROUPS: &'static [__h::Group] = &[{}];\n{}{}{}{}{}\
              const FORMULA: &'static __h::str = {:?};\n{}",
             generics.declaration(),
             generics.system_type(),
@@ -109,6 +110,7 @@ impl<'a> Emission<'a> {
                 Some(_) => "const JUMPS: __h::bool = true;\n",
                 None => "",
             },
+            duals(generics),
             self.formula(),
             self.parameters(),
         );
@@ -524,6 +526,20 @@ pub(super) fn with_self(body: &str) -> String {
 pub(super) fn declared(arguments: &[(&'static str, String)]) -> String {
     let arguments = arguments.iter().map(|(name, ty)| format!("{name}: {ty}"));
     arguments.collect::<Vec<_>>().join(", ")
+}
+
+/// `System::DUALS`, the most that the scalar of a parameter has.
+fn duals(generics: &Generics) -> String {
+    let of = |scalar: &String| format!("<{scalar} as __h::Parameter>::DUALS");
+    match &generics.scalars[..] {
+        [] => String::new(),
+        [one] => format!("const DUALS: __h::core::primitive::u32 = {};\n", of(one)),
+        many => {
+            let all: Vec<String> = many.iter().map(of).collect();
+            let all = all.join(", ");
+            format!("const DUALS: __h::core::primitive::u32 = __h::deepest(&[{all}]);\n")
+        }
+    }
 }
 
 /// The entries of `System::GROUPS`.

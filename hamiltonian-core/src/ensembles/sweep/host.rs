@@ -42,7 +42,7 @@ struct ActiveMember<O> {
 }
 
 /// `Break` at the end of a member, with its state there, and true if its observer ended it.
-type EndOrContinue<S> = ControlFlow<(State<VectorOf<S>>, bool)>;
+type EndOrContinue<S, C = ()> = ControlFlow<(State<VectorOf<S>>, bool), C>;
 
 /// The members of a chunk, at their starts, running or ended.
 pub(crate) struct SweepHost<'r, 'a, S: System, M, O, A> {
@@ -256,9 +256,8 @@ where
             .min(active.target.unwrap_or(made + 1))
     }
 
-    /// Passes a state to the observer of a member and records it if it is due. Returns the end of the member if this is
-    /// its end.
-    fn decide(
+    /// Passes a state to the observer of a member. Returns the end of the member if the observer ended it.
+    fn observe(
         &self,
         active: &mut ActiveMember<O>,
         view: &View<'_, f64, S>,
@@ -273,10 +272,21 @@ where
         } else {
             ControlFlow::Continue(())
         };
-        if verdict.is_break() {
-            let end = active.observer.end()?.unwrap_or(view.state).clone();
-            return Ok(ControlFlow::Break((end, true)));
+        if verdict.is_continue() {
+            return Ok(ControlFlow::Continue(()));
         }
+        let end = active.observer.end()?.unwrap_or(view.state).clone();
+        Ok(ControlFlow::Break((end, true)))
+    }
+
+    /// Records a member at the times that are due: those up to the state and, if the state is the one from which the
+    /// member goes on, those before the next step. Returns the end of the member if it is among them.
+    fn record(
+        &self,
+        active: &mut ActiveMember<O>,
+        view: &View<'_, f64, S>,
+        goes_on: bool,
+    ) -> Result<EndOrContinue<S>, Error> {
         let clock_of = Clock::new(view.between.start(), view.between.interval());
         loop {
             let Some(t) = self.time(active) else {
@@ -299,6 +309,9 @@ where
                 Some(_) => clock_of.whole_steps(view.step, t, "")?.0.is_none(),
                 None => view.state.t.to_bits() == t.to_bits(),
             };
+            if active.target.is_some() && !meets && !goes_on {
+                return Ok(ControlFlow::Continue(()));
+            }
             let state = match meets {
                 true => view.state.clone(),
                 false => view.state_at(t)?,
@@ -315,19 +328,20 @@ where
         }
     }
 
-    /// Lets the closure of the sweep change a member, if it is due. Returns true if it did.
-    fn change(
+    /// Passes a state to the observer of a member, lets the closure of the sweep change it, and records what is due: up
+    /// to this step before the change, between this step and the next one from the changed state. Returns the end of the
+    /// member if this is its end, and otherwise true if it was changed; `words` then has its carried value.
+    fn decide(
         &self,
         active: &mut ActiveMember<O>,
         words: &mut Vec<f64>,
         view: &View<'_, f64, S>,
-    ) -> Result<bool, Error> {
-        let Some((n, closure)) = &self.sweep.each else {
-            return Ok(false);
-        };
-        if view.step == 0 || !view.step.is_multiple_of(*n) {
-            return Ok(false);
+    ) -> Result<EndOrContinue<S, bool>, Error> {
+        let mut decision = self.observe(active, view)?;
+        if decision.is_continue() {
+            decision = self.record(active, view, false)?;
         }
+        let mut changed = None;
         let standing = Standing {
             scheme: &self.sweep.scheme,
             prepared: view.prepared,
@@ -335,9 +349,27 @@ where
             clock: active.clock,
             made: view.step,
         };
-        let member = active.member;
-        let closure = |state: &mut State<VectorOf<S>>| closure(member, state);
-        standing.change(view.state, closure, &mut active.observer, words)
+        if decision.is_continue() {
+            if let Some((n, closure)) = &self.sweep.each
+                && view.step > 0
+                && view.step.is_multiple_of(*n)
+            {
+                let member = active.member;
+                let closure = |state: &mut State<VectorOf<S>>| closure(member, state);
+                changed = standing.change(view.state, closure, &mut active.observer, words)?;
+            }
+            decision = match &changed {
+                Some(state) => self.record(active, &standing.part(state).view(view.step), true)?,
+                None => self.record(active, view, true)?,
+            };
+        }
+        Ok(match decision {
+            ControlFlow::Continue(()) => ControlFlow::Continue(changed.is_some()),
+            ControlFlow::Break((state, stopped)) => {
+                self.write(active, view, &state, stopped);
+                ControlFlow::Break((state, stopped))
+            }
+        })
     }
 
     /// Records a member at a state.
@@ -447,22 +479,8 @@ where
             words,
             began,
         } = run;
-        let decision = guard(|| {
-            let decision = self.decide(&mut active, view)?;
-            if let ControlFlow::Break((state, stopped)) = &decision {
-                self.write(&mut active, view, state, *stopped);
-            }
-            Ok(decision)
-        });
-        let mut is_changed = false;
-        let decision = decision.and_then(|decision| {
-            if let Ok(ControlFlow::Continue(())) = decision {
-                is_changed = self.change(&mut active, words, view)?;
-            }
-            decision
-        });
-        match decision {
-            Ok(ControlFlow::Continue(())) => {
+        match guard(|| self.decide(&mut active, words, view)).and_then(|decision| decision) {
+            Ok(ControlFlow::Continue(is_changed)) => {
                 if is_changed {
                     *began = view.step;
                 }

@@ -3,12 +3,12 @@
 //! Input: a run, and another step, state or system. Output: the run, which goes on from there. Invariants: the number of
 //! steps, the observers and the times of steps stay; a change that is refused leaves the run as it was.
 
-use super::checks::{check_change, check_values};
+use super::checks::{check_change, check_values, onto_shell};
 use super::part::Part;
 use super::{Integrator, MapOf, check_step, duration, parameters};
 use crate::error::Error;
 use crate::flows::map::{Clock, Step};
-use crate::observers::observe::{Observer, View};
+use crate::observers::observe::Observer;
 use crate::systems::state::{Carried, IntoStart, State};
 use crate::systems::system::{Dynamics, System, VectorOf};
 use alloc::string::String;
@@ -42,6 +42,9 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// [`Events`](crate::observers::Events) locate no event in it. After the end of a run by an observer,
     /// [`go_on`](Integrator::go_on) continues from the new state.
     ///
+    /// In another time, `dt = g*ds`, the momentum of time becomes p_t = −h of the new state, whatever the state has: orbits
+    /// are those of h on the shell H = 0 alone.
+    ///
     /// ```
     #[doc = include_str!("../../doc/oscillator.md")]
     ///
@@ -61,16 +64,17 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     ///
     /// # Errors
     /// [`Error::OtherTime`] if the state has another time than the run; [`Error::Shape`], [`Error::Start`],
-    /// [`Error::Values`], [`Error::Shell`] as for a [new](Integrator::new) run. The run then is as before.
+    /// [`Error::Values`] as for a [new](Integrator::new) run. The run then is as before.
     pub fn set_state(&mut self, state: impl IntoStart<VectorOf<S, T>>) -> Result<(), Error> {
-        let state = state.into_start();
-        check_change::<T, S>(&self.prepared, &self.state, &state)?;
+        let mut state = state.into_start();
+        check_change::<T, S>(&self.prepared, &self.state, &mut state)?;
         self.go_on_from(self.prepared.clone(), self.parameters.clone(), state)
     }
 
     /// Replaces the system between two steps by one with other parameters, for example for a slider or the elements of a
     /// ring. The state, the scheme, the step, the number of steps, the times and the observers stay, and observers
-    /// receive the change as that of a [state](Integrator::set_state).
+    /// receive the change as that of a [state](Integrator::set_state). In another time, the momentum of time becomes −h of
+    /// the new system.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
@@ -91,14 +95,16 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// ```
     ///
     /// # Errors
-    /// [`Error::Shape`] for a system of other sizes; [`Error::Values`], [`Error::Shell`] as for a
-    /// [new](Integrator::new) run. The run then is as before.
+    /// [`Error::Shape`] for a system of other sizes; [`Error::Values`] as for a [new](Integrator::new) run. The run then is
+    /// as before.
     pub fn set_system(&mut self, system: &S) -> Result<(), Error> {
         system.check_shape(&self.state)?;
         let mut prepared = system.prepare();
-        check_values::<T, S>(&prepared, &self.state, || parameters(system))?;
+        let mut state = self.state.clone();
+        onto_shell::<T, S>(&prepared, &mut state);
+        check_values::<T, S>(&prepared, &state, || parameters(system))?;
         prepared.set_arithmetic(self.prepared.arithmetic());
-        self.go_on_from(prepared, parameters(system), self.state.clone())
+        self.go_on_from(prepared, parameters(system), state)
     }
 
     /// Goes on with this system from this state, which has the time of the run.
@@ -141,12 +147,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             clock: self.clock,
             duration: self.carried.duration(self.clock.interval),
         };
-        let [from, to] = [&before, &after].map(|part| View {
-            step: self.steps,
-            state: part.state,
-            prepared: part.prepared,
-            between: part,
-        });
+        let [from, to] = [&before, &after].map(|part| part.view(self.steps));
         self.observer.change(&from, &to);
         self.map = self.recipe.prepare(&prepared, Step::of(self.step));
         self.carried = carried;

@@ -36,11 +36,11 @@ pub(crate) fn check_state<T: Real, S: System>(
 }
 
 /// Returns an error for a state that cannot replace another one of a run: of another time or shape, with a NaN or an
-/// infinity, or for which a run cannot begin.
+/// infinity, or for which a run cannot begin. In another time, first moves the state onto the shell.
 pub(crate) fn check_change<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     from: &State<VectorOf<S, T>>,
-    to: &State<VectorOf<S, T>>,
+    to: &mut State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
     if !to.t.equals(from.t).all() {
         return Err(Error::OtherTime {
@@ -51,8 +51,23 @@ pub(crate) fn check_change<T: Real, S: System>(
     }
     check_shape_like::<S, _>([&from.q, &from.p], to)?;
     check_numbers::<T, S>(to)?;
+    onto_shell::<T, S>(prepared, to);
     // The parameters are those of the run, which has begun with them.
     check_values::<T, S>(prepared, to, String::new)
+}
+
+/// In another time, sets the momentum of time to −h, so that H = g·(h + p_t) = 0. Nothing is done otherwise.
+pub(super) fn onto_shell<T: Real, S: System>(
+    prepared: &S::Prepared<T>,
+    state: &mut State<VectorOf<S, T>>,
+) {
+    if S::FICTITIOUS_TIME.is_none() {
+        return;
+    }
+    let h = declared_energy::<T, S>(prepared, state);
+    if let Some(last) = state.p.len().checked_sub(1) {
+        *state.p.component_mut(last) = -h;
+    }
 }
 
 /// Returns an error for a state with a NaN or an infinity.

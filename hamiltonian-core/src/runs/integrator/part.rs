@@ -6,7 +6,7 @@
 use super::{Integrator, MapOf, check_scheme, numbers};
 use crate::error::Error;
 use crate::flows::map::{Clock, Map, Step};
-use crate::observers::observe::{Between, Observer};
+use crate::observers::observe::{Between, Observer, View};
 use crate::runs::failed::Failed;
 use crate::schemes::scheme::Scheme;
 use crate::systems::domain;
@@ -117,6 +117,16 @@ impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T,
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
+    /// The state after so many steps, as observers receive it.
+    pub(crate) fn view(&self, step: u64) -> View<'_, T, S> {
+        View {
+            step,
+            state: self.state,
+            prepared: self.prepared,
+            between: self,
+        }
+    }
+
     /// The rounding of two times in units of the interval: they are sums and products.
     fn rounding(&self, a: T, b: T) -> f64 {
         4.0 * T::epsilon() * (a.magnitude() + b.magnitude()) / self.clock.interval.magnitude()

@@ -22,6 +22,7 @@ mod expressions;
 pub mod flows;
 mod forces;
 pub mod geometry;
+mod given;
 pub mod hygiene;
 pub mod invariants;
 pub mod lagrangian;

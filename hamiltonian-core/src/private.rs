@@ -2,7 +2,7 @@
 //!
 //! Input: nothing. Output: re-exports; [`Never`], the type of a structure that a system lacks; [`SetByNew`], a field
 //! that only `new` sets; [`window`] and [`columns`], parts of slices; traits whose names and attributes word rustc's
-//! messages ([`ArrayOf`], [`ParameterWithoutDefault`], [`AnyParameter`]); at the end the macros `__prepared`, `__gathers`,
+//! messages ([`ArrayOf`], [`ListOf`], [`ParameterWithoutDefault`], [`AnyParameter`]); at the end the macros `__prepared`, `__gathers`,
 //! `__computed_as_chosen`, `__each`, `__halves` and `__known`, which shorten emitted code. Invariant: these names may
 //! be used by code in a crate that has neither this crate nor its dependencies in scope; if one is removed or renamed,
 //! the macro is changed with it.
@@ -39,11 +39,12 @@ pub use crate::loops::slabs::rows;
 pub use crate::loops::stretch::{
     Body, Change, ColumnStore, LONG, Mode, Nest, STRIDE, Stretch, nest, total, worth, wrapped,
 };
+pub use crate::systems::fit::ListOf;
 use crate::systems::flow::{Flow, Piece, Pieces};
 pub use crate::systems::function::Function;
 use crate::systems::lattice::write_indices;
 pub use crate::systems::lattice::{
-    Lattice, MatrixOf, check_extents, check_lattice, check_parameter, fits, lattice,
+    Lattice, check_extents, check_lattice, check_parameter, fits, lattice,
 };
 pub use crate::systems::reach::{Reach, product};
 pub use crate::systems::state::{Gradient, Plain, Point, State};
@@ -119,14 +120,15 @@ pub fn describe_parameter<T: fmt::Debug>(
     })
 }
 
-/// An array that `new` takes in the storage `V` of its parameter, in any form of [`IntoVector`].
+/// An array that `new` takes in the storage `V` of its parameter if the compiler checks the length. A `new` that returns
+/// a `Result` takes a [`ListOf`] the numbers.
 ///
 /// It is a trait of its own for the sake of its message: where the forms of [`IntoVector`] do not lead to
 /// `V`, rustc would show the types of both storages.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not fit this parameter",
     label = "expected an array of the declared extents",
-    note = "an extent that is a number or a const generic takes an array, `[1.0, 2.0]`; one that is set at run time takes a `Vec`, `vec![1.0, 2.0]`; with several extents each element is a list",
+    note = "an extent that is a number or a const generic takes an array, `[1.0, 2.0]`; with two extents each element is a row, `[[1.0, 2.0], [3.0, 4.0]]`; a method `with_…` takes slices and `Vec`s too, and returns a `Result`",
     note = "write `1.0` instead of `1`: whole numbers are not converted",
     note = "`new` takes the sizes, then functions, then the parameters without a default, in the order of their declaration"
 )]

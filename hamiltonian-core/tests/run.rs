@@ -119,11 +119,7 @@ fn bad_starts_and_steps_are_refused() {
         }
     );
     let chain = Chain { n: 4 };
-    let start = State {
-        t: 0.0,
-        q: vec![0.0; 4].into(),
-        p: vec![0.0; 3].into(),
-    };
+    let start = State::new(vec![0.0; 4], vec![0.0; 3]);
     assert_eq!(
         Integrator::new(&chain, RungeKutta4, start, 0.1).unwrap_err(),
         Error::Shape {

@@ -25,7 +25,7 @@ use crate::results::checkpoint::Memory;
 use crate::schemes::scheme::{CarriedBy, Entry, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, IntoStart, State};
-use crate::systems::system::{Arithmetic, Dynamics, System, VectorOf};
+use crate::systems::system::{Arithmetic, Dynamics, System, VectorOf, names};
 use crate::systems::vector::Vector;
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -146,7 +146,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
     where
         R: Map<Carried = CarriedBy<M, S, T>>,
     {
-        let start = start.into_start();
+        let start = start.into_start(names::<S>())?;
         check_step(step)?;
         let prepared = check_start(system, &start)?;
         check_scheme(&scheme, &prepared, &start)?;

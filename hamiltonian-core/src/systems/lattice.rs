@@ -5,7 +5,7 @@
 
 mod nested;
 
-pub use nested::{MatrixOf, lattice};
+pub use nested::lattice;
 
 use crate::error::Error;
 use crate::systems::uneven::{Uneven, same_part};
@@ -244,12 +244,21 @@ pub fn check_lattice<T: Real, const R: usize>(
     extents: [usize; R],
     given: &Lattice<T, R>,
 ) -> Result<(), Error> {
+    check_axes(name, extents, given)?;
+    check_parameter(name, &extents, &given.elements)
+}
+
+/// Checks the extents of a parameter with several axes.
+pub(crate) fn check_axes<T: Real, const R: usize>(
+    name: &'static str,
+    extents: [usize; R],
+    given: &Lattice<T, R>,
+) -> Result<(), Error> {
     let Some(number) = product(&extents) else {
         return Err(Error::Memory { name });
     };
     let found = (&given.extents[..], given.elements.len());
-    same_part(name, given.uneven(0), (&extents, number), found)?;
-    check_parameter(name, &extents, &given.elements)
+    same_part(name, given.uneven(0), (&extents, number), found)
 }
 
 /// Checks the rows and columns of an array of parameters.

@@ -6,7 +6,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | vectors and states | `vector`, `uneven`, `lattice`, `state` |
+//! | vectors and states | `vector`, `uneven`, `lattice`, `fit`, `state` |
 //! | fields and flows, as traits | `flow` |
 //! | systems, as traits | `system` |
 //! | checks | `domain`: is H finite; `reach`: are indices in range; `derivatives`: are those by hand right |
@@ -17,6 +17,7 @@
 pub mod coordinates;
 pub(crate) mod derivatives;
 pub(crate) mod domain;
+pub(crate) mod fit;
 pub(crate) mod flow;
 pub mod function;
 pub(crate) mod hash;

@@ -5,6 +5,7 @@
 //! is checked where a run begins.
 
 use crate::error::Error;
+use crate::systems::fit::Fit;
 use crate::systems::vector::{IntoVector, Over, Shape, Vector};
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
@@ -74,25 +75,50 @@ impl<V: Vector> State<V> {
     }
 }
 
-/// A start for a system whose coordinates are a `V`: a [`State`] of that shape over that scalar.
+/// A start for a system whose coordinates are a `V`: a [`State`] over that scalar, of that shape or of a list that has
+/// its length.
 ///
-/// It is a trait for the sake of its message. If [`Integrator::new`](crate::Integrator::new) took the `State` itself,
-/// rustc would show the types of two storages.
+/// Sizes in the type take `Vec`s, and sizes that are set at run time take arrays:
+///
+/// ```
+/// use hamiltonian::prelude::*;
+///
+/// hamiltonian! {
+///     /// Two masses on a spring.
+///     pub struct Two {}
+///     H(q[2]; p[2]) = norm_squared(p)/2 + (q[0] - q[1])^2/2
+/// }
+/// let begin = |q: &[f64]| {
+///     let start = State::new(q, &vec![0.0; q.len()]);
+///     Integrator::new(&Two {}, StormerVerlet::default(), start, 0.01)
+/// };
+/// assert!(begin(&[0.5, -0.5]).is_ok());
+/// let error = begin(&[0.5, -0.5, 1.0]).err().map(|error| error.to_string());
+/// assert_eq!(error.as_deref(), Some("`q` must have 2 components, found 3"));
+/// ```
 #[diagnostic::on_unimplemented(
     message = "the start does not have the shape of the system's coordinates",
     label = "expected a start of another shape",
-    note = "an extent that is a number or a const generic takes arrays, `State::new([0.5, 1.0], [0.0, 0.0])`; one that is set at run time takes `Vec`s, `State::new(vec![0.5, 1.0], vec![0.0, 0.0])`; with several extents each element is a list"
+    note = "coordinates `q[n]` take an array, a slice or a `Vec`, `State::new([0.5, 1.0], [0.0, 0.0])`; `q[n][3]` takes rows, `State::new(vec![[0.0; 3]; 2], vec![[0.0; 3]; 2])`; with more extents each element is a list of such lists"
 )]
 pub trait IntoStart<V: Vector> {
-    /// The state.
-    fn into_start(self) -> State<V>;
+    /// The state, given the names of its coordinates and momenta for an error.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] or [`Error::Row`] if a list whose length the compiler does not know has another length than
+    /// the type.
+    fn into_start(self, names: [&'static str; 2]) -> Result<State<V>, Error>;
 }
 
 #[diagnostic::do_not_recommend]
-impl<V: Vector> IntoStart<V> for State<V> {
+impl<V: Vector, W: Fit<V, Scalar = V::Scalar>> IntoStart<V> for State<W> {
     #[inline(always)]
-    fn into_start(self) -> State<V> {
-        self
+    fn into_start(self, [q, p]: [&'static str; 2]) -> Result<State<V>, Error> {
+        Ok(State {
+            t: self.t,
+            q: self.q.fit(q)?,
+            p: self.p.fit(p)?,
+        })
     }
 }
 

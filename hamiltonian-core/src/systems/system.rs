@@ -634,6 +634,12 @@ pub(crate) fn check_shape_like<S: System + ?Sized, V: Vector>(
     same_shape(momenta, p, &state.p)
 }
 
+/// The names of the first coordinate and its momentum, for errors of their shape.
+pub(crate) fn names<S: System + ?Sized>() -> [&'static str; 2] {
+    let first = S::GROUPS.first();
+    first.map_or(["q", "p"], |group| [group.coordinate, group.momentum])
+}
+
 /// An error where a part has not the length the system asks for, with the name of the first group
 /// in it.
 fn same_shape<V: Vector>(

@@ -400,10 +400,13 @@ wide!(Const<R>, const R: usize);
 /// Arguments of [`State::new`](crate::State::new): arrays, vectors, and every [`Vector`] itself.
 ///
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
-/// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the
-/// same by copy; `Vec<Vec<T>>` the [`Lattice`](crate::Lattice) of `u[n][m]`, and three or four
-/// levels of `Vec`s and arrays that of `u[n][m][k]` or `u[n][m][k][l]`. `M` distinguishes these
-/// cases and is always inferred.
+/// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; `Vec<Vec<T>>` and `[Vec<T>; N]` the
+/// [`Lattice`](crate::Lattice) of `u[n][m]`, and three or four levels of `Vec`s and arrays that of `u[n][m][k]` or
+/// `u[n][m][k][l]`. References to arrays, slices and `Vec`s are copied. `M` distinguishes these cases and is always
+/// inferred.
+///
+/// A run takes any of these as its start, and a definition as its parameter: a list whose length only the run time
+/// knows is an error if it does not have the declared length.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no list of real numbers",
     label = "expected a list of real numbers",
@@ -435,6 +438,12 @@ pub mod shape {
     /// `Vec<Vec<T>>`, and more levels of `Vec`s and arrays
     #[derive(Debug, Clone, Copy)]
     pub struct Nested<const LEVELS: usize>;
+    /// `&[T; N]`
+    #[derive(Debug, Clone, Copy)]
+    pub struct ArrayByReference;
+    /// `&[[T; C]; N]`
+    #[derive(Debug, Clone, Copy)]
+    pub struct ArrayOfRowsByReference;
     /// `&[T]` and `&Vec<T>`
     #[derive(Debug, Clone, Copy)]
     pub struct Slice;
@@ -473,6 +482,22 @@ impl<T: Real, const C: usize> IntoVector<shape::SequenceOfRows> for Vec<[T; C]> 
     type Vector = OMatrix<T, Dyn, Const<C>>;
     fn into_vector(self) -> OMatrix<T, Dyn, Const<C>> {
         OMatrix::from_fn_generic(Dyn(self.len()), Const, |row, column| self[row][column])
+    }
+}
+
+impl<T: Real, const N: usize> IntoVector<shape::ArrayByReference> for &[T; N] {
+    type Vector = SVector<T, N>;
+    fn into_vector(self) -> SVector<T, N> {
+        (*self).into_vector()
+    }
+}
+
+impl<T: Real, const N: usize, const C: usize> IntoVector<shape::ArrayOfRowsByReference>
+    for &[[T; C]; N]
+{
+    type Vector = SMatrix<T, N, C>;
+    fn into_vector(self) -> SMatrix<T, N, C> {
+        (*self).into_vector()
     }
 }
 

@@ -86,16 +86,9 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
     let is_told = definition.defaults.contains(&None);
     let scalar = generics.scalars.first().filter(|_| is_told);
     let scalar = scalar.map_or("__h::core::primitive::f64", String::as_str);
-    // A constant of the user's may have the name of a parameter in capitals, and an argument may
-    // not have a constant's.
-    let argument = |name: &Ident| match name.to_string() {
-        text if text.starts_with(char::is_uppercase) => lex(&format!("_{text}")),
-        _ => quote! { #name },
-    };
     let (mut kinds, mut arguments, mut lets) =
         (TokenStream::new(), TokenStream::new(), TokenStream::new());
     let (mut names, mut fields) = (Vec::new(), String::new());
-    let (mut checks, mut numbers) = (String::new(), String::new());
     for size in context.run_time_sizes() {
         let name = &definition.checked.sizes[size].name;
         let (local, given) = (lex(&format!("_n{size}")), argument(name));
@@ -129,14 +122,13 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             lets.extend(quote! { let #local = #given; });
         } else {
             let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
-            // Rows of a matrix with columns set at run time may differ in length.
-            let (bound, made) = match context.has_dynamic_columns(shape) {
+            // A `new` without a `Result` takes lengths that the compiler checks.
+            let (bound, made) = match context.has_run_time_sizes() {
                 true => {
-                    let (scalar, rows) = (lex(scalar), lex(&context.rows_dimension(shape)));
                     let text = name.to_string();
                     (
-                        quote! { #kind, #from: __h::MatrixOf<#kind, #scalar, #rows>, },
-                        quote! { __h::MatrixOf::into_matrix(#given, #text)? },
+                        quote! { #kind, #from: __h::ListOf<#kind, #ty>, },
+                        quote! { __h::ListOf::fit(#given, #text)? },
                     )
                 }
                 false => (
@@ -149,41 +141,15 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             arguments.extend(quote! { #given: #from, });
             lets.extend(quote! { let #local = #made; });
         }
-        let is_dynamic = context.is_dynamic(shape);
-        let field = match is_dynamic {
+        let field = match context.is_dynamic(shape) {
             true => set_by_new(&value),
-            false => value.clone(),
+            false => value,
         };
         let _ = write!(fields, "{name}: {field}, ");
-        if let Shape::Lattice(_, axes) = shape {
-            let (extents, given) = (context.axes(axes), context.stored(shape, &value));
-            let _ = writeln!(
-                checks,
-                "__h::check_lattice(\"{name}\", {extents}, &{given})?;"
-            );
-            continue;
-        }
-        let (rows, given) = match shape {
-            Shape::Matrix(..) => (format!("let _b = {value}.transpose();\n"), "_b"),
-            _ => (String::new(), value.as_str()),
-        };
-        let whole = as_slice(shape, given);
-        let _ = writeln!(numbers, "{rows}__h::check_parameter(\"{name}\", {whole})?;");
-        if is_dynamic {
-            let (rows, columns) = context.extents(shape);
-            let _ = writeln!(
-                checks,
-                "__h::check_extents({:?}, [{rows}, {columns}], [{value}.nrows(), {value}.ncols()])?;",
-                reach::declared(&name.to_string(), parameter.ty, context),
-            );
-        }
     }
     if names.is_empty() {
         return TokenStream::new();
     }
-    let groups = context.groups.iter().filter_map(|g| context.room(g));
-    let [products, bounds] = reach::constructed(context);
-    let room = products + &groups.collect::<String>();
     let mut allow = allowances(&names);
     if names.len() > 7 {
         // The number of parameters of a system is not a matter of style.
@@ -196,14 +162,15 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
     let new = format_ident!("new", span = definition.type_name(item).span());
     let sets = defaults_set(context, item, &names).map(|text| quote! { #[doc = #text] });
     let method = if context.has_run_time_sizes() {
+        let groups = context.groups.iter().filter_map(|g| context.room(g));
+        let [products, bounds] = reach::constructed(context);
+        let room = products + &groups.collect::<String>();
         let more = (!bounds.is_empty()).then(|| {
             quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
         });
         let memory = (!room.is_empty()).then(|| {
             quote! { #[doc = " `Error::Memory` if arrays of these sizes do not fit into memory."] }
         });
-        // Sizes that do not fit explain arrays that do not, and indices are in range up to sizes that do.
-        let checks = lex(&(room.clone() + &bounds + &checks + &numbers));
         quote! {
             /// The system of these sizes and parameters: the sizes first, then functions, then the parameters
             /// without a default, in the order of their declaration.
@@ -217,8 +184,7 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             #allow
             #visibility fn #new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
                 #lets
-                #checks
-                __h::core::result::Result::Ok(#system)
+                #system.__checked()
             }
         }
     } else {
@@ -242,6 +208,129 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
     };
     let header = lex(&header);
     quote! { #header { #method } }
+}
+
+/// The checks of a system whose sizes are set at run time. Sizes that do not fit explain arrays that do not, and indices
+/// are in range up to sizes that do.
+pub fn checked(context: Context) -> TokenStream {
+    if !context.has_run_time_sizes() {
+        return TokenStream::new();
+    }
+    let sizes = context.run_time_sizes().map(|size| {
+        let name = &context.definition.checked.sizes[size].name;
+        format!("let _n{size} = *self.{name};\n")
+    });
+    let groups = context.groups.iter().filter_map(|g| context.room(g));
+    let [products, bounds] = reach::constructed(context);
+    let room = products + &groups.collect::<String>();
+    let (mut extents, mut numbers) = (String::new(), String::new());
+    for (number, parameter) in context.definition.checked.parameters.iter().enumerate() {
+        if context.definition.defaults[number].is_some() {
+            continue;
+        }
+        let (name, value) = (&parameter.name, format!("self.{}", parameter.name));
+        let shape = &context.model.parameters[number].shape;
+        if let Shape::Lattice(_, axes) = shape {
+            let (axes, given) = (context.axes(axes), context.stored(shape, &value));
+            let _ = writeln!(
+                extents,
+                "__h::check_lattice(\"{name}\", {axes}, &{given})?;"
+            );
+            continue;
+        }
+        let (rows, given) = match shape {
+            Shape::Matrix(..) => (format!("let _b = {value}.transpose();\n"), "_b"),
+            _ => (String::new(), value.as_str()),
+        };
+        let whole = as_slice(shape, given);
+        let _ = writeln!(numbers, "{rows}__h::check_parameter(\"{name}\", {whole})?;");
+        if context.is_dynamic(shape) {
+            let (rows, columns) = context.extents(shape);
+            let _ = writeln!(
+                extents,
+                "__h::check_extents({:?}, [{rows}, {columns}], [{value}.nrows(), {value}.ncols()])?;",
+                reach::declared(&name.to_string(), parameter.ty, context),
+            );
+        }
+    }
+    let sizes: String = sizes.collect();
+    lex(&format!(
+        "fn __checked(self) -> __h::Result<Self, __h::Error> {{ \
+         {sizes}{room}{bounds}{extents}{numbers} __h::Result::Ok(self) }}"
+    ))
+}
+
+/// `with_NAME` for each array, but where the definition has something else of that name.
+pub fn with_arrays(context: Context, item: &Header) -> TokenStream {
+    let (definition, visibility) = (context.definition, &item.visibility);
+    let mut out = TokenStream::new();
+    // Pieces come from the whole system.
+    if definition.piece.is_some() {
+        return out;
+    }
+    let scalar = context.generics.scalars.first().map_or("", String::as_str);
+    for (number, parameter) in definition.checked.parameters.iter().enumerate() {
+        let (name, shape) = (&parameter.name, &context.model.parameters[number].shape);
+        let method = format_ident!("with_{}", name, span = name.span());
+        if *shape == Shape::Scalar || is_taken(context, &method) {
+            continue;
+        }
+        let (text, ty) = (name.to_string(), lex(&context.field(shape, scalar)));
+        let argument = argument(name);
+        let allow = allowances(&[name]);
+        out.extend(match context.is_dynamic(shape) {
+            true => {
+                let doc = format!(" The same system with another `{name}` of the same extents, from an array, a slice or a `Vec`.");
+                let value = lex(&set_by_new("_a"));
+                quote! {
+                    #[doc = #doc]
+                    ///
+                    /// # Errors
+                    /// Those of `new`.
+                    #allow
+                    #visibility fn #method<K, V: __h::ListOf<K, #ty>>(self, #argument: V) -> __h::Result<Self, __h::Error> {
+                        let _a = __h::ListOf::fit(#argument, #text)?;
+                        Self { #name: #value, ..self }.__checked()
+                    }
+                }
+            }
+            false => {
+                let doc = format!(
+                    " The same system with another `{name}`: `Self` for an array, a `Result` for a slice or a `Vec`, whose length is checked at run time."
+                );
+                quote! {
+                    #[doc = #doc]
+                    #allow
+                    #[must_use]
+                    #visibility fn #method<K, V: __h::ListOf<K, #ty>>(self, #argument: V) -> V::Outcome<Self> {
+                        __h::ListOf::set(#argument, #text, |_a| Self { #name: _a, ..self })
+                    }
+                }
+            }
+        });
+    }
+    out
+}
+
+/// Returns true if a definition has a method of that name already: an observable, the getter of a field, or
+/// `with_defaults`.
+fn is_taken(context: Context, method: &Ident) -> bool {
+    let checked = context.definition.checked;
+    let sizes = checked.sizes.iter().map(|size| &size.name);
+    let parameters = checked.parameters.iter().map(|parameter| &parameter.name);
+    let mut observables = context.model.observables.iter();
+    method == "with_defaults"
+        || sizes.chain(parameters).any(|name| name == method)
+        || observables.any(|observable| method == observable.name.as_str())
+}
+
+/// The name of the argument for a field. A constant of the user's may have the name of a parameter in capitals, and an
+/// argument may not have a constant's.
+fn argument(name: &Ident) -> TokenStream {
+    match name.to_string() {
+        text if text.starts_with(char::is_uppercase) => lex(&format!("_{text}")),
+        _ => quote! { #name },
+    }
 }
 
 /// The way to set the parameters with a default, which are no arguments of `new`.

@@ -296,6 +296,10 @@ fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
     let new = construct::new(context, item);
     let defaults = construct::with_defaults(context, item);
     let getters = construct::getters(context, item);
+    let (checked, arrays) = (
+        construct::checked(context),
+        construct::with_arrays(context, item),
+    );
     let derivatives = (!generics.scalars.is_empty()).then(|| {
         let state = lex(&context.vector());
         let (result, body) = (lex(&generics.system_type_over("T")), lex(gradient));
@@ -311,6 +315,8 @@ fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
         #new
         #of_values {
             #defaults
+            #checked
+            #arrays
             #getters
             #pieces
         }

@@ -32,11 +32,6 @@ impl Context<'_> {
         matches!(shape, Shape::Lattice(..)) || self.is_dynamic(shape)
     }
 
-    /// Returns true if the number of columns is set at run time.
-    pub fn has_dynamic_columns(self, shape: &Shape) -> bool {
-        matches!(shape, Shape::Matrix(_, columns) if self.is_set_at_run_time(columns))
-    }
-
     /// Rows and columns as expressions.
     pub fn extents(self, shape: &Shape) -> (String, String) {
         let extent = |extent: &Affine| self.indices.plain(extent);
@@ -109,14 +104,6 @@ impl Context<'_> {
                 format!("__h::SMatrix<{scalar}, {}, {}>", text(rows), text(columns))
             }
             Shape::Lattice(_, axes) => format!("__h::Lattice<{scalar}, {}>", axes.len()),
-        }
-    }
-
-    /// The type of the number of rows.
-    pub fn rows_dimension(self, shape: &Shape) -> String {
-        match shape {
-            Shape::Matrix(rows, _) => self.dimension(rows),
-            _ => "__h::Const<1>".to_owned(),
         }
     }
 

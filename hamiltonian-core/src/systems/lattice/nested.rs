@@ -1,17 +1,15 @@
-//! Lattices and matrices from nested lists.
+//! Lattices from nested lists.
 //!
-//! Input: `Vec`s and arrays of `Vec`s and arrays, of equal lengths or not. Output: [`Lattice`], or the matrix
-//! of a parameter. Invariant: lists of unequal lengths become a lattice without elements that names two of
+//! Input: `Vec`s and arrays of `Vec`s and arrays, of equal lengths or not. Output: [`Lattice`]. Invariant: lists of
+//! unequal lengths become a lattice without elements that names two of
 //! them, since a [`State`](crate::State) is made without an error.
 
 use super::Lattice;
-use crate::error::Error;
-use crate::systems::uneven::{Uneven, named};
+use crate::systems::uneven::Uneven;
 use crate::systems::vector::{IntoVector, shape};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
-use nalgebra::{Dim, Dyn, Matrix, RawStorage, VecStorage};
 
 /// A list of `R` levels.
 pub trait NestedList<const R: usize> {
@@ -106,11 +104,24 @@ pub fn lattice<N: NestedList<R>, const R: usize>(list: N) -> Lattice<N::Scalar, 
     }
 }
 
-impl<T: Real> IntoVector<shape::Nested<2>> for Vec<Vec<T>> {
-    type Vector = Lattice<T, 2>;
-    fn into_vector(self) -> Lattice<T, 2> {
-        lattice(self)
-    }
+/// [`IntoVector`] for lists of `Vec`s.
+macro_rules! rows {
+    ($([$($generics:tt)*] $list:ty $(, $copied:ident)?;)*) => { $(
+        impl<T: Real, $($generics)*> IntoVector<shape::Nested<2>> for $list {
+            type Vector = Lattice<T, 2>;
+            fn into_vector(self) -> Lattice<T, 2> {
+                lattice(self$(.$copied())?)
+            }
+        }
+    )* };
+}
+
+rows! {
+    [] Vec<Vec<T>>;
+    [] &Vec<Vec<T>>, clone;
+    [] &[Vec<T>], to_vec;
+    [const N: usize] [Vec<T>; N];
+    [const N: usize] &[Vec<T>; N], clone;
 }
 
 macro_rules! vectors {
@@ -131,63 +142,6 @@ macro_rules! vectors {
 }
 
 vectors!(2 3, 3 4);
-
-/// A matrix with columns set at run time that `new` takes: one of nalgebra, or its rows.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not fit this parameter",
-    label = "expected a matrix of the declared extents",
-    note = "write its rows, `vec![vec![1.0, 2.0], vec![3.0, 4.0]]`, or a `DMatrix` of nalgebra",
-    note = "write `1.0` instead of `1`: whole numbers are not converted",
-    note = "`new` takes the sizes, then functions, then the parameters without a default, in the order of their declaration"
-)]
-pub trait MatrixOf<K, T, R: Dim> {
-    /// The same numbers as a matrix.
-    ///
-    /// # Errors
-    /// [`Error::Row`] if rows differ in length, [`Error::Shape`] if their number is not the declared one.
-    fn into_matrix(self, name: &'static str) -> Result<Wide<T, R>, Error>;
-}
-
-/// A matrix with columns set at run time.
-type Wide<T, R> = Matrix<T, R, Dyn, VecStorage<T, R, Dyn>>;
-
-impl<T: Real, R: Dim> MatrixOf<shape::Same, T, R> for Wide<T, R> {
-    fn into_matrix(self, _: &'static str) -> Result<Wide<T, R>, Error> {
-        Ok(self)
-    }
-}
-
-impl<T: Real, R: Dim, N: NestedList<2, Scalar = T>> MatrixOf<shape::Nested<2>, T, R> for N
-where
-    VecStorage<T, R, Dyn>: RawStorage<T, R, Dyn>,
-{
-    fn into_matrix(self, name: &'static str) -> Result<Wide<T, R>, Error> {
-        let mut elements = Vec::new();
-        let [rows, columns] = match self.flat(&mut elements) {
-            Ok(extents) => extents,
-            Err(Uneven([(_, expected), (at, found)])) => {
-                return Err(Error::Row {
-                    name: named(name, &at),
-                    expected,
-                    found,
-                });
-            }
-        };
-        match R::try_to_usize() {
-            Some(expected) if expected != rows => Err(Error::Shape {
-                name,
-                expected: expected * columns,
-                found: elements.len(),
-            }),
-            _ => {
-                let at = |number: usize| elements[number % rows * columns + number / rows];
-                let by_columns = (0..elements.len()).map(at).collect();
-                let storage = VecStorage::new(R::from_usize(rows), Dyn(columns), by_columns);
-                Ok(Matrix::from_data(storage))
-            }
-        }
-    }
-}
 
 #[cfg(test)]
 mod tests {

@@ -536,6 +536,16 @@ macro_rules! __known {
             }
         }
     };
+    (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal $($names:ident)? ? $missing:ident) => {
+        $crate::__known! { @texts $visibility [$($impl)*] $system: $latex, $equations $($names)? }
+        #[automatically_derived]
+        $($impl)* $crate::private::Default for $system
+        where for<'a> &'a $system: $missing {
+            fn default() -> Self {
+                $crate::private::core::unreachable!("no system meets the bound")
+            }
+        }
+    };
     // Over `f64`: nothing in the paths of these constants would tell the scalar.
     (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal $($names:ident)?) => {
         $($impl)* $system {

@@ -77,9 +77,12 @@ pub fn implementations(context: Context) -> String {
         let (constants, system) = generics.over_f64();
         let names = structure.split.is_ok().then_some("NAMES");
         let (default, missing) = match (is_all_defaults(context), generics.scalars.is_empty()) {
-            (false, _) => ("", ""),
-            (true, true) => ("= Self {}", " AnyParameter"),
-            (true, false) => ("= Self::with_defaults()", " ParameterWithoutDefault"),
+            (false, _) => (without_default(&mut out, context), ""),
+            (true, true) => ("= Self {}".to_owned(), " AnyParameter"),
+            (true, false) => (
+                "= Self::with_defaults()".to_owned(),
+                " ParameterWithoutDefault",
+            ),
         };
         known += missing;
         format!(
@@ -98,6 +101,36 @@ pub fn implementations(context: Context) -> String {
         texts.unwrap_or_default(),
     );
     out
+}
+
+/// The bound of `Default` that names the parameters without a default, if nothing but numbers is missing. Other systems
+/// have no `Default`, so that users may implement it.
+fn without_default(out: &mut String, context: Context) -> String {
+    if context.has_run_time_sizes() || !context.generics.functions.is_empty() {
+        return String::new();
+    }
+    let checked = context.definition.checked;
+    let parameters = checked.parameters.iter().zip(context.definition.defaults);
+    let missing = parameters.filter(|(_, default)| default.is_none());
+    let missing: Vec<String> = missing.map(|(p, _)| p.name.to_string()).collect();
+    let (first, name) = (&missing[0], &context.generics.name);
+    let (noun, verb) = match missing.len() {
+        1 => ("parameter", "has"),
+        _ => ("parameters", "have"),
+    };
+    let names = missing.join("`, `");
+    let reason = Reason {
+        message: format!("`{name}` has no `Default`: its {noun} `{names}` {verb} no default"),
+        label: format!("`{first}` has no value"),
+        note: format!(
+            "write `{name}::new({})`, or declare a default for each parameter",
+            missing.join(", ")
+        ),
+    };
+    let bound = format!("__{first}_has_no_default");
+    out.push_str("#[allow(non_camel_case_types)]\n");
+    reason_trait(out, &bound, &reason);
+    format!("? {bound}")
 }
 
 /// An implementation of a marker trait. If the trait does not hold, a bound that nothing satisfies carries the reason.

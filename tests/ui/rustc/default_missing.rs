@@ -8,4 +8,5 @@ hamiltonian! {
 
 fn main() {
     let _ = Oscillator::default();
+    let _ = Oscillator { k: 2.0, ..Default::default() };
 }

@@ -13,7 +13,6 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
-use hamiltonian::nalgebra::SVector;
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use std::f64::consts::TAU;
@@ -38,7 +37,7 @@ hamiltonian! {
 const SITES: usize = 32;
 /// The number of ripples on the ring.
 const RIPPLES: f64 = 4.0;
-type Wave = State<SVector<f64, SITES>>;
+type Wave = StateOf<Ring<SITES>>;
 
 /// −1 at every other site, and the ripple there.
 fn at(site: usize) -> (f64, f64) {

@@ -70,6 +70,7 @@ pub use runs::any::AnyRun;
 pub use runs::integrator::{ErrorEstimate, Integrator, Run, States};
 pub use schemes::scheme::Scheme;
 pub use systems::lattice::Lattice;
+pub use systems::rows::ByRow;
 pub use systems::state::{Gradient, IntoStart, Plain, State};
 pub use systems::system::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced, VectorOf,
@@ -96,7 +97,7 @@ pub type StateOf<S, T = f64> = State<VectorOf<S, T>>;
 /// It imports the methods of its traits also if a name is taken: in a program with a type `System` of its own,
 /// `energy` is still a method of every definition.
 pub mod prelude {
-    pub use crate::{Observer as _, System as _};
+    pub use crate::{ByRow as _, Observer as _, System as _};
 
     // The message of `Name::new(…)` for a system whose parameters all have defaults.
     #[doc(hidden)]

@@ -6,7 +6,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | vectors and states | `vector`, `uneven`, `lattice`, `fit`, `state` |
+//! | vectors and states | `vector`, `uneven`, `lattice`, `fit`, `rows`, `state` |
 //! | fields and flows, as traits | `flow` |
 //! | systems, as traits | `system` |
 //! | checks | `domain`: is H finite; `reach`: are indices in range; `derivatives`: are those by hand right |
@@ -24,6 +24,7 @@ pub(crate) mod hash;
 pub(crate) mod lattice;
 pub(crate) mod observed;
 pub(crate) mod reach;
+pub(crate) mod rows;
 pub(crate) mod state;
 pub(crate) mod system;
 pub(crate) mod transformed;

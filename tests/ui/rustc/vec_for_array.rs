@@ -1,4 +1,4 @@
-//! An array where the size is set at run time, and a `Vec` where it is a number.
+//! Lists of other lengths or shapes where the compiler knows those of the definition.
 
 use hamiltonian::prelude::*;
 
@@ -16,13 +16,14 @@ hamiltonian! {
 
 fn main() -> Result<(), Error> {
     let _ = Two::new(vec![1.0, 2.0]);
-    let _ = Any::new(2, [1.0, 2.0])?;
+    let _ = Two::new([1.0, 2.0]).with_m([1.0]);
+    let _ = Any::new(2, [[1.0, 2.0]])?;
     let two = Two::new([1.0, 2.0]);
-    let any = Any::new(2, vec![1.0, 2.0])?;
-    let start = State::new(vec![0.0, 1.0], vec![0.0, 0.0]);
+    let any = Any::new(2, [1.0, 2.0])?;
+    let start = State::new(vec![[0.0, 1.0]], vec![[0.0, 0.0]]);
     let _ = Integrator::new(&two, StormerVerlet::default(), start, 0.1)?;
-    let start = State::new([0.0, 1.0], [0.0, 0.0]);
-    let _ = Integrator::new(&any, StormerVerlet::default(), start, 0.1)?;
+    let start = State::new([0.0], [1.0]);
+    let _ = Integrator::new(&two, StormerVerlet::default(), start, 0.1)?;
     let _ = two.energy(&State::new(vec![0.0, 1.0], vec![0.0, 0.0]));
     let _ = any.energy(&State::new([0.0, 1.0], [0.0, 0.0]));
     Ok(())

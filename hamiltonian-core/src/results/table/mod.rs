@@ -166,6 +166,42 @@ impl Table {
         Some(self.iter().map(move |row| row[at]))
     }
 
+    /// The elements of an array in each row, in the order of the declaration: those of `q[n][3]` are the columns
+    /// `q[0][0]`, `q[0][1]`, …; `None` if there is no such array.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// hamiltonian! {
+    ///     /// Two free bodies.
+    ///     pub struct Free {}
+    ///     H(q[2][3]; p[2][3]) = sum(i in 0..2) { norm_squared(p[i])/2 }
+    /// }
+    /// let start = State::new([[0.0; 3]; 2], [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    /// let mut run = Integrator::new(&Free {}, StormerVerlet::default(), start, 1.0)?.observe(Recorder::new());
+    /// run.advance(2)?;
+    /// for q in run.observer().array("q").into_iter().flatten() {
+    ///     for [x, y, z] in q.as_chunks::<3>().0 {
+    ///         println!("{x} {y} {z}");
+    ///     }
+    /// }
+    /// let last = run.observer().array("q").and_then(Iterator::last);
+    /// assert_eq!(last, Some(&[2.0, 4.0, 6.0, 8.0, 10.0, 12.0][..]));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn array(&self, name: &str) -> Option<impl Iterator<Item = &[f64]>> {
+        let is_in = |column: &String| {
+            let indices = column.strip_prefix(name);
+            indices.is_some_and(|indices| indices.starts_with('['))
+        };
+        let first = self.columns.iter().position(is_in)?;
+        let width = self.columns[first..]
+            .iter()
+            .take_while(|c| is_in(c))
+            .count();
+        Some(self.iter().map(move |row| &row[first..first + width]))
+    }
+
     /// The position of the column of that name in [`columns`](Table::columns), from 0.
     ///
     /// ```

@@ -269,7 +269,7 @@ fn step<S: Split>(system: &S, start: &State<VectorOf<S>>, h: f64) -> Result<(), 
     let moved = run.observer().max_relative();
     println!(
         "{:20} {least:6.1} ns a step, H moves by {moved:.1e}",
-        S::NAME
+        system.description().name
     );
     Ok(())
 }

@@ -104,7 +104,7 @@ fn bodies_counted_at_run_time() {
     assert_eq!(
         refused,
         Error::Shape {
-            name: "m",
+            name: "m".into(),
             expected: 3,
             found: 1
         }

@@ -211,10 +211,8 @@ fn polar() {
         );
     }
     let polar = Polar::default();
-    let names: Vec<_> = <Polar as System>::GROUPS
-        .iter()
-        .map(|g| g.coordinate)
-        .collect();
+    let groups = polar.description().groups.iter();
+    let names: Vec<_> = groups.map(|g| &*g.coordinate).collect();
     assert_eq!(names, ["r", "phi"]);
     let state = polar.from_declared(&planet());
     let l: f64 = Flat::default().angular_momentum(&planet());
@@ -269,8 +267,8 @@ fn bodies() {
 #[test]
 fn groups_that_stay_change_their_number() {
     let (around, polar) = (Around {}, AroundPolar {});
-    let names = <AroundPolar as System>::GROUPS.iter();
-    let names: Vec<_> = names.map(|g| g.coordinate).collect();
+    let names = polar.description().groups.iter();
+    let names: Vec<_> = names.map(|g| &*g.coordinate).collect();
     assert_eq!(names, ["r", "phi", "u"]);
     let old = State::new([0.7, 0.2, -0.4], [0.3, -0.6, 1.1]);
     let there = polar.from_declared(&old);
@@ -291,12 +289,9 @@ fn vectors_become_numbers() {
     for q in [[0.7, -0.4], [-0.8, 0.6], [-0.5, -0.9], [0.0, 1.0]] {
         same_system!(Flat::default(), Plane::default(), State::new(q, [0.3, 1.1]));
     }
-    let names = |groups: &[hamiltonian::schemes::author::Group]| -> Vec<_> {
-        groups.iter().map(|g| (g.coordinate, g.momentum)).collect()
-    };
     assert_eq!(
-        names(<Plane as System>::GROUPS),
-        names(<Polar as System>::GROUPS)
+        Plane::default().description().groups,
+        Polar::default().description().groups
     );
     // The same type of states, and the same numbers, as from scalars.
     let old = State::new([0.7, -0.4], [0.3, 1.1]);

@@ -190,11 +190,17 @@ fn monitor_functions_are_of_coordinates_and_momenta_alone() {
     assert!(TimeTransformed::by(Lit {}, "place").is_ok());
     // At q = 0 the light does not change.
     let timed = TimeTransformed::by(Lit {}, "light").expect_err("time is in it");
-    let (name, system) = ("light", "Lit");
-    assert_eq!(timed, Error::Timed { name, system });
+    let (name, system): (Box<str>, Box<str>) = ("light".into(), "Lit".into());
+    assert_eq!(
+        timed,
+        Error::Timed {
+            name,
+            system: system.clone()
+        }
+    );
     let unknown = TimeTransformed::by(Lit {}, "plaice").expect_err("there is none");
     let name = "plaice".to_owned();
-    let known = vec!["place", "light"];
+    let known = ["place", "light"].map(Box::from).into();
     assert_eq!(
         unknown,
         Error::Unknown {

@@ -1,7 +1,7 @@
 //! Exact flows as they are emitted: each piece of each system against a solution of its own equations
 //! in 32 digits, at random points and for times of both signs.
 //!
-//! The equations are derived from the piece's name, `Split::NAMES`, by the reader of the engine's
+//! The equations are derived from the piece's name, `Description::pieces`, by the reader of the engine's
 //! tests: the flow and its reference share the text alone.
 
 #[path = "flows/kepler.rs"]
@@ -218,7 +218,7 @@ fn exponentials_are_made_in_the_precision_of_the_scalar() -> Result<(), Error> {
         assert!(double < 2e-15 * size, "{c}: {double:e}");
         assert!(quadruple < 4e-31 * size, "{c}: {quadruple:e}");
     }
-    assert_eq!(Coupled::NAMES.len(), 1);
+    assert_eq!(Coupled::default().description().pieces.len(), 1);
     // Half a million steps lose as much as half a million roundings.
     let system = Coupled::default();
     let start = State::new([0.3, -0.7, 1.1], [0.9, -0.2, 0.4]);

@@ -162,7 +162,7 @@ impl<S: System> Visitor<S> for Slopes<S> {
             "{} {} on {}: slope {slope}, {points:?}",
             entry.name,
             entry.variant,
-            S::NAME
+            self.system.description().name
         );
         self.measured += 1;
     }
@@ -231,8 +231,11 @@ fn a_force_is_a_piece_of_its_own() {
     let mut top = Slopes::new(Top::default(), start);
     visit_split(&mut top);
     top.visit(Yoshida4);
-    assert_eq!(<Top as Split>::NAMES.last(), Some(&"force"));
-    assert_eq!(<Top as Split>::NAMES.len(), 5);
+    let top = Top::default();
+    let names = top.description().piece_names();
+    assert_eq!(names.last(), Some(&"force"));
+    assert_eq!(names.len(), 5);
+    assert!(top.description().is_forced);
     assert!(is_exact!(Bound) && is_exact!(Top) && !is_exact!(Windy));
 }
 

@@ -168,10 +168,8 @@ fn time_monitors_and_events() {
         prepared.observable(0, 0.25, &state.q, &state.p),
         driven.power(&state),
     );
-    let names: Vec<&str> = <Driven as System>::OBSERVABLES
-        .iter()
-        .map(|o: &Observable| o.name)
-        .collect();
+    let observables = driven.description().observables.iter();
+    let names: Vec<&str> = observables.map(|o: &Observable| &*o.name).collect();
     assert_eq!(names, ["power", "crossing"]);
     separable::<f64, _>(&driven);
 }
@@ -183,10 +181,8 @@ fn parameters_without_default_are_arguments_of_new() {
     let state = State::new([1.0, 2.0], [0.5, -0.5]);
     let (a, b) = (0.5 - 0.25 * 2.0, -0.5 + 0.25);
     close(charge.energy(&state), (a * a + b * b) / 4.0);
-    let names: Vec<_> = <Charge as System>::GROUPS
-        .iter()
-        .map(|g| (g.coordinate, g.momentum))
-        .collect();
+    let groups = charge.description().groups.iter();
+    let names: Vec<_> = groups.map(|g| (&*g.coordinate, &*g.momentum)).collect();
     assert_eq!(names, [("x", "p_x"), ("y", "p_y")]);
 }
 

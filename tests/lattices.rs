@@ -447,7 +447,7 @@ fn parameters_with_two_axes_are_lists_of_rows() {
 
 #[test]
 fn sizes_beyond_memory_are_told_by_new() {
-    let memory = |name| Error::Memory { name };
+    let memory = |name: &str| Error::Memory { name: name.into() };
     for n in [usize::MAX, 1 << 61, 1 << 60, 1 << 40] {
         assert_eq!(Pendulums::new(n, 2).unwrap_err(), memory("u"));
         assert_eq!(Pendulums::new(2, n).unwrap_err(), memory("u"));
@@ -459,7 +459,9 @@ fn sizes_beyond_memory_are_told_by_new() {
         assert_eq!(Bodies::new(n).unwrap_err(), memory("q"));
         // No array has so many elements, and none is asked for.
         let weights = Weighed::new(1, n, vec![vec![1.0; 2]]).unwrap_err();
-        assert!(matches!(weights, Error::Shape { name: "w", expected, found: 2 } if expected == n));
+        assert!(
+            matches!(weights, Error::Shape { ref name, expected, found: 2 } if (&**name, expected) == ("w", n))
+        );
         let weights = Weighed::new(8, n | 1 << 61, vec![vec![1.0; 2]]).unwrap_err();
         assert_eq!(weights, memory("w"));
     }

@@ -273,9 +273,9 @@ fn lists_of_other_shapes_are_refused_by_the_element_as_declared() {
     assert_eq!(refused(0, 3, 4, Vec::new()), Ok(()));
     let one = [[[1.0]]];
     let large = Crystal::new(usize::MAX, 2, 2, one, one, one).unwrap_err();
-    assert_eq!(large, Error::Memory { name: "u" });
+    assert_eq!(large, Error::Memory { name: "u".into() });
     let large = Tesseract::<{ 1 << 40 }>::new(1 << 20, lattice([1, 3, 1, 2], 0)).unwrap_err();
-    assert_eq!(large, Error::Memory { name: "w" });
+    assert_eq!(large, Error::Memory { name: "w".into() });
 }
 
 #[test]

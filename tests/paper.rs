@@ -127,7 +127,7 @@ fn pihajoki_on_separable_systems_is_stormer_verlet() {
                     (bits(&a.q), bits(&a.p)),
                     (bits(&b.q), bits(&b.p)),
                     "{}",
-                    S::NAME
+                    system.description().name
                 );
             }
         }

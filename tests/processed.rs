@@ -92,7 +92,7 @@ where
     let processed = stages(system, &Processed6::default(), start, end, (8.0, least));
     println!(
         "{}: {plain:.3} and {processed:.3} stages a unit of time",
-        S::NAME
+        system.description().name
     );
     plain / processed
 }

@@ -212,7 +212,7 @@ fn products_beyond_usize_are_refused_wherever_they_stand() {
         let Err(Error::Memory { name }) = made else {
             panic!("`{product}`: {:?}", made.err());
         };
-        assert_eq!(name, product);
+        assert_eq!(&*name, product);
     }
     let half = 1 << (usize::BITS / 2);
     let top = 1 << (usize::BITS - 1);

@@ -154,8 +154,8 @@ fn moduli_of_run_time_are_extents() {
 
 #[test]
 fn states_of_another_length_are_errors() {
-    let shape = |name, expected, found| Error::Shape {
-        name,
+    let shape = |name: &str, expected, found| Error::Shape {
+        name: name.into(),
         expected,
         found,
     };

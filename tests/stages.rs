@@ -71,7 +71,12 @@ where
         Cpu::limit_to(cpu);
         let beside = run(true);
         Cpu::limit_to(Cpu::Avx512);
-        assert_eq!(beside, alone, "{name} on {}, up to {cpu:?}", S::NAME);
+        assert_eq!(
+            beside,
+            alone,
+            "{name} on {}, up to {cpu:?}",
+            system.description().name
+        );
     }
     alone.0
 }

@@ -12,7 +12,7 @@ use std::time::Instant;
 /// Prints a system with the pieces of H that have exact flows, the outermost first.
 pub fn print_pieces<S: Split + Display>(system: &S) {
     println!("{system}\nin the pieces");
-    for name in S::NAMES {
+    for name in system.description().piece_names() {
         println!("    {name}");
     }
 }

@@ -39,7 +39,7 @@ pub enum Error {
     /// A vector, or an array of parameters, has the wrong number of components.
     Shape {
         /// The name of the coordinate, momentum or parameter.
-        name: &'static str,
+        name: Box<str>,
         /// The number of components the system asks for.
         expected: usize,
         /// The number of components given.
@@ -48,7 +48,7 @@ pub enum Error {
     /// An axis of an array has the wrong extent.
     Extent {
         /// The name of the coordinate, momentum or parameter.
-        name: &'static str,
+        name: Box<str>,
         /// The number of the axis, from 0 on.
         axis: usize,
         /// The extent the system asks for.
@@ -68,7 +68,7 @@ pub enum Error {
     /// An array of the sizes given does not fit into memory, or a product of sizes is larger than an `isize`.
     Memory {
         /// The name of the coordinate or parameter, or the product.
-        name: &'static str,
+        name: Box<str>,
     },
     /// An index of the definition that leaves its range for the sizes given.
     Index {
@@ -89,7 +89,7 @@ pub enum Error {
     /// A start has a NaN or an infinity in it.
     Start {
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// Its time.
         time: f64,
         /// Its coordinates.
@@ -110,7 +110,7 @@ pub enum Error {
         /// The first parameter that is NaN or infinite, `m[1] = NaN`, where there is one.
         parameter: Option<Box<str>>,
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The time of the start.
         time: f64,
         /// Its coordinates.
@@ -129,7 +129,7 @@ pub enum Error {
     /// its orbits are those of the declared system.
     Shell {
         /// The momentum of time.
-        momentum: &'static str,
+        momentum: Box<str>,
         /// Its value.
         given: f64,
         /// Its value on the shell.
@@ -151,23 +151,23 @@ pub enum Error {
         /// The scheme.
         scheme: &'static str,
         /// The system.
-        system: &'static str,
+        system: Box<str>,
     },
     /// A monitor that depends on time, where only q and p may occur.
     Timed {
         /// The monitor.
-        name: &'static str,
+        name: Box<str>,
         /// The system.
-        system: &'static str,
+        system: Box<str>,
     },
     /// A name that the system declares no monitor, invariant or event by.
     Unknown {
         /// The unknown name.
         name: String,
         /// The system.
-        system: &'static str,
+        system: Box<str>,
         /// The names that the system declares.
-        known: Vec<&'static str>,
+        known: Box<[Box<str>]>,
     },
     /// A step led to a NaN or an infinity: a number grew beyond all bounds, the exact flow of a
     /// piece left its domain, or H is not defined at the end of the step. The run stays at the state before that step.
@@ -181,7 +181,7 @@ pub enum Error {
         /// The first lane it happened in, where the scalar has several.
         lane: Option<u32>,
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The time at the end of that step.
         time: f64,
         /// The coordinates there.
@@ -197,7 +197,7 @@ pub enum Error {
         /// The first lane that was not solved, where the scalar has several.
         lane: Option<u32>,
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The time at its beginning.
         time: f64,
         /// The last change of the iterate, in the sum norm.
@@ -219,7 +219,7 @@ pub enum Error {
     /// A time that whole steps from the present one do not meet.
     OffGrid {
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The target time.
         target: f64,
         /// The last reachable time that is not beyond it.
@@ -230,14 +230,14 @@ pub enum Error {
     /// A time that no number of steps leads to: NaN, infinite, or 2⁵³ steps ahead and more.
     Unreachable {
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The target time.
         target: f64,
     },
     /// A time that lies behind the run.
     Behind {
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The target time.
         target: f64,
         /// The present time.
@@ -246,7 +246,7 @@ pub enum Error {
     /// A new state of a run, at another time than the run.
     OtherTime {
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The time of the state.
         given: f64,
         /// The present time of the run.
@@ -257,7 +257,7 @@ pub enum Error {
     /// A time more than one step from the present one.
     Far {
         /// The name of the run's time: `t`, in another time the one that it has there.
-        clock: &'static str,
+        clock: Box<str>,
         /// The target time.
         target: f64,
         /// One step back from the present time.
@@ -291,7 +291,7 @@ pub enum Error {
     /// A member with run-time sizes, or functions as parameters, other than those of the first.
     OtherSizes {
         /// The system.
-        system: &'static str,
+        system: Box<str>,
     },
     /// The error of a member before its ensemble was saved.
     Before {
@@ -379,7 +379,7 @@ pub enum Error {
     /// No value of a momentum, on the chosen branch, gives the required energy.
     NoMomentum {
         /// The name of the momentum.
-        name: &'static str,
+        name: Box<str>,
         /// Its flat index.
         index: usize,
         /// The required energy.
@@ -392,9 +392,9 @@ pub enum Error {
     /// No value of a coordinate was found where an event is 0.
     NoCrossing {
         /// The name of the event.
-        event: &'static str,
+        event: Box<str>,
         /// The name of the coordinate.
-        name: &'static str,
+        name: Box<str>,
         /// Its flat index.
         index: usize,
         /// The coordinate of the guess.

@@ -11,6 +11,7 @@ use core::convert::Infallible;
 use core::marker::PhantomData;
 
 pub extern crate alloc;
+pub use alloc::borrow::Cow;
 pub use alloc::sync::Arc;
 pub use core;
 pub use core::primitive::{bool, f64, str, usize};
@@ -50,14 +51,14 @@ pub use crate::systems::reach::{Reach, product};
 pub use crate::systems::state::{Gradient, Plain, Point, State};
 pub use crate::systems::system::gather::{InPack, Kept, in_pack};
 pub use crate::systems::system::{
-    Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
-    QuadraticKinetic, Separable, Split, System, Unforced, VectorOf, deepest,
+    Arithmetic, Autonomous, Description, Dynamics, Exact, Group, NamedPiece, Nystrom, Observable,
+    ObservableKind, QuadraticKinetic, Separable, Split, System, Text, Unforced, VectorOf, deepest,
 };
 pub use crate::systems::uneven::Uneven;
 pub use crate::systems::vector::{IntoVector, Over, Shape, Vector};
 pub use crate::{
-    __computed_as_chosen as computed_as_chosen, __each as each, __gathers as gathers,
-    __halves as halves, __known as known, __prepared as prepared,
+    __computed_as_chosen as computed_as_chosen, __described as described, __each as each,
+    __gathers as gathers, __halves as halves, __known as known, __prepared as prepared,
 };
 
 /// A group of coordinates with its rank, part, offset and columns.
@@ -68,12 +69,38 @@ pub const fn group(
     [rank, part, offset, columns]: [usize; 4],
 ) -> Group {
     Group {
-        coordinate,
-        momentum,
+        coordinate: Cow::Borrowed(coordinate),
+        momentum: Cow::Borrowed(momentum),
         rank,
         part,
         offset,
         columns,
+    }
+}
+
+/// A component of an observable.
+#[must_use]
+pub const fn observable(
+    kind: ObservableKind,
+    name: &'static str,
+    depends_on_time: bool,
+    reads: [bool; 2],
+) -> Observable {
+    Observable {
+        name: Cow::Borrowed(name),
+        kind,
+        depends_on_time,
+        reads,
+    }
+}
+
+/// A piece with its formula.
+#[must_use]
+pub const fn piece(name: &'static str, formula: &'static str, jumps: bool) -> NamedPiece {
+    NamedPiece {
+        name: Cow::Borrowed(name),
+        formula: Cow::Borrowed(formula),
+        jumps,
     }
 }
 
@@ -285,7 +312,6 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
     type Point = X;
     type Outer = Self;
     type Inner = Self;
-    const NAMES: &'static [&'static str] = &[];
     fn outer(&self, _: &P, _: T) -> Self {
         *self
     }
@@ -362,6 +388,10 @@ macro_rules! __computed_as_chosen {
         $($crate::__computed_as_chosen! { @$more $scalar })*
         type Field = $crate::private::FieldOf<Self, $field, $scalar>;
         #[inline(always)]
+        fn description(&self) -> &$crate::private::Description {
+            __DESCRIPTION
+        }
+        #[inline(always)]
         fn field(&self, _c: $scalar) -> Self::Field {
             Self::Field::fold(self, _c)
         }
@@ -400,12 +430,46 @@ macro_rules! __computed_as_chosen {
     };
 }
 
-/// The type of what a system prepares, and its placement in lanes.
+/// The description of a system, the constant `__DESCRIPTION`. Lists are constants of their own, since their elements
+/// have destructors.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __described {
+    (
+        $name:literal, $formula:literal, $is_forced:literal, $growth:expr, $jumps:expr, $time:expr;
+        [$($group:expr),*] [$($observable:expr),*] [$($cyclic:literal),*] [$($piece:expr),*]
+    ) => {
+        const __DESCRIPTION: &$crate::private::Description = {
+            const GROUPS: &[$crate::private::Group] = &[$($group),*];
+            const OBSERVABLES: &[$crate::private::Observable] = &[$($observable),*];
+            const CYCLIC: &[$crate::private::Text] = &[$($crate::private::Cow::Borrowed($cyclic)),*];
+            const PIECES: &[$crate::private::NamedPiece] = &[$($piece),*];
+            &$crate::private::Description {
+                name: $crate::private::Cow::Borrowed($name),
+                formula: $crate::private::Cow::Borrowed($formula),
+                groups: $crate::private::Cow::Borrowed(GROUPS),
+                observables: $crate::private::Cow::Borrowed(OBSERVABLES),
+                cyclic: $crate::private::Cow::Borrowed(CYCLIC),
+                pieces: $crate::private::Cow::Borrowed(PIECES),
+                fictitious_time: $time,
+                is_forced: $is_forced,
+                growth: $growth,
+                jumps: $jumps,
+            }
+        };
+    };
+}
+
+/// The type of what a system prepares, its description, and its placement in lanes.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __gathers {
     ($prepared:ident $($arguments:tt)*) => {
         type Prepared<T: $crate::private::Real> = $prepared $($arguments)*;
+        #[inline(always)]
+        fn description(&self) -> &$crate::private::Description {
+            __DESCRIPTION
+        }
         #[inline(always)]
         fn gather<T: $crate::private::Real, __P: $crate::private::Pack>(
             _of: &[&Self::Prepared<T>],
@@ -446,17 +510,10 @@ macro_rules! __each {
 #[doc(hidden)]
 macro_rules! __halves {
     ($impl:tt $system:ty, $prepared:ty, $kick:ty: $($structure:ident)*) => {
-        $crate::__halves! { $impl $system, $prepared, $kick, []: $($structure)* }
-    };
-    ($impl:tt $system:ty, $prepared:ty, $kick:ty, $jumping:tt: $($structure:ident)*) => {
-        $($crate::__halves! { @$structure $jumping $impl $system, $crate::private::Kernel<$prepared, $kick>,
+        $($crate::__halves! { @$structure $impl $system, $crate::private::Kernel<$prepared, $kick>,
         $crate::private::Kernel<$prepared, $crate::private::Shifts<$crate::private::Drift>> })*
     };
-    (@jumping) => {};
-    (@jumping $first:literal $second:literal) => {
-        const JUMPING: [$crate::private::bool; 2] = [$first, $second];
-    };
-    (@Separable [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
+    (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Separable for $system {
             type Kick<T: $crate::private::Real> = $kick;
             #[inline(always)]
@@ -468,24 +525,22 @@ macro_rules! __halves {
             fn drift<T: $crate::private::Real>() -> $drift {
                 $crate::private::Kernel::PIECE
             }
-            $crate::__halves! { @jumping $($jumping)* }
         }
     };
     // A piece that jumps in time is not first.
-    (@Split [true false] $impl:tt $system:ty, $kick:ty, $drift:ty) => {
-        $crate::__halves! { @Split [false true] $impl $system, $drift, $kick }
+    (@DriftFirst $impl:tt $system:ty, $kick:ty, $drift:ty) => {
+        $crate::__halves! { @Split $impl $system, $drift, $kick }
     };
-    (@Split [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $first:ty, $second:ty) => {
+    (@Split [$($impl:tt)*] $system:ty, $first:ty, $second:ty) => {
         $($impl)* $crate::private::Split for $system {
             type Pieces<T: $crate::private::Real> = ($first, $second);
             #[inline(always)]
             fn pieces<T: $crate::private::Real>() -> Self::Pieces<T> {
                 ($crate::private::Kernel::PIECE, $crate::private::Kernel::PIECE)
             }
-            $crate::__halves! { @jumping $($jumping)* }
         }
     };
-    (@Nystrom [$($jumping:tt)*] [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
+    (@Nystrom [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Nystrom for $system {
             type Kick<T: $crate::private::Real> = $kick;
             #[inline(always)]
@@ -497,7 +552,6 @@ macro_rules! __halves {
             fn quadratic<T: $crate::private::Real>() -> $drift {
                 $crate::private::Kernel::PIECE
             }
-            $crate::__halves! { @jumping $($jumping)* }
         }
     };
 }
@@ -527,8 +581,8 @@ macro_rules! __known {
             }
         }
     };
-    (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal $($names:ident)? = $default:expr) => {
-        $crate::__known! { @texts $visibility [$($impl)*] $system: $latex, $equations $($names)? }
+    (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal = $default:expr) => {
+        $crate::__known! { @texts $visibility [$($impl)*] $system: $latex, $equations }
         #[automatically_derived]
         $($impl)* $crate::private::Default for $system {
             fn default() -> Self {
@@ -547,11 +601,8 @@ macro_rules! __known {
         }
     };
     // Over `f64`: nothing in the paths of these constants would tell the scalar.
-    (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal $($names:ident)?) => {
+    (@texts $visibility:vis [$($impl:tt)*] $system:ty: $latex:literal, $equations:literal) => {
         $($impl)* $system {
-            $(/// The pieces of H with exact flows, the outermost first.
-            $visibility const $names: &'static [&'static $crate::private::str] =
-                <Self as $crate::private::Split>::NAMES;)?
             /// H in LaTeX.
             $visibility const LATEX: &'static $crate::private::str = $latex;
             /// Hamilton's equations in LaTeX, one a line.

@@ -4,7 +4,7 @@
 //! note which of them left its domain first, so nothing is replayed. Control: flows that are replayed in the wrong order.
 
 use crate::common::random::Random;
-use crate::common::systems::{Formula, Hand, Ready, scalar};
+use crate::common::systems::{Formula, Hand, Ready};
 use core::cell::Cell;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
@@ -49,7 +49,7 @@ impl<const N: usize, const SWEEPS: u16, const HONEST: bool> Formula<2>
     for Walls<N, SWEEPS, HONEST>
 {
     const NAME: &'static str = "Walls";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p_x", 0), Group::scalar("y", "p_y", 1)];
     fn energy<T: Real>(&self, _: T, _: &[T; 2], p: &[T; 2]) -> T {
         p[0] * p[0] + p[1] * p[1]
     }
@@ -138,7 +138,6 @@ macro_rules! walls {
             fn pieces<T: Real>() -> Self::Pieces<T> {
         ($(WallPiece::<$which, SWEEPS, HONEST>,)+)
     }
-            const NAMES: &'static [&'static str] = &[$(stringify!($which)),+];
         }
     };
 }

@@ -4,7 +4,11 @@ use crate::common::start;
 use crate::common::systems::*;
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::{errors::CheckpointError, observers::Every, schemes::author::Listed};
+use hamiltonian_core::{
+    errors::CheckpointError,
+    observers::Every,
+    schemes::author::{Description, Group, Listed},
+};
 use hamiltonian_lanes::Pack;
 use std::path::PathBuf;
 
@@ -205,12 +209,15 @@ fn goes_on_with<O: Observer<f64, Hand<Pendulum, 1>> + Clone, const N: usize>(
 /// The pendulum under a name with a parameter.
 struct Spring(f64);
 
+const GROUPS: &[Group] = &[Group::scalar("q", "p", 0)];
+const SPRING: &Description = &Description::new("Spring", GROUPS);
+
 impl System for Spring {
     type Shape = hamiltonian_core::private::SVector<(), 1>;
     type Prepared<T: Real> = Ready<Pendulum, 1>;
-    const NAME: &'static str = "Spring";
-    const GROUPS: &'static [hamiltonian_core::schemes::author::Group] = &[scalar("q", "p", 0)];
-    const OBSERVABLES: &'static [hamiltonian_core::schemes::author::Observable] = &[];
+    fn description(&self) -> &Description {
+        SPRING
+    }
     fn describe_parameters(&self, to: &mut dyn core::fmt::Write) -> core::fmt::Result {
         writeln!(to, "k = {:?}", self.0)
     }

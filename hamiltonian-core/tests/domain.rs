@@ -5,7 +5,7 @@
 
 use crate::common::four::Four;
 use crate::common::random::{Random, cases};
-use crate::common::systems::{Formula, Halves, Hand, number, scalar};
+use crate::common::systems::{Formula, Halves, Hand, number};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::Group;
 use hamiltonian_core::schemes::{
@@ -59,7 +59,7 @@ struct Ending {
 
 impl Formula<1> for Ending {
     const NAME: &'static str = "Ending";
-    const GROUPS: &'static [Group] = &[scalar("x", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p", 0)];
     fn energy<T: Real>(&self, _: T, [x]: &[T; 1], [p]: &[T; 1]) -> T {
         let everywhere = number::<T>(0.5) * *p * *p + number::<T>(self.g) * *x;
         if self.is_guarded {

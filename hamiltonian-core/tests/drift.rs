@@ -49,7 +49,7 @@ where
         "{} {} on {}, h = {h}: {total:.1e} in {steps:.0e} steps, {:.1} deviations",
         entry.name,
         entry.variant,
-        S::NAME,
+        system.description().name,
         total / (deviation * count.sqrt())
     );
     let walked = 5.0 * deviation * count.sqrt();

@@ -350,9 +350,9 @@ fn outputs_at_times_are_those_of_the_run() {
     assert!(matches!(
         behind.advance(1),
         Err(Error::Behind {
-            clock: "t",
             target: -1.0,
-            now: 0.0
+            now: 0.0,
+            ..
         })
     ));
     // An observer may end the run there.

@@ -8,6 +8,7 @@ mod checkpoint;
 #[allow(dead_code)]
 mod common;
 mod composition;
+mod described;
 mod domain;
 mod drift;
 mod estimate;

@@ -5,7 +5,7 @@ use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::{DVector, Group, SVector};
 use hamiltonian_core::{
     Observer, Vector, View,
-    schemes::author::{Dynamics, Pair},
+    schemes::author::{Description, Dynamics, Pair},
 };
 use hamiltonian_lanes::Pack;
 
@@ -149,29 +149,17 @@ fn names_of_mixed_shapes() {
     type Matrix<T> = hamiltonian_core::private::SMatrix<T, 2, 3>;
     type V<T> = Pair<Matrix<T>, SVector<T, 1>>;
     type Matrix3 = Matrix<f64>;
+    const GROUPS: &[Group] = &[
+        Group::array("x", "u", 2, 0, 3),
+        Group::array("a", "l", 0, 1, 1),
+    ];
+    const MIXED: &Description = &Description::new("Mixed", GROUPS);
     impl System for Mixed {
         type Shape = V<()>;
         type Prepared<T: Real> = Mixed;
-        const NAME: &'static str = "Mixed";
-        const GROUPS: &'static [Group] = &[
-            Group {
-                coordinate: "x",
-                momentum: "u",
-                rank: 2,
-                part: 0,
-                offset: 0,
-                columns: 3,
-            },
-            Group {
-                coordinate: "a",
-                momentum: "l",
-                rank: 0,
-                part: 1,
-                offset: 0,
-                columns: 1,
-            },
-        ];
-        const OBSERVABLES: &'static [hamiltonian_core::schemes::author::Observable] = &[];
+        fn description(&self) -> &Description {
+            MIXED
+        }
         fn prepare<T: Real>(&self) -> Mixed {
             Mixed
         }
@@ -199,6 +187,9 @@ fn names_of_mixed_shapes() {
     impl<T: Real> Dynamics<T> for Mixed {
         type Vector = V<T>;
         type Field = NoField;
+        fn description(&self) -> &Description {
+            MIXED
+        }
         fn energy(&self, _: T, _: &V<T>, _: &V<T>) -> T {
             T::zero()
         }

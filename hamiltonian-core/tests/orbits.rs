@@ -7,7 +7,7 @@ mod others;
 
 use crate::common::difference;
 use crate::common::random::{Random, cases};
-use crate::common::systems::{Formula, Hand, HenonHeiles, scalar};
+use crate::common::systems::{Formula, Hand, HenonHeiles};
 use core::f64::consts::{PI, TAU};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
@@ -19,11 +19,7 @@ fn number<T: Real>(x: f64) -> T {
 }
 
 const fn event(name: &'static str) -> Observable {
-    Observable {
-        name,
-        kind: ObservableKind::Event,
-        depends_on_time: false,
-    }
+    Observable::new(ObservableKind::Event, name)
 }
 
 /// One type for two systems, since a search is compiled for each type.
@@ -39,7 +35,7 @@ enum Oscillator {
 
 impl Formula<1> for Oscillator {
     const NAME: &'static str = "Oscillator";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     const OBSERVABLES: &'static [Observable] = &[event("turn")];
     fn energy<T: Real>(&self, t: T, [q]: &[T; 1], [p]: &[T; 1]) -> T {
         let square = *q * *q;
@@ -252,7 +248,7 @@ enum Planar {
 
 impl Formula<2> for Planar {
     const NAME: &'static str = "Planar";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p_x", 0), Group::scalar("y", "p_y", 1)];
     const OBSERVABLES: &'static [Observable] = &[event("axis")];
     fn energy<T: Real>(&self, t: T, q: &[T; 2], p: &[T; 2]) -> T {
         let ([x, y], [px, py]) = (*q, *p);

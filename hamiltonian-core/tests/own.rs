@@ -7,7 +7,7 @@ use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::author::{Durations, Splitting, Weight, Zigzag, ZigzagOf};
 use hamiltonian_core::{
     Scheme,
-    schemes::author::{Dynamics, Entry, Form, Listed, Map, Needs, OneStep, Point},
+    schemes::author::{Description, Dynamics, Entry, Form, Listed, Map, Needs, OneStep, Point},
 };
 use hamiltonian_core::{
     Split, Vector,
@@ -28,7 +28,7 @@ impl Listed for Runge {
             equations: "",
             order: 2,
             duration: 1, // a step advances time by one step size
-            needs: Needs::Any,
+            needs: Needs::ANY,
             preserves: Form::Nothing,
             source: "C. Runge, Math. Ann. 46 (1895) 167, doi:10.1007/BF01446807",
         }
@@ -106,7 +106,7 @@ impl Listed for TwoStages {
             equations: "",
             order: 2,
             duration: 1,
-            needs: Needs::Split,
+            needs: Needs::SPLIT,
             preserves: Form::OnePoint,
             source: "R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151, doi:10.1137/0916010",
         }
@@ -116,8 +116,8 @@ impl Listed for TwoStages {
 impl<S: Split> Scheme<S> for TwoStages {
     type Carried = Point<S::Shape>;
     type Map<T: Real> = ZigzagOf<T, S, S::Pieces<T>, Self>;
-    fn times_of_jumps(&self) -> [f64; 2] {
-        self.times_on(S::JUMPING)
+    fn times_of_jumps(&self, system: &Description) -> [f64; 2] {
+        self.times_on(system.jumping_pieces())
     }
     #[inline(always)]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {

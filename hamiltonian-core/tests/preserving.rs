@@ -6,7 +6,6 @@
 use super::common::kepler::Kepler;
 use super::common::systems::{
     Formula, Halves, Hand, HenonHeiles, Paper34, Pendulum, counting, counting::Counted34, pendulum,
-    scalar,
 };
 use super::common::{difference, start};
 use hamiltonian_core::VectorOf;
@@ -466,7 +465,7 @@ struct Small(f64);
 
 impl Formula<1> for Small {
     const NAME: &'static str = "Small";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
         let epsilon = T::constant(self.0, 0.0);
         let two = T::constant(2.0, 0.0);
@@ -527,11 +526,11 @@ struct Dnls;
 impl Formula<5> for Dnls {
     const NAME: &'static str = "Dnls";
     const GROUPS: &'static [Group] = &[
-        scalar("q0", "p0", 0),
-        scalar("q1", "p1", 1),
-        scalar("q2", "p2", 2),
-        scalar("q3", "p3", 3),
-        scalar("q4", "p4", 4),
+        Group::scalar("q0", "p0", 0),
+        Group::scalar("q1", "p1", 1),
+        Group::scalar("q2", "p2", 2),
+        Group::scalar("q3", "p3", 3),
+        Group::scalar("q4", "p4", 4),
     ];
     fn energy<T: Real>(&self, _: T, q: &[T; 5], p: &[T; 5]) -> T {
         let mut sum = T::zero();

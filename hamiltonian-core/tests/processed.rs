@@ -120,7 +120,7 @@ struct Quartic {
 
 impl Formula<2> for Quartic {
     const NAME: &'static str = "Quartic";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p_x", 0), Group::scalar("y", "p_y", 1)];
     fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
         let apart = *x - *y;
         let r = match self.pair {

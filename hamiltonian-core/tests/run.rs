@@ -71,7 +71,7 @@ fn advance_to_takes_whole_steps_or_none() {
     assert_eq!(
         run.advance_to(1.3).unwrap_err(),
         Error::OffGrid {
-            clock: "t",
+            clock: "t".into(),
             target: 1.3,
             before: 1.0,
             after: 1.5
@@ -80,7 +80,7 @@ fn advance_to_takes_whole_steps_or_none() {
     assert_eq!(
         run.advance_to(0.5).unwrap_err(),
         Error::Behind {
-            clock: "t",
+            clock: "t".into(),
             target: 0.5,
             now: 1.0,
         }
@@ -112,7 +112,7 @@ fn bad_starts_and_steps_are_refused() {
     assert_eq!(
         Integrator::new(&system, RungeKutta4, start, 0.1).unwrap_err(),
         Error::Start {
-            clock: "t",
+            clock: "t".into(),
             time: 2.0,
             q: vec![f64::INFINITY, 0.0],
             p: vec![0.0, 1.0]
@@ -123,7 +123,7 @@ fn bad_starts_and_steps_are_refused() {
     assert_eq!(
         Integrator::new(&chain, RungeKutta4, start, 0.1).unwrap_err(),
         Error::Shape {
-            name: "p",
+            name: "p".into(),
             expected: 4,
             found: 3
         }

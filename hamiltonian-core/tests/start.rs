@@ -1,6 +1,6 @@
 //! Starts on surfaces, against values from elsewhere and against H itself; coordinates of bodies.
 
-use crate::common::systems::{Formula, Hand, HenonHeiles, Paper34, Relativistic, scalar};
+use crate::common::systems::{Formula, Hand, HenonHeiles, Paper34, Relativistic};
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::analysis::{
     Branch, Section, coordinate_on_event, momentum_from_energy, on_section,
@@ -26,33 +26,16 @@ struct Schwarzschild {
 
 impl Formula<2> for Schwarzschild {
     const NAME: &'static str = "Schwarzschild";
-    const GROUPS: &'static [Group] = &[scalar("r", "p_r", 0), scalar("theta", "p_theta", 1)];
+    const GROUPS: &'static [Group] = &[
+        Group::scalar("r", "p_r", 0),
+        Group::scalar("theta", "p_theta", 1),
+    ];
     const OBSERVABLES: &'static [Observable] = &[
-        Observable {
-            name: "equator",
-            kind: ObservableKind::Event,
-            depends_on_time: false,
-        },
-        Observable {
-            name: "outward",
-            kind: ObservableKind::Event,
-            depends_on_time: false,
-        },
-        Observable {
-            name: "never",
-            kind: ObservableKind::Event,
-            depends_on_time: false,
-        },
-        Observable {
-            name: "pole",
-            kind: ObservableKind::Event,
-            depends_on_time: false,
-        },
-        Observable {
-            name: "jump",
-            kind: ObservableKind::Event,
-            depends_on_time: false,
-        },
+        Observable::new(ObservableKind::Event, "equator"),
+        Observable::new(ObservableKind::Event, "outward"),
+        Observable::new(ObservableKind::Event, "never"),
+        Observable::new(ObservableKind::Event, "pole"),
+        Observable::new(ObservableKind::Event, "jump"),
     ];
     fn energy<T: Real>(&self, _: T, [r, theta]: &[T; 2], [p_r, p_theta]: &[T; 2]) -> T {
         let (two, half) = (number::<T>(2.0), number::<T>(0.5));
@@ -200,7 +183,7 @@ struct Shape(u8);
 
 impl Formula<1> for Shape {
     const NAME: &'static str = "Shape";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     fn energy<T: Real>(&self, _: T, _: &[T; 1], [p]: &[T; 1]) -> T {
         let p = *p;
         match self.0 {
@@ -270,7 +253,7 @@ fn beyond_a_turning_point_the_error_has_the_values() {
                 reached,
                 at,
             }) => {
-                assert_eq!((name, index), ("p_theta", 1));
+                assert_eq!((&*name, index), ("p_theta", 1));
                 assert_eq!(energy, least - 0.01);
                 assert!((reached - least).abs() < 1e-12, "{reached} {least}");
                 assert!(at.abs() < 1e-4);
@@ -354,7 +337,7 @@ fn what_is_not_there_is_an_error() {
             from,
             value,
             ..
-        }) => assert_eq!((event, name, from, value), ("never", "r", 11.0, 122.0)),
+        }) => assert_eq!((&*event, &*name, from, value), ("never", "r", 11.0, 122.0)),
         other => panic!("{other:?}"),
     }
     // A pole is no zero: 1/(r − 3.1) = −40 is passed over for no other.
@@ -364,7 +347,7 @@ fn what_is_not_there_is_an_error() {
     // Neither is a jump.
     assert!(matches!(
         coordinate_on_event(&system, &start, 4, 0),
-        Err(Error::NoCrossing { event: "jump", .. })
+        Err(Error::NoCrossing { event, .. }) if *event == *"jump"
     ));
     // No momentum where the event is.
     let section = Section {

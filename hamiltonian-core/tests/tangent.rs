@@ -370,7 +370,7 @@ struct Edge;
 
 impl Formula<1> for Edge {
     const NAME: &'static str = "Edge";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
         p[0] * p[0] * T::constant(0.5, 0.0) + q[0] * q[0].sqrt()
     }

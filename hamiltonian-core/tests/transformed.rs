@@ -200,10 +200,7 @@ fn what_is_no_monitor_is_refused() {
     assert!(
         matches!(
             refused,
-            Error::Shell {
-                momentum: "p_t",
-                ..
-            }
+            Error::Shell { ref momentum, .. } if **momentum == *"p_t"
         ),
         "{refused}"
     );

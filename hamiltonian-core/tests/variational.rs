@@ -7,7 +7,7 @@
 use super::common::measures::assert_order;
 use super::common::start;
 use super::common::systems::{
-    DoublePendulum, Formula, Hand, Pendulum, Pumped, Relativistic, pendulum, scalar,
+    DoublePendulum, Formula, Hand, Pendulum, Pumped, Relativistic, pendulum,
 };
 use super::schemes::{on_34, on_the_double_pendulum, symplectic};
 use hamiltonian_core::VectorOf;
@@ -17,7 +17,7 @@ use hamiltonian_core::schemes::collocation::Collocation;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
     Dual, Error, Integrator, Real, Scheme, State, System,
-    schemes::author::{Dynamics, Group, Listed, Observable, VectorField},
+    schemes::author::{Description, Dynamics, Group, Listed, VectorField},
 };
 use hamiltonian_lanes::Pack;
 
@@ -353,7 +353,7 @@ struct Plane {
 
 impl Formula<2> for Plane {
     const NAME: &'static str = "Plane";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p_x", 0), Group::scalar("y", "p_y", 1)];
     fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
         let mass = T::one() + *x * *x + *y * *y;
         let kinetic = number::<T>(0.5) * (*px * *px + *py * *py) / mass;
@@ -481,6 +481,7 @@ struct Damped;
 
 const MASS: f64 = 1.3;
 const DAMPING: f64 = 0.4;
+const DAMPED: &Description = &Description::new("Damped", &[]);
 
 #[derive(Debug, Clone)]
 struct DampedField<T>(T);
@@ -488,9 +489,9 @@ struct DampedField<T>(T);
 impl System for Damped {
     type Shape = SVector<(), 1>;
     type Prepared<T: Real> = Damped;
-    const NAME: &'static str = "Damped";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
-    const OBSERVABLES: &'static [Observable] = &[];
+    fn description(&self) -> &Description {
+        DAMPED
+    }
     fn prepare<T: Real>(&self) -> Damped {
         Damped
     }
@@ -511,6 +512,9 @@ impl System for Damped {
 impl<T: Real> Dynamics<T> for Damped {
     type Vector = SVector<T, 1>;
     type Field = DampedField<T>;
+    fn description(&self) -> &Description {
+        DAMPED
+    }
     fn energy(&self, _: T, q: &Self::Vector, p: &Self::Vector) -> T {
         number::<T>(0.5) * (p[0] * p[0] / number(MASS) + q[0] * q[0])
     }

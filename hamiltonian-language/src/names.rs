@@ -157,7 +157,7 @@ const RUST_KEYWORDS: &[&str] = &[
 /// Methods of every system, which an observable of the same name would hide.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
-    "energy", "gradient", "prepare", "zeros", "new", "default", "with_defaults", "clone", "fmt", "velocity", "conjugate_momentum",
+    "energy", "gradient", "description", "prepare", "zeros", "new", "default", "with_defaults", "clone", "fmt", "velocity", "conjugate_momentum",
     "observable", "flow", "kick", "drift", "hessian_vector", "time_derivative", "check_shape",
 ];
 

@@ -56,7 +56,7 @@ impl Case<'_> {
             assert!(
                 error <= unit(printed),
                 "{}: {found} is not {printed}",
-                E::NAME
+                exact.description().name
             );
         }
         self.converges(rounded, &end);
@@ -75,7 +75,7 @@ impl Case<'_> {
             assert!(
                 moved <= bound,
                 "{}: H moves by {moved:e} of {bound:e}",
-                E::NAME
+                system.description().name
             );
         }
         end
@@ -107,7 +107,7 @@ impl Case<'_> {
             .map(|(h, z)| (*h, difference(z, &end)))
             .collect();
         let measured = slope(&points);
-        let name = <S as System>::NAME;
+        let name = &system.description().name;
         // Each of n steps is wrong by an ulp or so of the state, in a direction of its own, and
         // the end by κ times that: κ ε √n; four standard deviations.
         let size = end.q.magnitude().max(end.p.magnitude()).max(1.0);
@@ -146,7 +146,12 @@ impl Case<'_> {
             .trim_end_matches('0')
             .replace('.', "")
             .len() as i32;
-        assert_digits(&format!("κ of {}", S::NAME), kappa, self.kappa, digits);
+        assert_digits(
+            &format!("κ of {}", system.description().name),
+            kappa,
+            self.kappa,
+            digits,
+        );
         kappa
     }
 

@@ -145,7 +145,7 @@ pub fn start<S: System>(system: &S, q: &[f64], p: &[f64]) -> State<VectorOf<S, D
 
 /// The form each visited scheme says it preserves, over the first, second and third step.
 pub struct Geometry<S> {
-    system: S,
+    pub system: S,
     q: Vec<f64>,
     p: Vec<f64>,
     h: f64,
@@ -192,7 +192,7 @@ impl<S: System> Visitor<S> for Geometry<S> {
                     one_point(n),
                 ),
             };
-            let name = format!("{entry} on {}", S::NAME);
+            let name = format!("{entry} on {}", self.system.description().name);
             match entry.preserves {
                 // Pseudo-symplectic steps are as long as to tell.
                 Form::Nearly | Form::Nothing => {

@@ -25,7 +25,7 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
 /// The maximum over several times keeps a zero of the leading error term from passing for order;
 /// double-double keeps rounding out of the errors.
 pub struct Order<S: System> {
-    system: S,
+    pub system: S,
     exact: Vec<State<VectorOf<S, DoubleDouble>>>,
     between: DoubleDouble,
     coarsest: f64,
@@ -78,7 +78,7 @@ impl<S: System> Visitor<S> for Order<S> {
             points.push((h.to_f64(), error));
         }
         let slope = slope(&points);
-        let name = format!("{entry} on {}", S::NAME);
+        let name = format!("{entry} on {}", self.system.description().name);
         assert!(
             (slope - f64::from(entry.order)).abs() <= 0.1,
             "{name}: slope {slope}, {points:?}"

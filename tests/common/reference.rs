@@ -70,7 +70,7 @@ pub fn solution<S: System>(
         assert!(
             factor > 0.0,
             "{}: no step is small enough at {}",
-            S::NAME,
+            system.description().name,
             state.t
         );
         size = big.to_f64() * factor.clamp(0.1, 4.0);

@@ -247,7 +247,7 @@ where
         0.5 + (x.abs() - 0.25) * x.signum()
     };
     let mut report = Vec::new();
-    for (number, name) in <S as Split>::NAMES.iter().enumerate() {
+    for (number, name) in system.description().piece_names().iter().enumerate() {
         let equations = Equations::of(case, name);
         let (mut alive, mut worst, mut later) = (0, [0.0_f64; 4], 0.0_f64);
         for trial in 0..POINTS {

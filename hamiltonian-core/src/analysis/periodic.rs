@@ -13,7 +13,6 @@ use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
 use crate::systems::system::{Dynamics, System};
 use crate::systems::vector::{Shape, Vector};
-use alloc::borrow::ToOwned;
 use alloc::vec;
 use alloc::vec::Vec;
 use arcs::{Nodes, Shooting};
@@ -236,14 +235,9 @@ impl<'a> OrbitSearch<'a> {
             Closing::OfEnergy { near, section } => (Some(section), near),
         };
         if let Some(name) = section
-            && S::observable_index(name).is_none()
+            && system.description().observable_index(name).is_none()
         {
-            let known = S::OBSERVABLES.iter();
-            return Err(Error::Unknown {
-                name: name.to_owned(),
-                system: S::NAME,
-                known: known.map(|known| known.name).collect(),
-            });
+            return Err(system.description().unknown(name));
         }
         if self.steps == 0 {
             return Err(Error::NoSteps);

@@ -22,7 +22,7 @@ mod search;
 use crate::error::Error;
 use crate::runs::integrator::check_state;
 use crate::systems::state::State;
-use crate::systems::system::{Dynamics, Group, System, VectorOf};
+use crate::systems::system::{Description, Dynamics, Group, System, VectorOf};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 use search::{EnergySample, FINEST, MomentumSearch, polished};
@@ -43,7 +43,7 @@ pub enum Branch {
 /// ([`Vector::component`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Section {
-    /// The index in [`System::OBSERVABLES`] of the event, or another observable, that is 0.
+    /// The index in [`Description::observables`] of the event, or another observable, that is 0.
     pub event: usize,
     /// The coordinate that is solved for from the event.
     pub coordinate: usize,
@@ -80,7 +80,7 @@ pub fn momentum_from_energy<T: Real, S: System>(
         energy,
         branch,
     )
-    .map_err(|closest| no_momentum::<T, S>(momentum, energy, &closest))?;
+    .map_err(|closest| no_momentum::<T, S>(system.description(), momentum, energy, &closest))?;
     *found.p.component_mut(momentum) = value;
     Ok(found)
 }
@@ -98,10 +98,11 @@ pub fn coordinate_on_event<T: Real, S: System>(
     coordinate: usize,
 ) -> Result<State<VectorOf<S, T>>, Error> {
     check_state(system, state)?;
-    if event >= S::OBSERVABLES.len() {
+    let count = system.description().observables.len();
+    if event >= count {
         return Err(Error::Observable {
             index: event,
-            count: S::OBSERVABLES.len(),
+            count,
         });
     }
     check_component(coordinate, state.q.len())?;
@@ -111,7 +112,7 @@ pub fn coordinate_on_event<T: Real, S: System>(
         *at.q.component_mut(coordinate) = x;
         prepared.observable(event, at.t, &at.q, &at.p)
     })
-    .map_err(|value| no_crossing::<T, S>(event, coordinate, state, value))?;
+    .map_err(|value| no_crossing::<T, S>(system.description(), event, coordinate, state, value))?;
     *at.q.component_mut(coordinate) = value;
     Ok(at)
 }
@@ -165,7 +166,13 @@ pub fn on_section<T: Real, S: System>(
         Err(value) => {
             // If there is no momentum at the event, the error is the missing momentum.
             solved?;
-            Err(no_crossing::<T, S>(event, coordinate, state, value))
+            Err(no_crossing::<T, S>(
+                system.description(),
+                event,
+                coordinate,
+                state,
+                value,
+            ))
         }
     }
 }
@@ -333,9 +340,14 @@ fn check_component(index: usize, count: usize) -> Result<(), Error> {
     }
 }
 
-fn no_momentum<T: Real, S: System>(momentum: usize, energy: T, closest: &EnergySample<T>) -> Error {
+fn no_momentum<T: Real, S: System>(
+    system: &Description,
+    momentum: usize,
+    energy: T,
+    closest: &EnergySample<T>,
+) -> Error {
     Error::NoMomentum {
-        name: name::<T, S>(momentum, |group| group.momentum),
+        name: name::<VectorOf<S, T>>(system, momentum, |group| &group.momentum).into(),
         index: momentum,
         energy: energy.to_f64(),
         reached: (closest.f + energy).to_f64(),
@@ -344,14 +356,17 @@ fn no_momentum<T: Real, S: System>(momentum: usize, energy: T, closest: &EnergyS
 }
 
 fn no_crossing<T: Real, S: System>(
+    system: &Description,
     event: usize,
     coordinate: usize,
     state: &State<VectorOf<S, T>>,
     value: T,
 ) -> Error {
     Error::NoCrossing {
-        event: S::OBSERVABLES.get(event).map_or("", |o| o.name),
-        name: name::<T, S>(coordinate, |group| group.coordinate),
+        event: (system.observables.get(event))
+            .map_or("", |o| &o.name)
+            .into(),
+        name: name::<VectorOf<S, T>>(system, coordinate, |group| &group.coordinate).into(),
         index: coordinate,
         from: state.q.component(coordinate).to_f64(),
         value: value.to_f64(),
@@ -360,12 +375,11 @@ fn no_crossing<T: Real, S: System>(
 
 /// The name of the group a component of a system with one part belongs to; empty where the
 /// components are in several parts.
-fn name<T: Real, S: System>(index: usize, name: impl Fn(&Group) -> &'static str) -> &'static str {
-    if <VectorOf<S, T> as Vector>::PARTS > 1 {
+fn name<V: Vector>(system: &Description, index: usize, name: impl Fn(&Group) -> &str) -> &str {
+    if V::PARTS > 1 {
         return "";
     }
-    S::GROUPS
-        .iter()
+    (system.groups.iter())
         .rev()
         .find(|group| group.offset <= index)
         .map_or("", name)

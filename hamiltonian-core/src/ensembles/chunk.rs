@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::flows::map::Clock;
 use crate::observers::observe::{FollowVisitor, FollowedQuantities, Observer, View};
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
@@ -32,6 +32,15 @@ impl<A: Clone> Shared<A> {
             Shared::Nothing => None,
             Shared::One(one) => Some(one),
             Shared::Each(each) => each.get(index),
+        }
+    }
+
+    /// The value of the first member that has one.
+    pub(crate) fn first(&self) -> Option<&A> {
+        match self {
+            Shared::Nothing => None,
+            Shared::One(one) => Some(one),
+            Shared::Each(each) => each.first(),
         }
     }
 
@@ -235,9 +244,14 @@ where
     /// Lists the quantities that lanes evaluate for a member whose observer receives states. The list is empty unless
     /// lanes can evaluate everything that the observer needs.
     fn list_followed(&mut self, key: usize, into: &mut FollowedQuantities<f64>) {
+        let Some(prepared) = self.chunk.prepared.get(key) else {
+            return;
+        };
         let observer = &mut self.chunk.observers[key];
         let evaluates = self.evaluates_in_lanes;
-        FollowVisitor::list(into, |visitor| evaluates && observer.follow(visitor));
+        FollowVisitor::list(prepared.description(), into, |visitor| {
+            evaluates && observer.follow(visitor)
+        });
         // An observer without its first state has no previous values of the functions whose sign it follows.
         if self.attaches && !into.sections.is_empty() {
             *into = FollowedQuantities::default();
@@ -352,9 +366,14 @@ where
         }
     }
 
-    fn take_drifts(&mut self, key: usize, followed: &mut FollowedQuantities<f64>) {
+    fn take_drifts(
+        &mut self,
+        key: usize,
+        system: &Description,
+        followed: &mut FollowedQuantities<f64>,
+    ) {
         let observer = &mut self.chunk.observers[key];
-        FollowVisitor::write_back(followed, |visitor| observer.follow(visitor));
+        FollowVisitor::write_back(system, followed, |visitor| observer.follow(visitor));
     }
 
     fn phase(&self) -> u64 {

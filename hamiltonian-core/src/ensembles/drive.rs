@@ -21,7 +21,7 @@ use crate::observers::observe::{LaneDrift, LaneSection, MemberSection, Quantity}
 use crate::schemes::scheme::{CarriedBy, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::Carried;
-use crate::systems::system::System;
+use crate::systems::system::{Dynamics, System};
 use crate::systems::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -300,8 +300,9 @@ where
     #[inline(always)]
     fn closes(&self) -> bool {
         let closing = self.map.closing();
+        let system = self.prepared.description();
         self.quantities().any(|quantity| {
-            let reads = quantity.reads::<S>();
+            let reads = quantity.reads(system);
             (0..2).any(|half| closing[half] && reads[half])
         })
     }
@@ -458,7 +459,7 @@ where
         if !self.drifts.is_empty() {
             occupants.for_each_due(|_, run| {
                 if !run.followed.drifts.is_empty() {
-                    host.take_drifts(run.key, &mut run.followed);
+                    host.take_drifts(run.key, run.prepared.description(), &mut run.followed);
                 }
                 true
             });

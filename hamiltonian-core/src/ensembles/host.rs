@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::flows::map::Clock;
 use crate::observers::observe::{FollowedQuantities, View};
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf};
+use crate::systems::system::{Description, System, VectorOf};
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
@@ -67,7 +67,12 @@ pub trait Host<T: Real, S: System> {
     /// [`Observer::pass`](crate::Observer::pass). Returns true if the member stays.
     fn pass(&mut self, key: usize, view: &View<'_, T, S>, signs_kept: bool) -> bool;
     /// Receives the drifts of a member at its stop.
-    fn take_drifts(&mut self, key: usize, followed: &mut FollowedQuantities<T>);
+    fn take_drifts(
+        &mut self,
+        key: usize,
+        system: &Description,
+        followed: &mut FollowedQuantities<T>,
+    );
     /// Returns the number of steps that followed members have made when they are loaded.
     fn phase(&self) -> u64;
     /// Receives the carried value of a member that leaves its lane.

@@ -121,7 +121,8 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
                     if let Some(first) = &first_of_all
                         && !S::fits(first, &prepared)
                     {
-                        return Err(Error::OtherSizes { system: S::NAME });
+                        let system = (*system.description().name).into();
+                        return Err(Error::OtherSizes { system });
                     }
                     scheme.begin(&prepared, &start, step, &mut chunk.words)?;
                     common.varies |= scheme.varies(&prepared, &start, step);
@@ -535,7 +536,7 @@ impl<S: System, M, O: Clone, A> Clone for Ensemble<S, M, O, A> {
 impl<S: System, M: Scheme<S>, O, A: Rounding> fmt::Debug for Ensemble<S, M, O, A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
-            .field("system", &S::NAME)
+            .field("system", &self.description().map_or("", |one| &one.name))
             .field("scheme", &self.erased().describe())
             .field("members", &self.len())
             .field("step", &self.common.step)

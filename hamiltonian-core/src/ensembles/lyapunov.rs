@@ -323,7 +323,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
         let prepared = check_start::<D, S>(&system, &lifted)?;
         let fits = |other: &DeviatedMember<D, S>| S::fits(&other.prepared, &prepared);
         if !other.is_none_or(fits) {
-            let system = S::NAME;
+            let system = (*system.description().name).into();
             return Err(Error::OtherSizes { system });
         }
         let mut words = Vec::new();
@@ -349,7 +349,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
 impl<S: System, M: fmt::Debug, A> fmt::Debug for Lyapunov<'_, S, M, A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Lyapunov")
-            .field("system", &S::NAME)
+            .field("system", &core::any::type_name::<S>())
             .field("scheme", &self.scheme)
             .field("members", &self.count)
             .field("step", &self.step)

@@ -34,7 +34,8 @@ impl<S: System, O> End<'_, S, O> {
     /// The observable of that name at this state; `None` if there is none.
     pub fn observable_named(&self, name: &str) -> Option<f64> {
         let State { t, q, p } = self.state;
-        S::observable_index(name).map(|index| self.prepared.observable(index, *t, q, p))
+        let index = self.prepared.description().observable_index(name)?;
+        Some(self.prepared.observable(index, *t, q, p))
     }
 }
 

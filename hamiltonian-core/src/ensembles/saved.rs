@@ -13,7 +13,7 @@ use crate::results::checkpoint::{Checkpoint, Memory};
 use crate::schemes::scheme::Scheme;
 use crate::systems::hash::Hash;
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use alloc::borrow::ToOwned;
 use alloc::boxed::Box;
 use alloc::format;
@@ -30,8 +30,17 @@ const ENDED: u64 = 2;
 impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Returns the text of the system and the number of members.
     fn formula(&self) -> String {
-        let name = S::NAME;
-        format!("{name}: {} ({} members)", S::FORMULA, self.len())
+        let Description { name, formula, .. } = self.description().unwrap_or(&Description::NONE);
+        format!("{name}: {formula} ({} members)", self.len())
+    }
+
+    /// Returns the description of the first member that could start, which is that of all.
+    pub(super) fn description(&self) -> Option<&Description> {
+        let mut prepared = self
+            .chunks
+            .iter()
+            .filter_map(|chunk| chunk.prepared.first());
+        prepared.next().map(Dynamics::description)
     }
 
     /// Returns a hash of all parameters and of the times at which members start.

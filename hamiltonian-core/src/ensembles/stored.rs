@@ -13,7 +13,7 @@ use crate::observers::observe::Observer;
 use crate::results::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
 use crate::schemes::scheme::Scheme;
 use crate::systems::hash::{Hash, hash_of};
-use crate::systems::system::System;
+use crate::systems::system::{Description, System};
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec;
@@ -155,9 +155,13 @@ where
         let described = self.erased().describe();
         let mut described: Vec<&str> = described.lines().collect();
         described.dedup();
+        let system = self.first_system();
+        let system = system
+            .as_ref()
+            .map_or(&Description::NONE, System::description);
         let mut attributes = vec![
-            ("system".to_string(), S::NAME.into()),
-            ("hamiltonian".to_string(), S::FORMULA.into()),
+            ("system".to_string(), (*system.name).into()),
+            ("hamiltonian".to_string(), (*system.formula).into()),
             ("scheme".to_string(), described.join(": ").into()),
             ("step".to_string(), step),
             ("end".to_string(), end),

@@ -6,6 +6,7 @@
 mod host;
 
 use super::bound::ErasedScheme;
+use super::guard::guard;
 use super::ordered::in_order;
 use super::record::{Batch, End, Record, Row};
 use super::rounding::{Fused, Rounding, Unfused};
@@ -17,7 +18,7 @@ use crate::results::shard::Shard;
 use crate::results::table::Table;
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf, clock};
+use crate::systems::system::{System, VectorOf};
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::sync::Arc;
@@ -486,11 +487,25 @@ where
         }
     }
 
+    /// Makes the system of the first member that can be made.
+    pub(crate) fn first_system(&self) -> Option<S> {
+        let made = |index| guard(|| (self.make)(Member::new(index, self.seed)));
+        let mut systems = (0..self.count).filter_map(|index| made(index).ok()?.ok());
+        systems.next().map(|(system, _)| system)
+    }
+
     /// Checks that times are finite, and in the direction of the common step. If each member has its own step, any
     /// direction is accepted here, and members that run in the other one fail.
     fn check_times(&self, times: &[f64]) -> Result<(), Error> {
-        let clock = clock::<S>();
+        let clock = || {
+            let system = self.first_system();
+            let clock = system
+                .as_ref()
+                .map_or("t", |system| system.description().clock());
+            clock.into()
+        };
         if let Some(&target) = times.iter().find(|t| !t.is_finite()) {
+            let clock = clock();
             return Err(Error::Unreachable { clock, target });
         }
         let direction = match self.step_each {
@@ -501,7 +516,7 @@ where
             |pair: &&[f64]| (pair[1] < pair[0]) != (pair[1] != pair[0] && direction < 0.0);
         match times.windows(2).find(is_behind) {
             Some(pair) => Err(Error::Behind {
-                clock,
+                clock: clock(),
                 target: pair[1],
                 now: pair[0],
             }),
@@ -543,7 +558,7 @@ where
 impl<S: System, M: Scheme<S>, O, R, A: Rounding> core::fmt::Debug for Sweep<'_, S, M, O, R, A> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Sweep")
-            .field("system", &S::NAME)
+            .field("system", &core::any::type_name::<S>())
             .field("scheme", &self.erased().describe())
             .field("members", &self.count)
             .field("step", &self.step)

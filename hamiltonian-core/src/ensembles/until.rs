@@ -11,7 +11,7 @@ use crate::flows::map::Clock;
 use crate::observers::observe::Observer;
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf, clock};
+use crate::systems::system::{Description, System, VectorOf};
 
 impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<S, M, O, A> {
     /// Advances all members to the time `t` by a whole number of steps, as
@@ -35,10 +35,10 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
             return Ok(self);
         };
         let made = self.common.steps;
-        match time.whole_steps(made, t, clock::<S>())? {
+        match time.whole_steps(made, t, self.time_name())? {
             (None, steps) => Ok(self.advance(steps)),
             (Some(before), after) => Err(Error::OffGrid {
-                clock: clock::<S>(),
+                clock: self.time_name().into(),
                 target: t,
                 before: time.at(made + before),
                 after: time.at(made + after),
@@ -75,12 +75,17 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     ) -> Result<impl Iterator<Item = Result<State<VectorOf<S>>, Error>>, Error> {
         let mut between = None;
         if let Some(time) = self.clock()? {
-            let (before, after) = time.whole_steps(self.common.steps, t, clock::<S>())?;
+            let (before, after) = time.whole_steps(self.common.steps, t, self.time_name())?;
             between = before.map(|_| t);
             self.advance(before.unwrap_or(after));
         }
         let chunks = 0..self.chunks.len();
         Ok(chunks.flat_map(move |number| self.closed(number, 0..usize::MAX, between)))
+    }
+
+    /// Returns the name of the time of the members.
+    fn time_name(&self) -> &str {
+        self.description().map_or("t", Description::clock)
     }
 
     /// Returns the clock that all members share; `None` if no member could start.

@@ -130,7 +130,7 @@ impl<T: Real> History<T> {
 
 /// Returns the reason and remedy for an event whose name is unknown, with the names that are known.
 fn unknown(name: &str, known: &[Observable]) -> String {
-    let known: Vec<&str> = known.iter().map(|one| one.name).collect();
+    let known: Vec<&str> = known.iter().map(|one| &*one.name).collect();
     let text = "the system declares none of this name";
     match known.is_empty() {
         true => format!("{text}\nhelp: declare it, `event {name} = …`"),
@@ -192,11 +192,12 @@ impl<V: Vector> Events<V> {
         // A step back gives the previous values. At a boundary of the domain it may fail.
         let back = V::Scalar::zero() - view.between.interval();
         let before = view.between.part(view.state, back).ok();
+        let system = view.prepared.description();
         self.histories.clear();
         for (number, event) in self.events.iter().enumerate() {
-            let observable = S::observable_index(&event.name);
+            let observable = system.observable_index(&event.name);
             if event.function.is_none() && observable.is_none() {
-                return Err(self.error(number, unknown(&event.name, S::OBSERVABLES)));
+                return Err(self.error(number, unknown(&event.name, &system.observables)));
             }
             if event
                 .period
@@ -429,7 +430,7 @@ impl<T: Real, S: System> Observer<T, S> for Events<VectorOf<S, T>> {
         self.pending.clear();
     }
 
-    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
+    fn follow(&mut self, visitor: &mut FollowVisitor<'_, T>) -> bool {
         // Lanes do not evaluate closures. The previous values at the first state are found by a step back, when the
         // observer is attached.
         let is_named = self.events.iter().all(|event| event.function.is_none());

@@ -70,7 +70,7 @@ impl<T: Real, S: System> View<'_, T, S> {
         self.between.state_at(t)
     }
 
-    /// Observable `index` of [`System::OBSERVABLES`] at this state.
+    /// Observable `index` of [`Description::observables`](crate::schemes::author::Description::observables) at this state.
     pub fn observable(&self, index: usize) -> T {
         self.prepared
             .observable(index, self.state.t, &self.state.q, &self.state.p)
@@ -78,7 +78,8 @@ impl<T: Real, S: System> View<'_, T, S> {
 
     /// The observable of that name at this state; `None` if there is none.
     pub fn observable_named(&self, name: &str) -> Option<T> {
-        S::observable_index(name).map(|index| self.observable(index))
+        let index = self.prepared.description().observable_index(name);
+        index.map(|index| self.observable(index))
     }
 }
 
@@ -109,7 +110,7 @@ pub trait Observer<T: Real, S: System> {
     /// true if the observer needs only drifts, at multiples of its interval, and changes of signs. Ensembles then
     /// follow them in lanes.
     #[doc(hidden)]
-    fn follow(&mut self, _: &mut FollowVisitor<T>) -> bool {
+    fn follow(&mut self, _: &mut FollowVisitor<'_, T>) -> bool {
         false
     }
     /// Receives the state after a step in which a sign may have changed, if lanes follow signs for this observer.
@@ -262,7 +263,7 @@ impl<T: Real, S: System, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         self.inner.end()
     }
-    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
+    fn follow(&mut self, visitor: &mut FollowVisitor<'_, T>) -> bool {
         // Signs are compared after every step.
         self.inner.follow(visitor) && (self.steps == 1 || !visitor.has_sections())
     }
@@ -293,7 +294,7 @@ impl<T: Real, S: System, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut O {
     fn end(&self) -> Result<Option<&State<VectorOf<S, T>>>, Error> {
         (**self).end()
     }
-    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
+    fn follow(&mut self, visitor: &mut FollowVisitor<'_, T>) -> bool {
         (**self).follow(visitor)
     }
     fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
@@ -312,7 +313,7 @@ impl<T: Real, S: System> Observer<T, S> for () {
     fn restore(&mut self, _: &View<'_, T, S>, _: &mut Memory) -> Result<(), Error> {
         Ok(())
     }
-    fn follow(&mut self, _: &mut FollowVisitor<T>) -> bool {
+    fn follow(&mut self, _: &mut FollowVisitor<'_, T>) -> bool {
         true
     }
 }
@@ -367,7 +368,7 @@ macro_rules! tuple {
                 $(end = end.or(self.$index.end()?);)+
                 Ok(end)
             }
-            fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
+            fn follow(&mut self, visitor: &mut FollowVisitor<'_, T>) -> bool {
                 let interval = <Self as Observer<T, S>>::interval(self);
                 let same = |of: u64| of == interval || of == u64::MAX;
                 $(if !same(self.$index.interval()) || !self.$index.follow(visitor) {

@@ -10,7 +10,7 @@ use crate::results::checkpoint::{Checkpoint, Memory};
 use crate::results::table::{Table, wrapped};
 use crate::systems::lattice;
 use crate::systems::state::State;
-use crate::systems::system::{Group, System, VectorOf, clock};
+use crate::systems::system::{Description, Dynamics, Group, System, VectorOf};
 use crate::systems::uneven::named;
 use crate::systems::vector::Vector;
 use alloc::format;
@@ -133,11 +133,12 @@ impl Recorder {
     }
 
     /// The table without rows and the sources of its columns.
-    fn layout<T: Real, S: System>(
+    fn layout<V: Vector>(
         &self,
-        q: &VectorOf<S, T>,
+        system: &Description,
+        q: &V,
     ) -> Result<(Table, Vec<Source>), Error> {
-        let mut all = all_columns::<T, S>(q);
+        let mut all = all_columns(system, q);
         let energy = ("H".to_string(), Value::Energy);
         let chosen: Vec<(String, Value)> = match &self.selected {
             None => {
@@ -194,22 +195,22 @@ fn columns_of(name: &str, known: &[String]) -> Result<Vec<usize>, Error> {
 }
 
 /// All columns but H with their sources: time, coordinates, momenta, observables.
-fn all_columns<T: Real, S: System>(q: &VectorOf<S, T>) -> Vec<(String, Value)> {
-    let names = names(S::GROUPS, q);
-    let mut all = Vec::with_capacity(2 + 2 * names.len() + S::OBSERVABLES.len());
+fn all_columns<V: Vector>(system: &Description, q: &V) -> Vec<(String, Value)> {
+    let names = names(&system.groups, q);
+    let mut all = Vec::with_capacity(2 + 2 * names.len() + system.observables.len());
     for name in &names {
         all.push((
-            name.of(name.group.coordinate),
+            name.of(&name.group.coordinate),
             Value::Coordinate(name.index),
         ));
     }
     for name in &names {
-        all.push((name.of(name.group.momentum), Value::Momentum(name.index)));
+        all.push((name.of(&name.group.momentum), Value::Momentum(name.index)));
     }
-    for (index, observable) in S::OBSERVABLES.iter().enumerate() {
+    for (index, observable) in system.observables.iter().enumerate() {
         all.push((observable.name.to_string(), Value::Observable(index)));
     }
-    let time = clock::<S>();
+    let time = system.clock();
     let mut free = time.to_string();
     for number in 2.. {
         if all.iter().all(|(name, _)| *name != free) {
@@ -233,7 +234,7 @@ impl Deref for Recorder {
 impl<T: Real, S: System> Observer<T, S> for Recorder {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         one_trajectory::<T>();
-        match self.layout::<T, S>(&view.state.q) {
+        match self.layout(view.prepared.description(), &view.state.q) {
             Ok((table, sources)) => (self.table, self.sources) = (table, sources),
             Err(error) => {
                 self.failure = Some(error);
@@ -272,7 +273,7 @@ impl<T: Real, S: System> Observer<T, S> for Recorder {
 
     fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Recorder")?;
-        (self.table, self.sources) = self.layout::<T, S>(&view.state.q)?;
+        (self.table, self.sources) = self.layout(view.prepared.description(), &view.state.q)?;
         let saved = from.read_text()?;
         // An observer at given times attaches it later.
         if !saved.is_empty() {
@@ -300,15 +301,15 @@ fn described(table: &Table, sources: &[Source]) -> String {
 }
 
 /// One component of a group.
-pub(crate) struct Name {
-    pub(crate) group: Group,
+pub(crate) struct Name<'a> {
+    pub(crate) group: &'a Group,
     /// Its indices, each in brackets.
     indices: String,
     /// Its flat index in the [`Vector`].
     pub(crate) index: usize,
 }
 
-impl Name {
+impl Name<'_> {
     /// The component of the coordinate or momentum of that name.
     pub(crate) fn of(&self, name: &str) -> String {
         format!("{name}{}", self.indices)
@@ -316,7 +317,7 @@ impl Name {
 }
 
 /// The components of all groups in declaration order; `vector` tells run-time sizes.
-pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
+pub(crate) fn names<'a, V: Vector>(groups: &'a [Group], vector: &V) -> Vec<Name<'a>> {
     let mut names = Vec::with_capacity(vector.len());
     for group in groups {
         let before: usize = (0..group.part).map(|k| vector.part(k).len()).sum();
@@ -331,7 +332,7 @@ pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
         if !extents.is_empty() {
             for number in 0..len {
                 names.push(Name {
-                    group: *group,
+                    group,
                     indices: lattice::element("", extents, number),
                     index: before + number,
                 });
@@ -342,7 +343,7 @@ pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
             for column in 0..group.columns {
                 let index = before + group.offset + row + rows * column;
                 names.push(Name {
-                    group: *group,
+                    group,
                     indices: named("", &[row, column][..group.rank]),
                     index,
                 });

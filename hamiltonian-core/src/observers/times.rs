@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::observers::observe::{Observer, View, one_trajectory};
 use crate::results::checkpoint::Memory;
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf, clock};
+use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::{Shape, Vector};
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
@@ -89,12 +89,15 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
         let is_due = |t: &V::Scalar| !comes_before(view.state.t, *t) || meets(view.state.t, *t);
         while let Some(t) = self.next.filter(is_due) {
             let is_behind = comes_before(t, before.t) && !meets(t, before.t);
-            let (clock, target) = (clock::<S>(), t.to_f64());
+            let target = t.to_f64();
+            let clock = || view.prepared.description().clock().into();
             if is_behind {
+                let clock = clock();
                 let now = before.t.to_f64();
                 return Err(Error::Behind { clock, target, now });
             }
             if !t.is_finite() {
+                let clock = clock();
                 return Err(Error::Unreachable { clock, target });
             }
             let state = match meets(t, view.state.t) {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::observers::observe::Observer;
 use crate::runs::integrator::{Integrator, MapOf};
 use crate::schemes::scheme::Entry;
-use crate::systems::system::{Observable, System, VectorOf};
+use crate::systems::system::{Dynamics, Observable, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -31,7 +31,7 @@ use hamiltonian_lanes::Real;
 /// ```
 pub trait AnyRun {
     /// The name of the system.
-    fn system(&self) -> &'static str;
+    fn system(&self) -> &str;
     /// The scheme's entry in the catalogue.
     fn entry(&self) -> Entry;
     /// Makes `n` steps; see [`Integrator::advance`].
@@ -52,14 +52,14 @@ pub trait AnyRun {
     /// Their values.
     fn values(&self) -> Vec<f64>;
     /// The names of the observables.
-    fn observables(&self) -> &'static [Observable];
+    fn observables(&self) -> &[Observable];
     /// The value of the observable of that name; `None` if there is none.
     fn observable(&self, name: &str) -> Option<f64>;
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> AnyRun for Integrator<T, S, R, O> {
-    fn system(&self) -> &'static str {
-        S::NAME
+    fn system(&self) -> &str {
+        &self.prepared.description().name
     }
     fn entry(&self) -> Entry {
         Integrator::entry(self)
@@ -80,14 +80,15 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> AnyRun for Integrato
         Integrator::energy(self).to_f64()
     }
     fn names(&self) -> Vec<String> {
-        let names = crate::observers::output::names(S::GROUPS, &self.state().q);
-        let coordinates = names.iter().map(|name| name.of(name.group.coordinate));
-        let momenta = names.iter().map(|name| name.of(name.group.momentum));
+        let names =
+            crate::observers::output::names(&self.prepared.description().groups, &self.state().q);
+        let coordinates = names.iter().map(|name| name.of(&name.group.coordinate));
+        let momenta = names.iter().map(|name| name.of(&name.group.momentum));
         coordinates.chain(momenta).collect()
     }
     fn values(&self) -> Vec<f64> {
         let state = self.state();
-        let names = crate::observers::output::names(S::GROUPS, &state.q);
+        let names = crate::observers::output::names(&self.prepared.description().groups, &state.q);
         let of = |vector: &VectorOf<S, T>| -> Vec<f64> {
             let values = names.iter().map(|name| vector.component(name.index));
             values.map(Real::to_f64).collect()
@@ -96,8 +97,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> AnyRun for Integrato
         values.extend(of(&state.p));
         values
     }
-    fn observables(&self) -> &'static [Observable] {
-        S::OBSERVABLES
+    fn observables(&self) -> &[Observable] {
+        &self.prepared.description().observables
     }
     fn observable(&self, name: &str) -> Option<f64> {
         Integrator::observable_named(self, name).map(Real::to_f64)

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::flows::map::Cause;
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 /// The place of a failed step: an error without its cause.
@@ -11,7 +12,7 @@ pub(crate) struct Failed {
     /// The first lane in which it failed, if the scalar has several.
     pub(crate) lane: Option<u32>,
     /// The name of the run's time.
-    pub(crate) clock: &'static str,
+    pub(crate) clock: Box<str>,
     /// The time at its beginning.
     pub(crate) begin: f64,
     /// The time at its end.

@@ -25,7 +25,7 @@ use crate::results::checkpoint::Memory;
 use crate::schemes::scheme::{CarriedBy, Entry, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, IntoStart, State};
-use crate::systems::system::{Arithmetic, Dynamics, System, VectorOf, names};
+use crate::systems::system::{Arithmetic, Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -146,7 +146,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
     where
         R: Map<Carried = CarriedBy<M, S, T>>,
     {
-        let start = start.into_start(names::<S>())?;
+        let start = start.into_start(system.description().first_names())?;
         check_step(step)?;
         let prepared = check_start(system, &start)?;
         check_scheme(&scheme, &prepared, &start)?;
@@ -460,7 +460,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S, R,
 impl<T: Real, S: System, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integrator<T, S, R, O> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator")
-            .field("system", &S::NAME)
+            .field("system", &self.prepared.description().name)
             .field("scheme", &self.recipe.describe())
             .field("step", &self.step)
             .field("steps", &self.steps)
@@ -471,8 +471,9 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integrato
 }
 
 /// The name of a system, H, and the number of components, which identify a saved run.
-pub(crate) fn formula<T: Real, S: System>(q: &VectorOf<S, T>) -> String {
-    alloc::format!("{}: {} (coordinates: {})", S::NAME, S::FORMULA, q.len())
+pub(crate) fn formula<V: Vector>(system: &Description, q: &V) -> String {
+    let Description { name, formula, .. } = system;
+    alloc::format!("{name}: {formula} (coordinates: {})", q.len())
 }
 
 /// The parameters of a system with their values.

@@ -41,7 +41,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         let mut observers = Memory::default();
         self.observer.save(&mut observers);
         Checkpoint {
-            system: formula::<T, S>(&self.state.q),
+            system: formula(self.prepared.description(), &self.state.q),
             parameters: self.parameters.clone(),
             scheme: self.recipe.describe(),
             scalar: core::any::type_name::<T>().to_owned(),
@@ -134,7 +134,11 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
         R: Map<Carried = CarriedBy<M, S, T>>,
     {
         let zeros = system.zeros();
-        Checkpoint::same("system", &checkpoint.system, &formula::<T, S>(&zeros))?;
+        Checkpoint::same(
+            "system",
+            &checkpoint.system,
+            &formula(system.description(), &zeros),
+        )?;
         Checkpoint::same("parameter", &checkpoint.parameters, &parameters(system))?;
         let described = Recipe::<T, S, R>::describe(&scheme);
         Checkpoint::same("scheme", &checkpoint.scheme, &described)?;

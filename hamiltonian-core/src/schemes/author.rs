@@ -25,7 +25,9 @@ pub use crate::systems::flow::{Flow, Nothing, Piece, Pieces, Scratch, VectorFiel
 pub use crate::systems::observed::Observed;
 pub use crate::systems::state::{Carried, CarriedShape, Pair, Point};
 pub use crate::systems::system::gather::{self, InLanes, InPack, Kept};
-pub use crate::systems::system::{Arithmetic, Cyclic, Dynamics, Group, Observable, ObservableKind};
+pub use crate::systems::system::{
+    Arithmetic, Description, Dynamics, Group, NamedPiece, Observable, ObservableKind, Text,
+};
 pub use crate::systems::transformed::WithTime;
 pub use crate::systems::vector::{Over, Shape};
 

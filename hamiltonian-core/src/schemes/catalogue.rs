@@ -20,6 +20,9 @@ use crate::systems::system::{
 };
 use crate::systems::transformed::TimeTransformed;
 
+#[cfg(test)]
+mod needs;
+
 /// A visitor of the schemes of the catalogue.
 pub trait Visitor<S: System> {
     /// Visits a scheme.
@@ -63,6 +66,23 @@ macro_rules! catalogue {
                 $($nystrom.entry(),)+ $($quadratic.entry(),)+ $($implicit.entry(),)+ $($energy.entry(),)+ $($doubled.entry(),)+
                 $($compensated.entry(),)+ $($transformed.entry(),)+]
                 .into_iter()
+        }
+
+        /// The entries of all schemes, with what the bounds of their implementations require.
+        #[cfg(test)]
+        fn required() -> alloc::vec::Vec<(Entry, crate::schemes::scheme::Needs)> {
+            alloc::vec![$(needs::required!($unforced),)+
+                $(needs::required!($any),)+
+                $(needs::required!($split),)+
+                $(needs::required!($exact),)+
+                $(needs::required!($separable),)+
+                $(needs::required!($nystrom),)+
+                $(needs::required!($quadratic),)+
+                $(needs::required!($implicit),)+
+                $(needs::required!($energy),)+
+                $(needs::required!($doubled),)+
+                $(needs::required!($compensated),)+
+                $(needs::required!($transformed),)+]
         }
 
         /// Visits the schemes for any H, with forces.

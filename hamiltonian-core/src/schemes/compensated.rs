@@ -59,7 +59,7 @@ impl<M: Splitting> Listed for Compensated<M> {
         Entry {
             name: "Compensated",
             variant: of.name,
-            needs: Needs::Separable,
+            needs: Needs::SEPARABLE.and(Needs::UNFORCED),
             ..of
         }
     }

@@ -11,7 +11,7 @@ use crate::flows::map::{Cause, Either, Map, ScalarOf, Step};
 use crate::schemes::scheme::{Entry, Listed, OneStep, Scheme, Symmetric};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Point, State};
-use crate::systems::system::{System, VectorOf};
+use crate::systems::system::{Description, System, VectorOf};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -155,12 +155,12 @@ where
     type Carried = M::Carried;
     type Map<T: Real> =
         Either<Composed<M::Map<T>, STAGES, true>, Composed<M::Map<T>, STAGES, false>>;
-    fn times_of_jumps(&self) -> [f64; 2] {
+    fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
         let mut times = [f64::INFINITY, f64::NEG_INFINITY];
         let mut at = 0.0;
         for (scheme, weight) in &self.stages {
             let weight = weight.to::<f64>();
-            let ends = scheme.times_of_jumps().map(|time| at + weight * time);
+            let ends = scheme.times_of_jumps(of).map(|time| at + weight * time);
             times = [
                 times[0].min(ends[0]).min(ends[1]),
                 times[1].max(ends[0]).max(ends[1]),
@@ -362,8 +362,8 @@ where
 {
     type Carried = Point<S::Shape>;
     type Map<T: Real> = Inverted<M::Map<T>>;
-    fn times_of_jumps(&self) -> [f64; 2] {
-        let [first, last] = self.0.times_of_jumps();
+    fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
+        let [first, last] = self.0.times_of_jumps(of);
         [1.0 - last, 1.0 - first]
     }
     fn check<T: Real>(

@@ -8,7 +8,7 @@ use crate::flows::map::{Cause, Map, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Pair, Point, State};
-use crate::systems::system::{Dynamics, System, Unforced, VectorOf};
+use crate::systems::system::{Description, Dynamics, System, Unforced, VectorOf};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -56,7 +56,7 @@ impl Listed for DiscreteGradient {
             equations: "",
             order: 2,
             duration: 1,
-            needs: Needs::Unforced,
+            needs: Needs::UNFORCED,
             preserves: Form::Nothing,
             source: "Gonzalez 1996, eq. 3.7, doi:10.1007/BF02440162",
         }
@@ -68,7 +68,7 @@ symmetric!(DiscreteGradient);
 impl<S: System + Unforced> Scheme<S> for DiscreteGradient {
     type Carried = Pair<Point<S::Shape>, Point<S::Shape>>;
     type Map<T: Real> = EnergyKeeping<T, S::Prepared<T>>;
-    fn times_of_jumps(&self) -> [f64; 2] {
+    fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         [0.5; 2]
     }
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {

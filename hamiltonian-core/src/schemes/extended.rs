@@ -67,7 +67,7 @@ impl Listed for Pihajoki {
             equations: "29",
             order: 2,
             duration: 1,
-            needs: Needs::Unforced,
+            needs: Needs::UNFORCED,
             preserves: Form::TwoCopies,
             source: "Pihajoki 2015, doi:10.1007/s10569-014-9597-9",
         };

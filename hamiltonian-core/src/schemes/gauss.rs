@@ -8,7 +8,7 @@ use super::stages::{Carries, Collocated, at_rest, of_fixed_point};
 use crate::flows::map::Step;
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::systems::state::State;
-use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use core::fmt;
 use hamiltonian_lanes::Real;
 
@@ -131,7 +131,7 @@ impl<const S: usize> Listed for Gauss<S> {
             equations: "",
             order: 2 * S as u32,
             duration: 1,
-            needs: Needs::Any,
+            needs: Needs::ANY,
             preserves: Form::OnePoint,
             source: "Hairer, Lubich, Wanner 2006, section II.1.3, doi:10.1007/3-540-30666-8",
         }
@@ -143,7 +143,7 @@ symmetric!(Gauss<S>, const S: usize);
 impl<S: System, const STAGES: usize> Scheme<S> for Gauss<STAGES> {
     type Carried = Carries<S::Shape, STAGES>;
     type Map<T: Real> = Collocated<T, S::Prepared<T>, STAGES>;
-    fn times_of_jumps(&self) -> [f64; 2] {
+    fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         self.coefficients.ends()
     }
     #[inline(always)]

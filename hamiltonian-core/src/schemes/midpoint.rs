@@ -8,7 +8,7 @@ use crate::flows::map::{Cause, Map, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::systems::flow::{Scratch, VectorField};
 use crate::systems::state::{Pair, Point, State};
-use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -60,7 +60,7 @@ impl Listed for ImplicitMidpoint {
             equations: "",
             order: 2,
             duration: 1,
-            needs: Needs::Any,
+            needs: Needs::ANY,
             preserves: Form::OnePoint,
             source: "Hairer, Lubich, Wanner 2006, eq. II.1.4, doi:10.1007/3-540-30666-8",
         }
@@ -72,7 +72,7 @@ symmetric!(ImplicitMidpoint);
 impl<S: System> Scheme<S> for ImplicitMidpoint {
     type Carried = Pair<Point<S::Shape>, Point<S::Shape>>;
     type Map<T: Real> = Midpoint<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
-    fn times_of_jumps(&self) -> [f64; 2] {
+    fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         [0.5; 2]
     }
     #[inline(always)]

@@ -8,7 +8,7 @@ use crate::flows::map::{Cause, Map, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, OneStep, Scheme};
 use crate::systems::flow::{Scratch, VectorField};
 use crate::systems::state::{Carried, CarriedShape, Point, State};
-use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::{Over, Shape, Vector};
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -165,8 +165,8 @@ where
 {
     type Carried = PaceShape<S::Shape>;
     type Map<T: Real> = Pacing<T, S, M, G>;
-    fn times_of_jumps(&self) -> [f64; 2] {
-        self.scheme.times_of_jumps()
+    fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
+        self.scheme.times_of_jumps(of)
     }
     fn check<T: Real>(
         &self,

@@ -274,7 +274,7 @@ macro_rules! weights {
                     equations: "",
                     order: $table.order,
                     duration: 1,
-                    needs: Needs::Exact,
+                    needs: Needs::SPLIT.and(Needs::EXACT),
                     preserves: Form::OnePoint,
                     source: $table.source,
                 }

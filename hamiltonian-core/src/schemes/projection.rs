@@ -91,7 +91,7 @@ impl<M: Splitting> Listed for MidpointProjected<M> {
         Entry {
             name: "MidpointProjected",
             variant: of.name,
-            needs: Needs::Unforced,
+            needs: Needs::UNFORCED,
             preserves: Form::Nearly,
             source: "Luo, Wu, Huang, Liu 2017, doi:10.3847/1538-4357/834/1/64",
             ..of
@@ -223,7 +223,7 @@ impl<M: Splitting> Listed for Mixed<M> {
         Entry {
             name: "Mixed",
             variant: of.name,
-            needs: Needs::Unforced,
+            needs: Needs::UNFORCED,
             preserves: Form::Nothing,
             source: "Pihajoki 2015, section 3.2, doi:10.1007/s10569-014-9597-9",
             ..of
@@ -366,7 +366,7 @@ impl<M: Splitting> Listed for Semiexplicit<M> {
         Entry {
             name: "Semiexplicit",
             variant: of.name,
-            needs: Needs::Unforced,
+            needs: Needs::UNFORCED,
             preserves: Form::OnePoint,
             source: "Jayawardana, Ohsawa 2023, eqs. 10 and 11, doi:10.1090/mcom/3778",
             ..of

@@ -43,7 +43,7 @@ impl Listed for RungeKutta4 {
             equations: "",
             order: 4,
             duration: 1,
-            needs: Needs::Any,
+            needs: Needs::ANY,
             preserves: Form::Nothing,
             source: "Kutta 1901",
         }

@@ -7,7 +7,7 @@
 use crate::error::Error;
 use crate::flows::map::{Map, Step};
 use crate::systems::state::{CarriedShape, State};
-use crate::systems::system::{System, VectorOf};
+use crate::systems::system::{Description, System, VectorOf};
 use core::fmt::Debug;
 use hamiltonian_lanes::Real;
 
@@ -30,26 +30,80 @@ pub enum Form {
     Nothing,
 }
 
-/// The structure that a scheme requires of a system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Needs {
+/// The structure that a scheme requires of a system: a set of traits.
+///
+/// ```
+/// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::author::{Listed, Needs};
+///
+/// let needs = GaussNystrom::<2>::default().entry().needs;
+/// assert!(needs.contains(Needs::UNFORCED));
+/// assert_eq!(needs.to_string(), "Unforced + Separable + QuadraticKinetic");
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Needs(u8);
+
+impl Needs {
     /// Nothing: any H(q, p, t), with forces.
-    Any,
+    pub const ANY: Self = Needs(0);
     /// No forces, [`Unforced`](crate::Unforced).
-    Unforced,
+    pub const UNFORCED: Self = Needs(1);
     /// Pieces, [`Split`](crate::Split).
-    Split,
-    /// Pieces whose flows are all exact, [`Split`](crate::Split) and [`Exact`](crate::Exact).
-    Exact,
+    pub const SPLIT: Self = Needs(1 << 1);
+    /// Flows that are all exact, [`Exact`](crate::Exact).
+    pub const EXACT: Self = Needs(1 << 2);
     /// H = T(p, t) + V(q, t), [`Separable`](crate::Separable).
-    Separable,
+    pub const SEPARABLE: Self = Needs(1 << 3);
     /// H = A(q, p) + V(q, t), A at most quadratic in p: [`Nystrom`](crate::Nystrom).
-    Nystrom,
-    /// H = ½ pᵀM⁻¹p + V(q, t) with constant M: [`Separable`](crate::Separable) and
-    /// [`QuadraticKinetic`](crate::QuadraticKinetic).
-    QuadraticKinetic,
-    /// The same in another time, [`TimeTransformed`](crate::TimeTransformed).
-    TimeTransformed,
+    pub const NYSTROM: Self = Needs(1 << 4);
+    /// T = ½ pᵀM⁻¹p with constant M, [`QuadraticKinetic`](crate::QuadraticKinetic).
+    pub const QUADRATIC_KINETIC: Self = Needs(1 << 5);
+    /// H(q, p) without t, [`Autonomous`](crate::Autonomous).
+    pub const AUTONOMOUS: Self = Needs(1 << 6);
+    /// A system in another time, [`TimeTransformed`](crate::TimeTransformed). The other traits are those of the system
+    /// inside.
+    pub const TIME_TRANSFORMED: Self = Needs(1 << 7);
+
+    /// Each requirement, with the name of its trait or type.
+    pub const ALL: [(Self, &str); 8] = [
+        (Self::UNFORCED, "Unforced"),
+        (Self::SPLIT, "Split"),
+        (Self::EXACT, "Exact"),
+        (Self::SEPARABLE, "Separable"),
+        (Self::NYSTROM, "Nystrom"),
+        (Self::QUADRATIC_KINETIC, "QuadraticKinetic"),
+        (Self::AUTONOMOUS, "Autonomous"),
+        (Self::TIME_TRANSFORMED, "TimeTransformed"),
+    ];
+
+    /// Both requirements.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Needs(self.0 | other.0)
+    }
+
+    /// Returns true if all that `other` requires is required.
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+/// The names with `+` between them, or `any`.
+impl core::fmt::Display for Needs {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let mut names = (Needs::ALL.iter())
+            .filter(|(one, _)| self.contains(*one))
+            .map(|(_, name)| name);
+        f.write_str(names.next().unwrap_or(&"any"))?;
+        names.try_for_each(|name| write!(f, " + {name}"))
+    }
+}
+
+impl Debug for Needs {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        core::fmt::Display::fmt(self, f)
+    }
 }
 
 /// Facts about a scheme: one line of the [catalogue](crate::schemes::author::catalogue).
@@ -139,10 +193,10 @@ pub trait Scheme<S: System>: Listed {
     ) {
         self.prepare(prepared, Step::of(h)).step(t, end, z, work);
     }
-    /// The first and the last time at which a step evaluates parts of H that [jump](System::JUMPS), in units of its
+    /// The first and the last time at which a step evaluates parts of H that [jump](Description::jumps), in units of its
     /// duration. Systems with such parts require times inside of the step. The provided method returns the ends of the
     /// step, so that they are refused.
-    fn times_of_jumps(&self) -> [f64; 2] {
+    fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         [0.0, 1.0]
     }
     /// Returns an error if the scheme cannot integrate this system from this state for a reason

@@ -17,7 +17,9 @@ use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Pair, Point, State};
 use crate::systems::system::gather::{InLanes, Kept, in_lanes};
-use crate::systems::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf};
+use crate::systems::system::{
+    Description, Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf,
+};
 use crate::systems::vector::{Over, Vector};
 use core::fmt;
 use hamiltonian_lanes::{Cpu, DoubleDouble, Level, Mask, Pack, Real};
@@ -108,7 +110,9 @@ impl<const S: usize> Listed for GaussNystrom<S> {
             equations: "",
             order: 2 * S as u32,
             duration: 1,
-            needs: Needs::QuadraticKinetic,
+            needs: Needs::SEPARABLE
+                .and(Needs::QUADRATIC_KINETIC)
+                .and(Needs::UNFORCED),
             preserves: Form::OnePoint,
             source: "Hairer, Norsett, Wanner 1993, section II.14, doi:10.1007/978-3-540-78862-1",
         }
@@ -130,7 +134,7 @@ where
 {
     type Carried = CarriesForces<S::Shape, STAGES>;
     type Map<T: Real> = Eliminated<T, S::Prepared<T>, STAGES>;
-    fn times_of_jumps(&self) -> [f64; 2] {
+    fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         self.coefficients.ends()
     }
     #[inline(always)]

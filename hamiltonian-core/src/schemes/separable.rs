@@ -9,7 +9,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::flows::map::{Either, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::systems::state::{Point, State};
-use crate::systems::system::{Separable, VectorOf};
+use crate::systems::system::{Description, Dynamics, Separable, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// Störmer–Verlet (leapfrog): order 2, symplectic, time-reversible; equations (27).
@@ -62,7 +62,7 @@ impl Listed for StormerVerlet {
             equations: "27d-f",
             order: 2,
             duration: 1,
-            needs: Needs::Separable,
+            needs: Needs::SEPARABLE,
             preserves: Form::OnePoint,
             source: "Verlet 1967, eq. 4, doi:10.1103/PhysRev.159.98",
         };
@@ -80,8 +80,8 @@ impl Listed for StormerVerlet {
 impl StormerVerlet {
     /// The order on a system: a piece that jumps in time is not first.
     #[inline(always)]
-    fn on<S: Separable>(self) -> Self {
-        match S::JUMPING {
+    fn on(self, system: &Description) -> Self {
+        match system.jumps {
             [true, false] => StormerVerlet::DriftKickDrift,
             [false, true] => StormerVerlet::KickDriftKick,
             _ => self,
@@ -95,16 +95,16 @@ impl<S: Separable> Scheme<S> for StormerVerlet {
         ZigzagOf<T, S, (S::Kick<T>, S::Drift<T>), Strang>,
         ZigzagOf<T, S, (S::Drift<T>, S::Kick<T>), Strang>,
     >;
-    fn times_of_jumps(&self) -> [f64; 2] {
-        let [kick, drift] = S::JUMPING;
-        match self.on::<S>() {
+    fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
+        let [kick, drift] = of.jumps;
+        match self.on(of) {
             StormerVerlet::KickDriftKick => Strang.times_on([kick, drift]),
             StormerVerlet::DriftKickDrift => Strang.times_on([drift, kick]),
         }
     }
     #[inline(always)]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
-        match self.on::<S>() {
+        match self.on(prepared.description()) {
             StormerVerlet::KickDriftKick => Either::First(Zigzag::new(
                 &Strang,
                 &(S::kick::<T>(), S::drift::<T>()),
@@ -166,7 +166,7 @@ impl Listed for SymplecticEuler {
             equations: "",
             order: 1,
             duration: 1,
-            needs: Needs::Separable,
+            needs: Needs::SEPARABLE,
             preserves: Form::OnePoint,
             source: "Ruth 1983, doi:10.1109/TNS.1983.4332919",
         };
@@ -212,8 +212,8 @@ impl Splitting for SymplecticEuler {
 impl<S: Separable> Scheme<S> for SymplecticEuler {
     type Carried = Point<S::Shape>;
     type Map<T: Real> = ZigzagOf<T, S, (S::Drift<T>, S::Kick<T>), Self>;
-    fn times_of_jumps(&self) -> [f64; 2] {
-        let [kick, drift] = S::JUMPING;
+    fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
+        let [kick, drift] = of.jumps;
         self.times_on([drift, kick])
     }
     #[inline(always)]

@@ -8,7 +8,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::flows::map::Step;
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::systems::state::{Point, State};
-use crate::systems::system::{Split, VectorOf};
+use crate::systems::system::{Description, Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// Strang's splitting: the flows of all pieces for half a step, down, and up again; order 2,
@@ -43,7 +43,7 @@ impl Listed for Strang {
             equations: "",
             order: 2,
             duration: 1,
-            needs: Needs::Split,
+            needs: Needs::SPLIT,
             preserves: Form::OnePoint,
             source: "Strang 1968, doi:10.1137/0705041",
         }
@@ -67,8 +67,8 @@ symmetric!(Strang);
 impl<S: Split> Scheme<S> for Strang {
     type Carried = Point<S::Shape>;
     type Map<T: Real> = ZigzagOf<T, S, S::Pieces<T>, Self>;
-    fn times_of_jumps(&self) -> [f64; 2] {
-        self.times_on(S::JUMPING)
+    fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
+        self.times_on(of.jumping_pieces())
     }
     #[inline(always)]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {

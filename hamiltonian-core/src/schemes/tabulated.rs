@@ -12,7 +12,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::flows::map::{Map, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
 use crate::systems::state::{Point, State};
-use crate::systems::system::{Exact, Nystrom, Split, VectorOf};
+use crate::systems::system::{Description, Exact, Nystrom, Split, VectorOf};
 use hamiltonian_lanes::Real;
 
 /// The line of a table in the catalogue.
@@ -32,14 +32,14 @@ fn entry<const S: usize>(name: &'static str, table: &Coefficients<S>, needs: Nee
 /// The type `$name` of the table `$table` with its entry, which is `symmetric` or has the `reversed` table as its
 /// adjoint.
 macro_rules! tabulated {
-    ($(#[$doc:meta])* $name:ident: $table:path, $stages:literal, $needs:ident, $adjoint:ident) => {
+    ($(#[$doc:meta])* $name:ident: $table:path, $stages:literal, $needs:expr, $adjoint:ident) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
         pub struct $name;
 
         impl Listed for $name {
             fn entry(&self) -> Entry {
-                entry(stringify!($name), &$table, Needs::$needs)
+                entry(stringify!($name), &$table, $needs)
             }
         }
 
@@ -72,8 +72,8 @@ macro_rules! tabulated {
 
 /// The methods of a scheme that applies its table to `$pieces`.
 macro_rules! on_pieces {
-    ($pieces:expr, $jumping:expr) => {
-        fn times_of_jumps(&self) -> [f64; 2] {
+    ($pieces:expr, $of:ident, $jumping:expr) => {
+        fn times_of_jumps(&self, $of: &Description) -> [f64; 2] {
             self.times_on($jumping)
         }
         #[inline(always)]
@@ -108,7 +108,7 @@ macro_rules! on_exact_pieces {
         impl<S: Split + Exact> Scheme<S> for $name {
             type Carried = Point<S::Shape>;
             type Map<T: Real> = ZigzagOf<T, S, S::Pieces<T>, Self>;
-            on_pieces!(S::pieces::<T>(), S::JUMPING);
+            on_pieces!(S::pieces::<T>(), of, of.jumping_pieces());
         }
     };
 }
@@ -129,7 +129,7 @@ macro_rules! general {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-5);
             /// # Ok::<(), Error>(())
             /// ```
-            $name: $table, $stages, Exact, $adjoint
+            $name: $table, $stages, Needs::SPLIT.and(Needs::EXACT), $adjoint
         }
         on_exact_pieces!($name);
     )+};
@@ -229,11 +229,11 @@ general! {
 
 /// `first` and `second` are the constants of [`Nystrom`] for the two pieces.
 macro_rules! nystrom {
-    (@jumping kick $system:ident) => {
-        $system::JUMPING
+    (@jumping kick $of:ident) => {
+        $of.jumps
     };
-    (@jumping quadratic $system:ident) => {
-        [$system::JUMPING[1], $system::JUMPING[0]]
+    (@jumping quadratic $of:ident) => {
+        [$of.jumps[1], $of.jumps[0]]
     };
     ($($(#[$doc:meta])* $name:ident: $table:path, $stages:literal,
        $first:ident $first_piece:ident, $second:ident $second_piece:ident;)+) => {$(
@@ -251,13 +251,13 @@ macro_rules! nystrom {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-8);
             /// # Ok::<(), Error>(())
             /// ```
-            $name: $table, $stages, Nystrom, symmetric
+            $name: $table, $stages, Needs::NYSTROM, symmetric
         }
 
         impl<S: Nystrom> Scheme<S> for $name {
             type Carried = Point<S::Shape>;
             type Map<T: Real> = ZigzagOf<T, S, (S::$first_piece<T>, S::$second_piece<T>), Self>;
-            on_pieces!((S::$first::<T>(), S::$second::<T>()), nystrom!(@jumping $first S));
+            on_pieces!((S::$first::<T>(), S::$second::<T>()), of, nystrom!(@jumping $first of));
         }
     )+};
 }
@@ -301,7 +301,7 @@ macro_rules! near_integrable {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
             /// # Ok::<(), Error>(())
             /// ```
-            $name: $table, $stages, Exact, symmetric
+            $name: $table, $stages, Needs::SPLIT.and(Needs::EXACT), symmetric
         }
         on_exact_pieces!($name);
     )+};

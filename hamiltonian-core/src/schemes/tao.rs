@@ -63,7 +63,7 @@ impl Listed for Tao {
             equations: "",
             order: 2,
             duration: 1,
-            needs: Needs::Unforced,
+            needs: Needs::UNFORCED,
             preserves: Form::TwoCopies,
             source: "Tao 2016, eqs. 1 to 4, doi:10.1103/PhysRevE.94.043303",
         }

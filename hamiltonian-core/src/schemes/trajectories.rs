@@ -106,7 +106,7 @@ macro_rules! entries {
                     equations: $equations,
                     order: self.start.order(),
                     duration: $duration,
-                    needs: Needs::Unforced,
+                    needs: Needs::UNFORCED,
                     preserves: Form::TwoPoint,
                     source: SOURCE,
                 }

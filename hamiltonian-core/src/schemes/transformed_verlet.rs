@@ -78,7 +78,11 @@ impl Listed for TransformedVerlet {
             equations: "",
             order: 2,
             duration: 1,
-            needs: Needs::TimeTransformed,
+            needs: Needs::TIME_TRANSFORMED
+                .and(Needs::SEPARABLE)
+                .and(Needs::QUADRATIC_KINETIC)
+                .and(Needs::UNFORCED)
+                .and(Needs::AUTONOMOUS),
             preserves: Form::OnePoint,
             source: "Hairer, Lubich, Wanner 2006, section VIII.2.1, doi:10.1007/3-540-30666-8",
         }
@@ -223,7 +227,9 @@ where
 {
     #[inline(always)]
     fn solve(&self, z: &mut Point<WithTime<V>>, work: &mut VerletWork<V>) -> Cause {
-        let InNewTime { system, monitor } = &self.dynamics;
+        let InNewTime {
+            system, monitor, ..
+        } = &self.dynamics;
         let (zero, half, two) = (T::zero(), T::constant(0.5, 0.0), T::constant(2.0, 0.0));
         let (q, p) = (&mut z.q.x, &mut z.p.x);
         system.gradient_p(zero, q, p, &mut work.velocity);

@@ -166,7 +166,7 @@ impl<const DEGREE: usize, const POINTS: usize> Listed for Variational<DEGREE, PO
             equations: "(35)",
             order: exact.min(2 * DEGREE) as u32,
             duration: 1,
-            needs: Needs::Any,
+            needs: Needs::ANY,
             preserves: Form::OnePoint,
             source: "Leok, Zhang 2011, section 3, doi:10.1093/imanum/drq027",
         }

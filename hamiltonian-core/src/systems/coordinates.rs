@@ -151,7 +151,7 @@ where
 fn summed<T: Real, P: Parameter>(bodies: usize, masses: &[P]) -> Result<(Vec<T>, Vec<T>), Error> {
     if bodies == 0 || masses.len() != bodies {
         return Err(Error::Shape {
-            name: "masses",
+            name: "masses".into(),
             expected: bodies.max(1),
             found: masses.len(),
         });

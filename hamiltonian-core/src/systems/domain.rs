@@ -1,10 +1,10 @@
 //! The domain of H: states at which H is finite.
 //!
 //! Input: a prepared system and a state of finite numbers. Output: H, if it is NaN or infinite there. Invariant: H is
-//! not evaluated where [`System::GROWTH`] and the sizes of the numbers show that it is finite.
+//! not evaluated where [`Description::growth`](super::system::Description::growth) and the sizes of the numbers show that it is finite.
 
 use crate::systems::state::State;
-use crate::systems::system::{Dynamics, System, VectorOf};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -19,21 +19,21 @@ pub(crate) fn is_inside<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     state: &State<VectorOf<S, T>>,
 ) -> bool {
-    is_moderate::<T, S>(state) || undefined::<T, S>(prepared, state).is_none()
+    is_moderate(prepared.description(), state) || undefined::<T, S>(prepared, state).is_none()
 }
 
 /// Returns true if the numbers of a state are so small that H is finite there.
 #[inline(always)]
-fn is_moderate<T: Real, S: System>(state: &State<VectorOf<S, T>>) -> bool {
+fn is_moderate<V: Vector>(system: &Description, state: &State<V>) -> bool {
     // Scalars of less than double precision have smaller exponents.
-    let growth = match S::GROWTH {
-        Some(growth) if T::epsilon() <= f64::EPSILON => growth,
+    let growth = match system.growth {
+        Some(growth) if V::Scalar::epsilon() <= f64::EPSILON => growth,
         _ => return false,
     };
     let bound = f64::from_bits((1023 + EXPONENT / u64::from(growth.max(1))) << 52);
     let mut is_moderate = state.t.magnitude() < bound;
     for vector in [&state.q, &state.p] {
-        for k in 0..<VectorOf<S, T> as Vector>::PARTS {
+        for k in 0..V::PARTS {
             for number in vector.part(k) {
                 is_moderate &= number.magnitude() < bound;
             }

@@ -19,20 +19,20 @@ pub trait Fit<V: Vector>: Vector {
     ///
     /// # Errors
     /// [`Error::Shape`], [`Error::Row`] or [`Error::Extent`] for other lengths.
-    fn fit(self, name: &'static str) -> Result<V, Error>;
+    fn fit(self, name: &str) -> Result<V, Error>;
     /// What `set` makes of the same numbers in that storage.
-    fn set<X>(self, name: &'static str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;
+    fn set<X>(self, name: &str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;
 }
 
 #[diagnostic::do_not_recommend]
 impl<V: Vector> Fit<V> for V {
     type Outcome<X> = X;
     #[inline(always)]
-    fn fit(self, _: &'static str) -> Result<V, Error> {
+    fn fit(self, _: &str) -> Result<V, Error> {
         Ok(self)
     }
     #[inline(always)]
-    fn set<X>(self, _: &'static str, set: impl FnOnce(V) -> X) -> X {
+    fn set<X>(self, _: &str, set: impl FnOnce(V) -> X) -> X {
         set(self)
     }
 }
@@ -55,20 +55,20 @@ pub trait ListOf<K, V> {
     ///
     /// # Errors
     /// Those of [`Fit::fit`].
-    fn fit(self, name: &'static str) -> Result<V, Error>;
+    fn fit(self, name: &str) -> Result<V, Error>;
     /// What `set` makes of the same numbers in that storage.
-    fn set<X>(self, name: &'static str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;
+    fn set<X>(self, name: &str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;
 }
 
 #[diagnostic::do_not_recommend]
 impl<K, V: Vector, A: IntoVector<K, Vector: Fit<V>>> ListOf<K, V> for A {
     type Outcome<X> = <A::Vector as Fit<V>>::Outcome<X>;
     #[inline]
-    fn fit(self, name: &'static str) -> Result<V, Error> {
+    fn fit(self, name: &str) -> Result<V, Error> {
         Fit::fit(self.into_vector(), name)
     }
     #[inline]
-    fn set<X>(self, name: &'static str, set: impl FnOnce(V) -> X) -> Self::Outcome<X> {
+    fn set<X>(self, name: &str, set: impl FnOnce(V) -> X) -> Self::Outcome<X> {
         Fit::set(self.into_vector(), name, set)
     }
 }
@@ -82,10 +82,7 @@ trait Rectangle: Vector {
 }
 
 /// The elements of an array in storage of another type, if its extents are those of the type.
-fn fitted<W: Vector, V: Rectangle<Scalar = W::Scalar>>(
-    name: &'static str,
-    from: &W,
-) -> Result<V, Error> {
+fn fitted<W: Vector, V: Rectangle<Scalar = W::Scalar>>(name: &str, from: &W) -> Result<V, Error> {
     if let Some(Uneven([(_, expected), (at, found)])) = from.uneven(0) {
         return Err(Error::Row {
             name: named(name, at),
@@ -171,10 +168,10 @@ macro_rules! fit {
         #[diagnostic::do_not_recommend]
         impl<T: Real, $($generics)*> Fit<$to> for $from {
             type Outcome<X> = Result<X, Error>;
-            fn fit(self, name: &'static str) -> Result<$to, Error> {
+            fn fit(self, name: &str) -> Result<$to, Error> {
                 fitted(name, &self)
             }
-            fn set<X>(self, name: &'static str, set: impl FnOnce($to) -> X) -> Result<X, Error> {
+            fn set<X>(self, name: &str, set: impl FnOnce($to) -> X) -> Result<X, Error> {
                 fitted(name, &self).map(set)
             }
         }
@@ -198,10 +195,10 @@ macro_rules! lists {
         #[diagnostic::do_not_recommend]
         impl<T: Real, $(const $extent: usize),*> ListOf<[shape::Array; $rank], $list> for $list {
             type Outcome<X> = X;
-            fn fit(self, _: &'static str) -> Result<Self, Error> {
+            fn fit(self, _: &str) -> Result<Self, Error> {
                 Ok(self)
             }
-            fn set<X>(self, _: &'static str, set: impl FnOnce(Self) -> X) -> X {
+            fn set<X>(self, _: &str, set: impl FnOnce(Self) -> X) -> X {
                 set(self)
             }
         }
@@ -211,12 +208,12 @@ macro_rules! lists {
             Self: IntoVector<shape::Nested<$rank>, Vector = Lattice<T, $rank>>,
         {
             type Outcome<X> = Result<X, Error>;
-            fn fit(self, name: &'static str) -> Result<$list, Error> {
+            fn fit(self, name: &str) -> Result<$list, Error> {
                 let given = self.into_vector();
                 check_axes(name, [$($extent),*], &given)?;
                 Ok(lists!(@ given [] $($index)*))
             }
-            fn set<X>(self, name: &'static str, set: impl FnOnce($list) -> X) -> Result<X, Error> {
+            fn set<X>(self, name: &str, set: impl FnOnce($list) -> X) -> Result<X, Error> {
                 ListOf::fit(self, name).map(set)
             }
         }

@@ -105,8 +105,6 @@ pub trait Pieces<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     type Outer: Flow<Self::Point>;
     /// The flows of all others, down and up.
     type Inner: Flow<Self::Point>;
-    /// The pieces as text, in the same order.
-    const NAMES: &'static [&'static str];
     /// The flow of the first piece.
     fn outer(&self, prepared: &P, c: T) -> Self::Outer;
     /// The flows of the pieces 2…k for `down` and k…2 for `up`.
@@ -201,7 +199,6 @@ impl<T: Real, P, A: Piece<T, P>> Pieces<T, P> for (A,) {
     type Point = A::Point;
     type Outer = A::Flow;
     type Inner = Nothing;
-    const NAMES: &'static [&'static str] = &[A::Flow::NAME];
     #[inline(always)]
     fn outer(&self, prepared: &P, c: T) -> A::Flow {
         self.0.flow(prepared, c)
@@ -224,7 +221,6 @@ macro_rules! pieces {
             type Point = $first::Point;
             type Outer = $first::Flow;
             type Inner = Turn<$second::Flow>;
-            const NAMES: &'static [&'static str] = &[$first::Flow::NAME, $second::Flow::NAME];
             #[inline(always)]
             fn outer(&self, prepared: &P, c: T) -> Self::Outer {
                 self.0.flow(prepared, c)
@@ -247,8 +243,6 @@ macro_rules! pieces {
             type Outer = $first::Flow;
             type Inner =
                 Sandwich<$second::Flow, <($second, $($rest),+) as Pieces<T, P>>::Inner>;
-            const NAMES: &'static [&'static str] =
-                &[$first::Flow::NAME, $second::Flow::NAME, $($rest::Flow::NAME),+];
             #[inline(always)]
             fn outer(&self, prepared: &P, c: T) -> Self::Outer {
                 self.0.flow(prepared, c)

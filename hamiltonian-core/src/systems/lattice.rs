@@ -200,7 +200,7 @@ pub fn fits(name: &'static str, extents: &[usize]) -> Result<(), Error> {
     let has_room = |number: usize| Vec::<f64>::new().try_reserve_exact(number).is_ok();
     match product(extents) {
         Some(number) if has_room(number) => Ok(()),
-        _ => Err(Error::Memory { name }),
+        _ => Err(Error::Memory { name: name.into() }),
     }
 }
 
@@ -240,7 +240,7 @@ pub fn check_parameter<T: Real>(name: &str, extents: &[usize], values: &[T]) -> 
 /// [`Error::Row`] if nested lists differ in length, [`Error::Extent`] if an extent is not the declared one,
 /// [`Error::Memory`] if no array has so many elements, [`Error::Parameter`] for the first number that is NaN.
 pub fn check_lattice<T: Real, const R: usize>(
-    name: &'static str,
+    name: &str,
     extents: [usize; R],
     given: &Lattice<T, R>,
 ) -> Result<(), Error> {
@@ -250,12 +250,12 @@ pub fn check_lattice<T: Real, const R: usize>(
 
 /// Checks the extents of a parameter with several axes.
 pub(crate) fn check_axes<T: Real, const R: usize>(
-    name: &'static str,
+    name: &str,
     extents: [usize; R],
     given: &Lattice<T, R>,
 ) -> Result<(), Error> {
     let Some(number) = product(&extents) else {
-        return Err(Error::Memory { name });
+        return Err(Error::Memory { name: name.into() });
     };
     let found = (&given.extents[..], given.elements.len());
     same_part(name, given.uneven(0), (&extents, number), found)
@@ -266,26 +266,22 @@ pub(crate) fn check_axes<T: Real, const R: usize>(
 /// # Errors
 /// [`Error::Shape`] if the number of elements differs, [`Error::Extent`] if an extent does, [`Error::Memory`]
 /// if no array has so many elements.
-pub fn check_extents(
-    name: &'static str,
-    expected: [usize; 2],
-    found: [usize; 2],
-) -> Result<(), Error> {
+pub fn check_extents(name: &str, expected: [usize; 2], found: [usize; 2]) -> Result<(), Error> {
     let Some(number) = product(&expected) else {
-        return Err(Error::Memory { name });
+        return Err(Error::Memory { name: name.into() });
     };
     // An array that exists has a number of elements.
     let given = found[0] * found[1];
     if number != given {
         return Err(Error::Shape {
-            name,
+            name: name.into(),
             expected: number,
             found: given,
         });
     }
     match (0..2).find(|axis| expected[*axis] != found[*axis]) {
         Some(axis) if number > 0 => Err(Error::Extent {
-            name,
+            name: name.into(),
             axis,
             expected: expected[axis],
             found: found[axis],
@@ -304,7 +300,7 @@ mod tests {
         for extents in [[usize::MAX, 2], [1 << 31, 1 << 31]] {
             let error = fits("u", &extents);
             assert!(
-                matches!(error, Err(Error::Memory { name: "u" })),
+                matches!(&error, Err(Error::Memory { name }) if **name == *"u"),
                 "{error:?}"
             );
         }

@@ -7,10 +7,11 @@ use crate::error::Error;
 use crate::systems::flow::VectorField;
 use crate::systems::system::gather::{InPack, Kept, with_whole};
 use crate::systems::system::{
-    Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf, derivatives_are_free,
+    Autonomous, Description, Dynamics, System, Unforced, VectorOf, derivatives_are_free,
 };
 use crate::systems::vector::{Over, Vector};
-use alloc::string::ToString;
+use alloc::format;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 use hamiltonian_lanes::{Dual, Pack, Real};
@@ -28,9 +29,10 @@ use hamiltonian_lanes::{Dual, Pack, Real};
 /// // The oscillator declares no observable.
 /// assert!(Observed::new(Oscillator {}, "height").is_err());
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Observed<S> {
     system: S,
+    description: Arc<Description>,
     index: usize,
 }
 
@@ -40,24 +42,28 @@ impl<S: System> Observed<S> {
     /// # Errors
     /// [`Error::Unknown`] if the system does not declare it, [`Error::Timed`] if it depends on time.
     pub fn new(system: S, name: &str) -> Result<Self, Error> {
-        let found = S::observable_index(name).and_then(|index| {
-            let observable = S::OBSERVABLES.get(index)?;
-            Some((index, observable))
-        });
-        match found {
-            Some((index, observable)) if !observable.depends_on_time => {
-                Ok(Observed { system, index })
-            }
-            Some((_, observable)) => Err(Error::Timed {
-                name: observable.name,
-                system: S::NAME,
-            }),
-            None => Err(Error::Unknown {
-                name: name.to_string(),
-                system: S::NAME,
-                known: S::OBSERVABLES.iter().map(|known| known.name).collect(),
-            }),
+        let known = system.description();
+        let Some(index) = known.observable_index(name) else {
+            return Err(known.unknown(name));
+        };
+        let observable = &known.observables[index];
+        if observable.depends_on_time {
+            return Err(Error::Timed {
+                name: (*observable.name).into(),
+                system: (*known.name).into(),
+            });
         }
+        let description = Arc::new(Description {
+            name: known.name.clone(),
+            formula: format!("{} of {}", observable.name, known.formula).into(),
+            groups: known.groups.clone(),
+            ..Description::NONE
+        });
+        Ok(Observed {
+            system,
+            description,
+            index,
+        })
     }
 }
 
@@ -69,15 +75,12 @@ impl<S: System> System for Observed<S> {
     type Shape = S::Shape;
     type Prepared<T: Real> =
         ReadyObserved<T, S::Prepared<T>, S::Prepared<Dual<T>>, S::Prepared<Dual<Dual<T>>>>;
-    const NAME: &'static str = S::NAME;
-    const GROUPS: &'static [Group] = S::GROUPS;
-    const OBSERVABLES: &'static [Observable] = &[];
     const DUALS: u32 = S::DUALS;
 
+    fn description(&self) -> &Description {
+        &self.description
+    }
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
-        let observable = S::OBSERVABLES.get(self.index);
-        let name = observable.map_or("", |observable| observable.name);
-        writeln!(to, "{name} of {}", S::FORMULA)?;
         self.system.describe_parameters(to)
     }
     fn prepare<T: Real>(&self) -> Self::Prepared<T> {
@@ -86,6 +89,7 @@ impl<S: System> System for Observed<S> {
             plain: self.system.prepare(),
             first: ready::<_, Dual<T>>(&self.system),
             second: ready::<_, Dual<Dual<T>>>(&self.system),
+            description: Arc::clone(&self.description),
             index: self.index,
         }
     }
@@ -107,6 +111,7 @@ impl<S: System> System for Observed<S> {
                 S::gather::<Dual<Dual<T>>, L>(&second),
                 one.second.1.zeros_over(),
             ),
+            description: Arc::clone(&one.description),
             index: one.index,
         }
     }
@@ -136,6 +141,7 @@ where
     plain: P,
     first: Ready<F, Dual<T>>,
     second: Ready<G, Dual<Dual<T>>>,
+    description: Arc<Description>,
     index: usize,
 }
 
@@ -209,6 +215,9 @@ where
     type Vector = P::Vector;
     type Field = FieldObserved<Self, T>;
 
+    fn description(&self) -> &Description {
+        &self.description
+    }
     #[inline(always)]
     fn energy(&self, t: T, q: &P::Vector, p: &P::Vector) -> T {
         self.plain.observable(self.index, t, q, p)
@@ -392,6 +401,7 @@ where
         let ReadyObserved {
             first: (_, first),
             second: (_, zeros),
+            description,
             index,
             ..
         } = self.ready;
@@ -399,6 +409,7 @@ where
             plain: self.plain.clone(),
             first: (self.first.clone(), first.zeros_over()),
             second: (second.clone(), zeros.zeros_over()),
+            description: Arc::clone(description),
             index: *index,
         };
         with_whole(

@@ -62,10 +62,10 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
     ///
     /// # Errors
     /// [`Error::Memory`]
-    pub const fn check_memory(&self, sum: &'static str) -> Result<(), Error> {
+    pub fn check_memory(&self, sum: &str) -> Result<(), Error> {
         match self.fits() {
             true => Ok(()),
-            false => Err(Error::Memory { name: sum }),
+            false => Err(Error::Memory { name: sum.into() }),
         }
     }
 

@@ -107,13 +107,13 @@ pub trait IntoStart<V: Vector> {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Row`] if a list whose length the compiler does not know has another length than
     /// the type.
-    fn into_start(self, names: [&'static str; 2]) -> Result<State<V>, Error>;
+    fn into_start(self, names: [&str; 2]) -> Result<State<V>, Error>;
 }
 
 #[diagnostic::do_not_recommend]
 impl<V: Vector, W: Fit<V, Scalar = V::Scalar>> IntoStart<V> for State<W> {
     #[inline(always)]
-    fn into_start(self, [q, p]: [&'static str; 2]) -> Result<State<V>, Error> {
+    fn into_start(self, [q, p]: [&str; 2]) -> Result<State<V>, Error> {
         Ok(State {
             t: self.t,
             q: self.q.fit(q)?,
@@ -127,7 +127,7 @@ fn has_length(expected: usize, found: usize) -> Result<(), Error> {
     match expected == found {
         true => Ok(()),
         false => Err(Error::Shape {
-            name: "state",
+            name: "state".into(),
             expected,
             found,
         }),

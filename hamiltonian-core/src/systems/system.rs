@@ -8,52 +8,16 @@
 
 use crate::error::Error;
 use crate::systems::flow::{Piece, Pieces, VectorField};
+mod description;
 pub mod gather;
+
+pub use description::{Description, Group, NamedPiece, Observable, ObservableKind, Text};
 
 use crate::systems::state::{Gradient, Point, State};
 use crate::systems::uneven::same_part;
 use crate::systems::vector::{Shape, Vector};
 use gather::{InPack, Kept};
 use hamiltonian_lanes::{Dual, Pack, Real};
-
-/// One declared coordinate, a number or an array: `q`, `x[N]`, `q[n][3]`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Group {
-    /// The coordinate's name.
-    pub coordinate: &'static str,
-    /// The name of the conjugate momentum.
-    pub momentum: &'static str,
-    /// 0 for a scalar, 1 for `[N]`, 2 for `[N][c]`, the number of axes of a [`Lattice`](crate::Lattice).
-    pub rank: usize,
-    /// The part of the [`Vector`] that holds the group, and
-    pub part: usize,
-    /// the index of its first component in that part.
-    pub offset: usize,
-    /// The last extent of a rank-2 group that is stored column after column; 1 otherwise.
-    pub columns: usize,
-}
-
-/// The declaration of a named function of (t, q, p).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ObservableKind {
-    /// `monitor name = e`
-    Monitor,
-    /// `invariant name = e`, proven at compile time or assumed by its author
-    Invariant,
-    /// `event name = e`
-    Event,
-}
-
-/// A named scalar function of (t, q, p). A function with vector values has one entry for each component.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Observable {
-    /// The declared name, with the component in brackets for vectors: `angular_momentum[2]`.
-    pub name: &'static str,
-    /// Its declaration.
-    pub kind: ObservableKind,
-    /// True if t is in it.
-    pub depends_on_time: bool,
-}
 
 /// The coordinates of a system over a scalar, and its momenta, which have the same shape.
 pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
@@ -66,10 +30,13 @@ pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
 /// The macro implements it for every definition. A system written by hand is generic over its scalar too:
 ///
 /// ```
-/// use hamiltonian::{Unforced, VectorOf, schemes::author::{Dynamics, Group, InPack, Kept, VectorField, gather}};
+/// use hamiltonian::{Unforced, VectorOf, schemes::author::{Description, Dynamics, Group, InPack, Kept, VectorField, gather}};
 /// use hamiltonian::lanes::Pack;
 /// use hamiltonian::nalgebra::SVector;
 /// use hamiltonian::prelude::*;
+///
+/// const GROUPS: &[Group] = &[Group::scalar("q", "p", 0)];
+/// const SPRING: &Description = &Description::new("Spring", GROUPS);
 ///
 /// /// H = ½(p² + ω²q²)
 /// struct Spring {
@@ -84,9 +51,9 @@ pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
 /// impl System for Spring {
 ///     type Shape = SVector<(), 1>;
 ///     type Prepared<T: Real> = Ready<T>;
-///     const NAME: &'static str = "Spring";
-///     const GROUPS: &'static [Group] =
-///         &[Group { coordinate: "q", momentum: "p", rank: 0, part: 0, offset: 0, columns: 1 }];
+///     fn description(&self) -> &Description {
+///         SPRING
+///     }
 ///     fn prepare<T: Real>(&self) -> Ready<T> {
 ///         Ready { omega_squared: T::constant(self.omega * self.omega, 0.0) }
 ///     }
@@ -107,6 +74,7 @@ pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
 /// # impl<T: Real> Dynamics<T> for Ready<T> {
 /// #     type Vector = SVector<T, 1>;
 /// #     type Field = Scaled<T>;
+/// #     fn description(&self) -> &Description { SPRING }
 /// #     fn energy(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> T { (p[0] * p[0] + self.omega_squared * q[0] * q[0]) * T::constant(0.5, 0.0) }
 /// #     fn gradient_q(&self, _: T, q: &SVector<T, 1>, _: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = self.omega_squared * q[0]; }
 /// #     fn gradient_p(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = p[0]; }
@@ -149,32 +117,12 @@ pub trait System {
     /// The prepared system over a scalar, with all that depends on parameters alone computed.
     type Prepared<T: Real>: Dynamics<T, Vector = VectorOf<Self, T>> + Send + Sync + 'static;
 
-    /// The name of the system (of the type for item form, `H` for expression form).
-    const NAME: &'static str;
-    /// The groups of coordinates in declaration order.
-    const GROUPS: &'static [Group];
-    /// Monitors, invariants and events in declaration order.
-    const OBSERVABLES: &'static [Observable] = &[];
-    /// True if each of them reads coordinates, and the same for momenta. One that is missing here may read
-    /// both.
-    const READS: &'static [[bool; 2]] = &[];
-    /// The name of the time s of a system in another time, dt = g ds: there H is g·(h + p_t) with h the
-    /// declared one, its last coordinate is the time t, and its last momentum is p_t = −h on the shell
-    /// H = 0, on which alone orbits are those of h. Runs ask starts for it and show h as the energy.
-    const FICTITIOUS_TIME: Option<&'static str> = None;
-
-    /// `Some(n)` if H is defined for all finite numbers, and neither it nor a part of it grows faster than the n-th
-    /// power of their size. Runs do not evaluate H where it is known to be finite. `None` if nothing is known: runs
-    /// then evaluate H at the end of each block of steps.
-    const GROWTH: Option<u32> = None;
-
-    /// True if H or the force jumps at times that do not depend on the state, such as `if t < 1 { … } else { … }`. Schemes
-    /// then evaluate it inside of their steps only, or are refused, so that steps may end at the jumps.
-    const JUMPS: bool = false;
+    /// What describes the system. That of a definition is a constant.
+    fn description(&self) -> &Description;
 
     /// The number of dual numbers inside each other in its parameters: 1 for parameters `Dual<f64>`. Derivatives by
     /// coordinates are outside of these. They need as many dual numbers in the scalar of the states, or do not compile:
-    /// the two derivatives would be one number.
+    /// the two derivatives would be one number. It is a constant, since rustc refuses what does not fit it.
     ///
     /// ```compile_fail,E0080
     /// use hamiltonian::prelude::*;
@@ -194,10 +142,6 @@ pub trait System {
     /// assert_eq!((slope.re, slope.eps), (4.0, 1.0)); // ∂v/∂x = k, and its derivative by k
     /// ```
     const DUALS: u32 = 0;
-
-    /// H in the author's notation, with a force and pieces where there are some; by it a saved run is
-    /// recognised.
-    const FORMULA: &'static str = "";
 
     /// Writes the parameters with their values, all digits of them, each on a line, `m = 1.5`; by
     /// them a saved run is recognised, and the members of a stored sweep. Without them a sweep recognises its members
@@ -230,7 +174,7 @@ pub trait System {
     /// first axis of another extent, [`Error::Row`] with a row of another length than others.
     fn check_shape<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> Result<(), Error> {
         let zeros = self.zeros();
-        check_shape_like::<Self, _>([&zeros, &zeros], state)
+        check_shape_like(self.description(), [&zeros, &zeros], state)
     }
 
     /// H at a state.
@@ -261,14 +205,6 @@ pub trait System {
         force
     }
 
-    /// The index of an observable (a monitor, an invariant or an event) in
-    /// [`OBSERVABLES`](System::OBSERVABLES), from its name: `height`, or `angular_momentum[2]` for a component.
-    fn observable_index(name: &str) -> Option<usize> {
-        Self::OBSERVABLES
-            .iter()
-            .position(|known| known.name == name)
-    }
-
     /// The observable of that name at a state; `None` if there is none.
     ///
     /// ```
@@ -279,7 +215,7 @@ pub trait System {
     /// assert_eq!(oscillator.observable_named("height", &state), None);
     /// ```
     fn observable_named<T: Real>(&self, name: &str, state: &State<VectorOf<Self, T>>) -> Option<T> {
-        let index = Self::observable_index(name)?;
+        let index = self.description().observable_index(name)?;
         let prepared = self.prepare::<T>();
         Some(prepared.observable(index, state.t, &state.q, &state.p))
     }
@@ -291,8 +227,7 @@ pub trait System {
         name: &str,
         state: &State<VectorOf<Self, T>>,
     ) -> Option<Gradient<VectorOf<Self, T>>> {
-        derivatives_are_free::<T, Self>();
-        let index = Self::observable_index(name)?;
+        let index = self.description().observable_index(name)?;
         let prepared = self.prepare::<Dual<T>>();
         let dual = |from: &VectorOf<Self, T>| {
             let mut to = self.zeros::<Dual<T>>();
@@ -375,6 +310,8 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// J∇H, with the force where there is one, scaled by a step coefficient.
     type Field: VectorField<Self::Vector>;
 
+    /// What describes the system, as [`System::description`] returns it. Nothing reads it within a step.
+    fn description(&self) -> &Description;
     /// H.
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
     /// ∂H/∂q into `out`.
@@ -426,7 +363,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     fn force(&self, _: T, _: &Self::Vector, _: &Self::Vector, out: &mut Self::Vector) {
         out.set_zero();
     }
-    /// Observable `index` of [`System::OBSERVABLES`]; the provided one is for systems that have none.
+    /// Observable `index` of [`Description::observables`]; the provided one is for systems that have none.
     ///
     /// # Panics
     /// If there is no observable of that index.
@@ -477,11 +414,6 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     }
 }
 
-/// The name of the time of a run: `t`, in another time the one that it has there.
-pub(crate) fn clock<S: System>() -> &'static str {
-    S::FICTITIOUS_TIME.unwrap_or("t")
-}
-
 /// The declared H at a state: in another time, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
 #[inline(always)]
 pub(crate) fn declared_energy<T: Real, S: System>(
@@ -503,7 +435,7 @@ pub(crate) fn declared_energy_at<T: Real, S: System>(
     let Some(last) = p.len().checked_sub(1) else {
         return energy;
     };
-    if S::FICTITIOUS_TIME.is_none() {
+    if prepared.description().fictitious_time.is_none() {
         return energy;
     }
     let mut velocities = p.zeros_like();
@@ -523,15 +455,10 @@ pub(crate) fn declared_energy_at<T: Real, S: System>(
     note = "a system written by hand implements `Split`"
 )]
 pub trait Split: System {
-    /// The pieces, the outermost first.
+    /// The pieces, the outermost first, in the order of [`Description::pieces`].
     type Pieces<T: Real>: Pieces<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
     /// The pieces.
     fn pieces<T: Real>() -> Self::Pieces<T>;
-    /// The pieces as text, in the same order.
-    const NAMES: &'static [&'static str] =
-        <Self::Pieces<f64> as Pieces<f64, Self::Prepared<f64>>>::NAMES;
-    /// [`JUMPS`](System::JUMPS) of the first piece, and of the others. The macro puts a piece first that does not jump.
-    const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
 
 /// H = T(p, t) + V(q, t), proven at compile time.
@@ -550,8 +477,6 @@ pub trait Separable: System {
     fn kick<T: Real>() -> Self::Kick<T>;
     /// The drift.
     fn drift<T: Real>() -> Self::Drift<T>;
-    /// [`JUMPS`](System::JUMPS) of the kick, and of the drift.
-    const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
 
 /// H = A(q, p) + V(q, t), with A at most quadratic in p and with an exact flow. Nyström schemes require it: then
@@ -575,8 +500,6 @@ pub trait Nystrom: System {
     fn kick<T: Real>() -> Self::Kick<T>;
     /// The piece that is at most quadratic in p.
     fn quadratic<T: Real>() -> Self::Quadratic<T>;
-    /// [`JUMPS`](System::JUMPS) of the kick, and of the other piece.
-    const JUMPING: [bool; 2] = [Self::JUMPS; 2];
 }
 
 /// No force acts besides −∂H/∂q. Schemes that cannot integrate a force require it.
@@ -617,33 +540,23 @@ pub trait QuadraticKinetic {}
 )]
 pub trait Autonomous {}
 
-/// Coordinates that do not appear in H: their momenta are conserved.
-pub trait Cyclic {
-    /// Names of the cyclic coordinates as declared (`q`, or `q[0]` for a component).
-    const CYCLIC: &'static [&'static str] = &[];
-}
-
 /// Returns an error for a state of another shape than these coordinates and momenta.
-pub(crate) fn check_shape_like<S: System + ?Sized, V: Vector>(
+pub(crate) fn check_shape_like<V: Vector>(
+    description: &Description,
     [q, p]: [&V; 2],
     state: &State<V>,
 ) -> Result<(), Error> {
-    let coordinates = S::GROUPS.iter().map(|g| (g.part, g.coordinate));
+    let groups = description.groups.iter();
+    let coordinates = groups.clone().map(|g| (g.part, &*g.coordinate));
     same_shape(coordinates, q, &state.q)?;
-    let momenta = S::GROUPS.iter().map(|g| (g.part, g.momentum));
+    let momenta = groups.map(|g| (g.part, &*g.momentum));
     same_shape(momenta, p, &state.p)
-}
-
-/// The names of the first coordinate and its momentum, for errors of their shape.
-pub(crate) fn names<S: System + ?Sized>() -> [&'static str; 2] {
-    let first = S::GROUPS.first();
-    first.map_or(["q", "p"], |group| [group.coordinate, group.momentum])
 }
 
 /// An error where a part has not the length the system asks for, with the name of the first group
 /// in it.
-fn same_shape<V: Vector>(
-    groups: impl Iterator<Item = (usize, &'static str)> + Clone,
+fn same_shape<'a, V: Vector>(
+    groups: impl Iterator<Item = (usize, &'a str)> + Clone,
     expected: &V,
     found: &V,
 ) -> Result<(), Error> {

@@ -10,9 +10,10 @@ use crate::systems::observed::Observed;
 use crate::systems::state::{Pair, State};
 use crate::systems::system::gather::{InPack, Kept, with_whole};
 use crate::systems::system::{
-    Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced, VectorOf, deepest,
+    Arithmetic, Autonomous, Description, Dynamics, Group, System, Unforced, VectorOf, deepest,
 };
 use crate::systems::vector::{Over, Vector, dot};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 use hamiltonian_lanes::{Mask, Pack, Real};
@@ -60,12 +61,13 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// assert!((0.4..0.5).contains(&end.t) && (end.q[0] - end.t.cos()).abs() < 1e-9);
 /// # Ok::<(), Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TimeTransformed<S, G> {
     /// H.
     pub system: S,
     /// g.
     pub monitor: G,
+    description: Arc<Description>,
 }
 
 /// [`TimeTransformed`], prepared.
@@ -73,6 +75,7 @@ pub struct TimeTransformed<S, G> {
 pub struct InNewTime<P, G> {
     pub(crate) system: P,
     pub(crate) monitor: G,
+    description: Arc<Description>,
 }
 
 impl<S: System + Clone> TimeTransformed<S, Observed<S>> {
@@ -82,15 +85,20 @@ impl<S: System + Clone> TimeTransformed<S, Observed<S>> {
     /// [`Error::Unknown`] if it declares none of this name, [`Error::Timed`] if it depends on time.
     pub fn by(system: S, monitor: &str) -> Result<Self, Error> {
         let monitor = Observed::new(system.clone(), monitor)?;
-        Ok(TimeTransformed { system, monitor })
+        Ok(TimeTransformed::new(system, monitor))
     }
 }
 
-impl<S, G> TimeTransformed<S, G> {
+impl<S: System, G> TimeTransformed<S, G> {
     /// H in the time of g: `monitor` is a system whose H is g, not a closure, because schemes need
     /// the derivatives of g.
     pub fn new(system: S, monitor: G) -> Self {
-        TimeTransformed { system, monitor }
+        let description = Arc::new(in_new_time::<VectorOf<S>>(system.description()));
+        TimeTransformed {
+            system,
+            monitor,
+            description,
+        }
     }
 
     /// The start of a run from a state of H: s = 0, and p_t = −H.
@@ -103,7 +111,6 @@ impl<S, G> TimeTransformed<S, G> {
         state: &State<VectorOf<S, T>>,
     ) -> Result<State<WithTime<VectorOf<S, T>>>, Error>
     where
-        S: System,
         G: System<Shape = S::Shape>,
     {
         self.system.check_shape(state)?;
@@ -133,41 +140,23 @@ impl<S, G> TimeTransformed<S, G> {
             p: state.p.x.clone(),
         }
     }
-
-    /// The groups of H, and that of the time.
-    const fn groups() -> &'static [Group]
-    where
-        S: System,
-    {
-        let all: &'static [Group] = const { &with_time(S::GROUPS, <VectorOf<S> as Vector>::PARTS) };
-        all.split_at(S::GROUPS.len() + 1).0
-    }
 }
 
-/// The largest number of groups of coordinates in another time.
-const MOST_GROUPS: usize = 64;
-
-/// The groups, and the time, repeated.
-const fn with_time(groups: &[Group], part: usize) -> [Group; MOST_GROUPS] {
-    assert!(
-        groups.len() < MOST_GROUPS,
-        "a system has 63 groups of coordinates at most for another time"
-    );
-    let time = Group {
-        coordinate: "t",
-        momentum: "p_t",
-        rank: 0,
-        part,
-        offset: 0,
-        columns: 1,
-    };
-    let mut all = [time; MOST_GROUPS];
-    let mut k = 0;
-    while k < groups.len() {
-        all[k] = groups[k];
-        k += 1;
+/// The description of a system in the time s: its last group is the time t. V is its vector.
+fn in_new_time<V: Vector>(of: &Description) -> Description {
+    let mut groups = of.groups.to_vec();
+    groups.push(Group {
+        part: V::PARTS,
+        ..Group::scalar("t", "p_t", 0)
+    });
+    Description {
+        name: of.name.clone(),
+        formula: of.formula.clone(),
+        groups: groups.into(),
+        observables: of.observables.clone(),
+        fictitious_time: Some("s".into()),
+        ..Description::NONE
     }
-    all
 }
 
 impl<S, G> System for TimeTransformed<S, G>
@@ -177,22 +166,22 @@ where
 {
     type Shape = Pair<S::Shape, SVector<(), 1>>;
     type Prepared<T: Real> = InNewTime<S::Prepared<T>, G::Prepared<T>>;
-    const NAME: &'static str = S::NAME;
-    const GROUPS: &'static [Group] = Self::groups();
-    const OBSERVABLES: &'static [Observable] = S::OBSERVABLES;
-    const FICTITIOUS_TIME: Option<&'static str> = Some("s");
-    const FORMULA: &'static str = S::FORMULA;
     const DUALS: u32 = deepest(&[S::DUALS, G::DUALS]);
 
+    fn description(&self) -> &Description {
+        &self.description
+    }
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
         self.system.describe_parameters(to)?;
-        writeln!(to, "in the time of {}: {}", G::NAME, G::FORMULA)?;
+        let Description { name, formula, .. } = self.monitor.description();
+        writeln!(to, "in the time of {name}: {formula}")?;
         self.monitor.describe_parameters(to)
     }
     fn prepare<T: Real>(&self) -> Self::Prepared<T> {
         InNewTime {
             system: self.system.prepare(),
             monitor: self.monitor.prepare(),
+            description: Arc::clone(&self.description),
         }
     }
     fn zeros<T: Real>(&self) -> WithTime<VectorOf<S, T>> {
@@ -208,6 +197,7 @@ where
         InNewTime {
             system: S::gather::<T, L>(&systems),
             monitor: G::gather::<T, L>(&monitors),
+            description: Arc::clone(&members[0].description),
         }
     }
     fn fits<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool {
@@ -230,6 +220,9 @@ where
     type Vector = WithTime<P::Vector>;
     type Field = FieldInNewTime<P, G, T>;
 
+    fn description(&self) -> &Description {
+        &self.description
+    }
     #[inline(always)]
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
         let scale = self.monitor.energy(t, &q.x, &p.x);
@@ -327,7 +320,8 @@ where
     #[inline(always)]
     fn field(&self, c: T) -> Self::Field {
         FieldInNewTime {
-            dynamics: self.clone(),
+            system: self.system.clone(),
+            monitor: self.monitor.clone(),
             c,
         }
     }
@@ -337,15 +331,19 @@ where
         kept: &mut Kept,
         kernel: K,
     ) -> Option<K::Output> {
-        let monitor = &self.monitor;
-        self.system
-            .in_pack::<L, _>(kept, ToMonitor { monitor, kernel })?
+        let to_monitor = ToMonitor {
+            monitor: &self.monitor,
+            description: &self.description,
+            kernel,
+        };
+        self.system.in_pack::<L, _>(kept, to_monitor)?
     }
 }
 
 /// A kernel on its way to packs: the system is there, the monitor follows.
 struct ToMonitor<'a, G, K> {
     monitor: &'a G,
+    description: &'a Arc<Description>,
     kernel: K,
 }
 
@@ -362,14 +360,24 @@ where
     where
         D: Dynamics<T::Over<L>, Vector = Over<G::Vector, T::Over<L>>> + 'static,
     {
-        let kernel = self.kernel;
-        (self.monitor).in_pack::<L, _>(kept, ToBoth { system, kernel })
+        let ToMonitor {
+            monitor,
+            description,
+            kernel,
+        } = self;
+        let to_both = ToBoth {
+            system,
+            description,
+            kernel,
+        };
+        monitor.in_pack::<L, _>(kept, to_both)
     }
 }
 
 /// A kernel for the system in the packs where it is, when the monitor is there too.
 struct ToBoth<'a, D, K> {
     system: &'a D,
+    description: &'a Arc<Description>,
     kernel: K,
 }
 
@@ -390,6 +398,7 @@ where
         let whole = || InNewTime {
             system: self.system.clone(),
             monitor: monitor.clone(),
+            description: Arc::clone(self.description),
         };
         with_whole(kept, |_| true, whole, self.kernel)
     }
@@ -398,7 +407,8 @@ where
 /// c·J∇K.
 #[derive(Debug, Clone)]
 pub struct FieldInNewTime<P, G, T> {
-    dynamics: InNewTime<P, G>,
+    system: P,
+    monitor: G,
     c: T,
 }
 
@@ -417,7 +427,9 @@ where
         into_q: &mut WithTime<P::Vector>,
         into_p: &mut WithTime<P::Vector>,
     ) {
-        let InNewTime { system, monitor } = &self.dynamics;
+        let FieldInNewTime {
+            system, monitor, ..
+        } = self;
         let scale = self.c * monitor.energy(t, &q.x, &p.x);
         let shell = self.c * (system.energy(t, &q.x, &p.x) + p.y[0]);
         system.add_field(scale, t, &q.x, &p.x, &mut into_q.x, &mut into_p.x);

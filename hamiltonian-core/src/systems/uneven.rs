@@ -33,7 +33,7 @@ pub(crate) fn named(name: &str, at: &[usize]) -> String {
 
 /// An error where the extents or the number of elements of an array are not the expected ones.
 pub(crate) fn same_part(
-    name: &'static str,
+    name: &str,
     uneven: Option<&Uneven>,
     expected: (&[usize], usize),
     found: (&[usize], usize),
@@ -47,13 +47,13 @@ pub(crate) fn same_part(
     let mut extents = axes.iter().zip(own).enumerate();
     match extents.find(|(_, (a, b))| !is_empty && a != b) {
         Some((axis, (expected, found))) => Err(Error::Extent {
-            name,
+            name: name.into(),
             axis,
             expected: *expected,
             found: *found,
         }),
         None if expected != found => Err(Error::Shape {
-            name,
+            name: name.into(),
             expected,
             found,
         }),

@@ -12,7 +12,7 @@ struct Saves(BTreeMap<String, Checkpoint>);
 
 impl<S: Sample<f64>> Visitor<S> for Saves {
     fn visit<M: Scheme<S>>(&mut self, scheme: M) {
-        let name = format!("{} on {}", scheme.entry(), S::NAME);
+        let name = format!("{} on {}", scheme.entry(), S::sample().description().name);
         let run = Integrator::new(&S::sample(), scheme, S::begin(), 0.01);
         let mut run = run.expect("the start is good");
         run.advance(50).expect("the run stays finite");

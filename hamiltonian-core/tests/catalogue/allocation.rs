@@ -30,7 +30,7 @@ impl<S: System> Visitor<S> for NoAllocations<S> {
             run.advance(1).unwrap();
             run.advance_to(run.time() + run.interval() * 10.0).unwrap();
         });
-        assert_eq!(count, 0, "{name} on {}", S::NAME);
+        assert_eq!(count, 0, "{name} on {}", system.description().name);
         let observers = (
             EnergyDrift::new(),
             every(10, (Monitors::new(), Recorder::with_capacity(101))),
@@ -39,7 +39,12 @@ impl<S: System> Visitor<S> for NoAllocations<S> {
         let count = allocations(|| {
             run.advance(1000).unwrap();
         });
-        assert_eq!(count, 0, "{name} on {}, observed", S::NAME);
+        assert_eq!(
+            count,
+            0,
+            "{name} on {}, observed",
+            system.description().name
+        );
         assert_eq!(run.observer().1.inner.1.rows(), 101);
     }
 }

@@ -49,7 +49,7 @@ impl<S: Sample<Dual<f64>>> Visitor<S> for Forms {
             "{} {} on {}: {defect:.1e}",
             entry.name,
             entry.variant,
-            S::NAME
+            system.description().name
         );
         let right = match entry.preserves {
             Form::OnePoint => defect <= 3e-13,

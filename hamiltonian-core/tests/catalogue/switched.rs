@@ -1,6 +1,6 @@
 //! H(t) with jumps at the ends of steps: each scheme is that of smooth systems one after the other, or is refused.
 
-use crate::common::systems::{Formula, Halves, Hand, scalar};
+use crate::common::systems::{Formula, Halves, Hand};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_compensated, visit_doubled, visit_energy, visit_exact,
@@ -54,7 +54,7 @@ impl<const V: bool, const T: bool, const SAID: bool> Switched<V, T, SAID> {
 
 impl<const V: bool, const T: bool, const SAID: bool> Formula<1> for Switched<V, T, SAID> {
     const NAME: &'static str = "Switched";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     const JUMPING: [bool; 2] = [V && SAID, T && SAID];
     fn energy<R: Real>(&self, t: R, [q]: &[R; 1], [p]: &[R; 1]) -> R {
         let [a, b] = self.factors(t);

@@ -4,7 +4,7 @@ use super::systems::{Half, Moving, number};
 use hamiltonian_core::private::DVector;
 use hamiltonian_core::{
     Exact, Real, Separable, Split, System, Unforced,
-    schemes::author::{Dynamics, Flow, Group, Observable, Piece, Point, VectorField},
+    schemes::author::{Description, Dynamics, Flow, Group, Piece, Point, VectorField},
 };
 use hamiltonian_lanes::Pack;
 
@@ -15,6 +15,9 @@ pub struct Chain {
     pub n: usize,
 }
 
+const GROUPS: &[Group] = &[Group::array("q", "p", 1, 0, 1)];
+const CHAIN: &Description = &Description::new("Chain", GROUPS);
+
 /// A chain with a step coefficient.
 #[derive(Debug, Clone)]
 pub struct ScaledChain<T>(T);
@@ -22,16 +25,9 @@ pub struct ScaledChain<T>(T);
 impl System for Chain {
     type Shape = DVector<()>;
     type Prepared<T: Real> = Chain;
-    const NAME: &'static str = "Chain";
-    const GROUPS: &'static [Group] = &[Group {
-        coordinate: "q",
-        momentum: "p",
-        rank: 1,
-        part: 0,
-        offset: 0,
-        columns: 1,
-    }];
-    const OBSERVABLES: &'static [Observable] = &[];
+    fn description(&self) -> &Description {
+        CHAIN
+    }
     fn prepare<T: Real>(&self) -> Chain {
         self.clone()
     }
@@ -64,6 +60,9 @@ impl Chain {
 impl<T: Real> Dynamics<T> for Chain {
     type Vector = DVector<T>;
     type Field = ScaledChain<T>;
+    fn description(&self) -> &Description {
+        CHAIN
+    }
     fn energy(&self, _: T, q: &DVector<T>, p: &DVector<T>) -> T {
         let (half, quarter) = (number::<T>(0.5), number::<T>(0.25));
         let mut sum = half * q[self.n - 1] * q[self.n - 1];
@@ -173,7 +172,6 @@ impl Split for Chain {
     fn pieces<T: Real>() -> Self::Pieces<T> {
         (Half, Half)
     }
-    const NAMES: &'static [&'static str] = &["V", "T"];
 }
 
 impl Unforced for Chain {}

@@ -1,6 +1,6 @@
 //! Kepler's problem in the plane, and in even steps of the distance.
 
-use super::systems::{Formula, Halves, Hand, scalar};
+use super::systems::{Formula, Halves, Hand};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::{
     Autonomous, QuadraticKinetic, Real, State, TimeTransformed, schemes::author::Group,
@@ -12,7 +12,7 @@ pub struct Kepler;
 
 impl Formula<2> for Kepler {
     const NAME: &'static str = "Kepler";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p_x", 0), Group::scalar("y", "p_y", 1)];
     fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
         let half = T::constant(0.5, 0.0);
         half * (*px * *px + *py * *py) - T::one() / (*x * *x + *y * *y).sqrt()

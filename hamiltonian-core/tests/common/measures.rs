@@ -57,7 +57,10 @@ where
     let entry = scheme.entry();
     let slopes = slopes(system, scheme, start, span, steps);
     let (name, variant) = (entry.name, entry.variant);
-    println!("{name} {variant} on {}: {slopes:.3?}", S::NAME);
+    println!(
+        "{name} {variant} on {}: {slopes:.3?}",
+        system.description().name
+    );
     let mean = slopes[1..].iter().sum::<f64>() / (slopes.len() - 1) as f64;
     (mean - f64::from(entry.order)).abs()
 }

@@ -1,6 +1,6 @@
 //! Systems split by hand: three, four pieces, and loops over terms that do not commute.
 
-use super::systems::{Formula, Hand, Ready, scalar};
+use super::systems::{Formula, Hand, Ready};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::{
     Real, Split,
@@ -20,7 +20,10 @@ pub struct Polar<const PIECES: usize>;
 
 impl<const PIECES: usize> Formula<2> for Polar<PIECES> {
     const NAME: &'static str = "Polar";
-    const GROUPS: &'static [Group] = &[scalar("r", "p_r", 0), scalar("theta", "p_theta", 1)];
+    const GROUPS: &'static [Group] = &[
+        Group::scalar("r", "p_r", 0),
+        Group::scalar("theta", "p_theta", 1),
+    ];
     fn energy<T: Real>(&self, _: T, [r, theta]: &[T; 2], [pr, pt]: &[T; 2]) -> T {
         let (r, theta, pr, pt) = (*r, *theta, *pr, *pt);
         number::<T>(0.5) * (pr * pr + pt * pt / (r * r) + r * r)
@@ -94,7 +97,6 @@ impl Split for Hand<Polar<3>, 2> {
     fn pieces<T: Real>() -> Self::Pieces<T> {
         (PolarPiece, PolarPiece, PolarPiece)
     }
-    const NAMES: &'static [&'static str] = &["p_r^2/2", "p_theta^2/(2r^2)", "V"];
 }
 
 impl Split for Hand<Polar<4>, 2> {
@@ -107,8 +109,6 @@ impl Split for Hand<Polar<4>, 2> {
     fn pieces<T: Real>() -> Self::Pieces<T> {
         (PolarPiece, PolarPiece, PolarPiece, PolarPiece)
     }
-    const NAMES: &'static [&'static str] =
-        &["r^2/2", "p_theta^2/(2r^2)", "p_r^2/2", "r^3 sin(3theta)/3"];
 }
 
 /// H = q₁p₂ − 0.6 q₂p₁ + Σ (q⁴/4 + p²/2): the first two terms are one piece, a loop; `PLACE` is where
@@ -119,7 +119,7 @@ pub struct Loops<const PLACE: usize, const TURNS: bool>;
 
 impl<const PLACE: usize, const TURNS: bool> Formula<2> for Loops<PLACE, TURNS> {
     const NAME: &'static str = "Loops";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p_x", 0), Group::scalar("y", "p_y", 1)];
     fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
         let (x, y, px, py) = (*x, *y, *px, *py);
         let fourth = |q: T| number::<T>(0.25) * q * q * q * q;
@@ -212,7 +212,6 @@ macro_rules! loops {
             fn pieces<T: Real>() -> Self::Pieces<T> {
                 (LoopPiece, LoopPiece, LoopPiece)
             }
-            const NAMES: &'static [&'static str] = &["first", "second", "third"];
         }
     };
 }

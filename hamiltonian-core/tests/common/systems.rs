@@ -5,18 +5,45 @@ use hamiltonian_core::private::SVector;
 use hamiltonian_core::{
     Dual, Exact, Nystrom, Real, Separable, Split, System, Unforced,
     schemes::author::{
-        Dynamics, Flow, Group, Observable, ObservableKind, Piece, Point, VectorField,
+        Description, Dynamics, Flow, Group, NamedPiece, Observable, ObservableKind, Piece, Point,
+        VectorField,
     },
 };
 use hamiltonian_lanes::Pack;
+use std::borrow::Cow;
 
-/// H as a formula over any scalar, with N coordinates.
+/// H as a formula over any with N coordinates.
 pub trait Formula<const N: usize>: Clone + std::fmt::Debug + Send + Sync + 'static {
     const NAME: &'static str;
     const GROUPS: &'static [Group];
     const OBSERVABLES: &'static [Observable] = &[];
     /// True if V jumps in time, and the same for T.
     const JUMPING: [bool; 2] = [false; 2];
+    /// V and T.
+    const PIECES: &'static [NamedPiece] = &[
+        NamedPiece {
+            name: Cow::Borrowed("V"),
+            formula: Cow::Borrowed("V"),
+            jumps: Self::JUMPING[0],
+        },
+        NamedPiece {
+            name: Cow::Borrowed("T"),
+            formula: Cow::Borrowed("T"),
+            jumps: Self::JUMPING[1],
+        },
+    ];
+    fn description(&self) -> &Description {
+        const {
+            &Description {
+                name: Cow::Borrowed(Self::NAME),
+                groups: Cow::Borrowed(Self::GROUPS),
+                observables: Cow::Borrowed(Self::OBSERVABLES),
+                pieces: Cow::Borrowed(Self::PIECES),
+                jumps: Self::JUMPING,
+                ..Description::NONE
+            }
+        }
+    }
     fn energy<T: Real>(&self, t: T, q: &[T; N], p: &[T; N]) -> T;
     /// ∂H/∂q, ∂H/∂p; by dual numbers unless written out.
     fn gradient<T: Real>(&self, t: T, q: &[T; N], p: &[T; N]) -> ([T; N], [T; N]) {
@@ -61,10 +88,9 @@ fn array<T: Real, const N: usize>(v: &SVector<T, N>) -> &[T; N] {
 impl<H: Formula<N>, const N: usize> System for Hand<H, N> {
     type Shape = SVector<(), N>;
     type Prepared<T: Real> = Ready<H, N>;
-    const NAME: &'static str = H::NAME;
-    const GROUPS: &'static [Group] = H::GROUPS;
-    const OBSERVABLES: &'static [Observable] = H::OBSERVABLES;
-    const JUMPS: bool = H::JUMPING[0] || H::JUMPING[1];
+    fn description(&self) -> &Description {
+        self.0.description()
+    }
     fn prepare<T: Real>(&self) -> Ready<H, N> {
         Ready(self.0.clone())
     }
@@ -85,6 +111,9 @@ impl<H: Formula<N>, const N: usize> System for Hand<H, N> {
 impl<T: Real, H: Formula<N>, const N: usize> Dynamics<T> for Ready<H, N> {
     type Vector = SVector<T, N>;
     type Field = Scaled<H, T, N>;
+    fn description(&self) -> &Description {
+        self.0.description()
+    }
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
         self.0.energy(t, array(q), array(p))
     }
@@ -203,7 +232,6 @@ impl<H: Halves<N>, const N: usize> Separable for Hand<H, N> {
     fn drift<T: Real>() -> Half<false> {
         Half
     }
-    const JUMPING: [bool; 2] = H::JUMPING;
 }
 
 /// Whatever T is: where it is not quadratic in p, this is the negative control.
@@ -216,7 +244,6 @@ impl<H: Halves<N>, const N: usize> Nystrom for Hand<H, N> {
     fn quadratic<T: Real>() -> Half<false> {
         Half
     }
-    const JUMPING: [bool; 2] = H::JUMPING;
 }
 
 impl<H: Halves<N>, const N: usize> Split for Hand<H, N> {
@@ -224,24 +251,10 @@ impl<H: Halves<N>, const N: usize> Split for Hand<H, N> {
     fn pieces<T: Real>() -> Self::Pieces<T> {
         (Half, Half)
     }
-    const NAMES: &'static [&'static str] = &["V", "T"];
-    const JUMPING: [bool; 2] = H::JUMPING;
 }
 
 impl<H, const N: usize> Unforced for Hand<H, N> {}
 impl<H, const N: usize> Exact for Hand<H, N> {}
-
-/// A scalar coordinate and its momentum.
-pub const fn scalar(coordinate: &'static str, momentum: &'static str, offset: usize) -> Group {
-    Group {
-        coordinate,
-        momentum,
-        rank: 0,
-        part: 0,
-        offset,
-        columns: 1,
-    }
-}
 
 pub fn number<T: Real>(x: f64) -> T {
     T::constant(x, 0.0)
@@ -278,12 +291,9 @@ pub fn pendulum(from_bottom: bool) -> Hand<Pendulum, 1> {
 
 impl Formula<1> for Pendulum {
     const NAME: &'static str = "Pendulum";
-    const GROUPS: &'static [Group] = &[scalar("theta", "p", 0)];
-    const OBSERVABLES: &'static [Observable] = &[Observable {
-        name: "height",
-        kind: ObservableKind::Monitor,
-        depends_on_time: false,
-    }];
+    const GROUPS: &'static [Group] = &[Group::scalar("theta", "p", 0)];
+    const OBSERVABLES: &'static [Observable] =
+        &[Observable::new(ObservableKind::Monitor, "height")];
     fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
         let mgl = number::<T>(self.m) * number(self.g) * number(self.l);
         let inertia = number::<T>(self.m) * number(self.l) * number(self.l);
@@ -311,7 +321,7 @@ pub struct Paper34;
 
 impl Formula<1> for Paper34 {
     const NAME: &'static str = "Paper34";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
         number::<T>(0.5) * (q[0] * q[0] + T::one()) * (p[0] * p[0] + T::one())
     }
@@ -329,7 +339,7 @@ pub struct HenonHeiles;
 
 impl Formula<2> for HenonHeiles {
     const NAME: &'static str = "HenonHeiles";
-    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("x", "p_x", 0), Group::scalar("y", "p_y", 1)];
     fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
         let (x, y, px, py) = (*x, *y, *px, *py);
         number::<T>(0.5) * (px * px + py * py + x * x + y * y) + x * x * y - y * y * y / number(3.0)
@@ -353,7 +363,7 @@ pub struct Relativistic;
 
 impl Formula<1> for Relativistic {
     const NAME: &'static str = "Relativistic";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
         let square = q[0] * q[0];
         (T::one() + p[0] * p[0]).sqrt() - q[0].cos() + square * square / number(10.0)
@@ -386,7 +396,7 @@ impl Pumped {
 
 impl Formula<1> for Pumped {
     const NAME: &'static str = "Pumped";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
         let (a, b) = Self::factors(t);
         let square = q[0] * q[0];
@@ -411,7 +421,7 @@ pub struct DoublePendulum;
 
 impl Formula<2> for DoublePendulum {
     const NAME: &'static str = "DoublePendulum";
-    const GROUPS: &'static [Group] = &[scalar("a", "p_a", 0), scalar("b", "p_b", 1)];
+    const GROUPS: &'static [Group] = &[Group::scalar("a", "p_a", 0), Group::scalar("b", "p_b", 1)];
     fn energy<T: Real>(&self, _: T, [a, b]: &[T; 2], [pa, pb]: &[T; 2]) -> T {
         let (a, b, pa, pb) = (*a, *b, *pa, *pb);
         let (two, g) = (number::<T>(2.0), number::<T>(9.81));
@@ -445,7 +455,7 @@ pub mod counting {
 
     impl Formula<1> for Counted {
         const NAME: &'static str = "Counted";
-        const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+        const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
         fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
             number::<T>(0.5) * (q[0] * q[0] + p[0] * p[0])
         }

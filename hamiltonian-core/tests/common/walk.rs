@@ -4,7 +4,7 @@
 
 use super::kepler::{InRadius, in_radius, pericentre};
 use super::start;
-use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic, scalar};
+use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic};
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::schemes::{
     author::catalogue,
@@ -25,7 +25,7 @@ pub struct Swaying;
 
 impl Formula<1> for Swaying {
     const NAME: &'static str = "Swaying";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    const GROUPS: &'static [Group] = &[Group::scalar("q", "p", 0)];
     fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
         let half = T::constant(0.5, 0.0);
         let swaying = T::one() + half * (T::constant(2.0, 0.0) * t).sin();

@@ -5,7 +5,7 @@ use super::*;
 use hamiltonian::Unforced;
 use hamiltonian::lanes::{Mask, Pack};
 use hamiltonian::private::SVector;
-use hamiltonian::schemes::author::{Dynamics, Group, Observable, VectorField, gather};
+use hamiltonian::schemes::author::{Description, Dynamics, Group, VectorField, gather};
 
 hamiltonian! {
     /// Oscillators, each with its spring.
@@ -62,6 +62,9 @@ struct Spring {
     omega: f64,
 }
 
+const GROUPS: &[Group] = &[Group::scalar("theta", "p", 0)];
+const SPRING: &Description = &Description::new("Spring", GROUPS);
+
 /// It, prepared.
 #[derive(Debug, Clone)]
 struct Ready<T> {
@@ -77,9 +80,9 @@ impl Unforced for Spring {}
 impl System for Spring {
     type Shape = SVector<(), 1>;
     type Prepared<T: Real> = Ready<T>;
-    const NAME: &'static str = "Spring";
-    const GROUPS: &'static [Group] = <Pendulum as System>::GROUPS;
-    const OBSERVABLES: &'static [Observable] = &[];
+    fn description(&self) -> &Description {
+        SPRING
+    }
     fn prepare<T: Real>(&self) -> Ready<T> {
         Ready {
             omega_squared: T::constant(self.omega * self.omega, 0.0),
@@ -105,6 +108,9 @@ impl System for Spring {
 impl<T: Real> Dynamics<T> for Ready<T> {
     type Vector = SVector<T, 1>;
     type Field = Scaled<T>;
+    fn description(&self) -> &Description {
+        SPRING
+    }
     #[inline(always)]
     fn energy(&self, _: T, q: &Self::Vector, p: &Self::Vector) -> T {
         T::constant(0.5, 0.0) * (p[0] * p[0] + self.omega_squared * q[0] * q[0])

@@ -11,12 +11,11 @@ use super::function::{Body, BodyWriter};
 use super::generics::Generics;
 use super::halves::are_apart;
 use super::holder::{Holder, Receiver, shape};
-use super::layout::{Layout, Slice};
+use super::layout::Slice;
 use super::scan::scan;
-use super::{Gradient, derived, observables, reach};
+use super::{Gradient, derived, description, observables, reach};
 use hamiltonian_symbolic::dag::Array;
-use hamiltonian_symbolic::model::{Model, ParameterDeclaration, Shape, VectorUse};
-use hamiltonian_symbolic::print;
+use hamiltonian_symbolic::model::{ParameterDeclaration, Shape, VectorUse};
 
 use hamiltonian_symbolic::program::{Function, Instruction, Purpose, Step, Target, Update, Value};
 use hamiltonian_symbolic::rational::Rational;
@@ -86,32 +85,16 @@ impl<'a> Emission<'a> {
 
     fn system(&mut self) {
         let (context, generics) = (self.context, self.context.generics);
+        self.out.push_str(&description::constant(context));
         line!(
             self,
             "#[automatically_derived]\nimpl{} __h::System for {} {{\n\
-             type Shape = {};\n__h::gathers!({});\n\
-             const NAME: &'static __h::str = {:?};\n\
-             const GROUPS: &'static [__h::Group] = &[{}];\n{}{}{}{}{}\
-             const FORMULA: &'static __h::str = {:?};\n{}",
+             type Shape = {};\n__h::gathers!({});\n{}{}",
             generics.declaration(),
             generics.system_type(),
             generics.vector_type_over("__V", "()"),
             self.prepared.ty(context),
-            context.model.name,
-            groups(context.model, context.layout),
-            observables::constants(context.model),
-            context.model.evolution.as_ref().map_or(String::new(), |time| format!(
-                "const FICTITIOUS_TIME: __h::Option<&'static __h::str> = __h::Option::Some({time:?});\n"
-            )),
-            context.definition.structure.growth.map_or(String::new(), |power| format!(
-                "const GROWTH: __h::Option<__h::core::primitive::u32> = __h::Option::Some({power});\n"
-            )),
-            match context.definition.structure.jumping {
-                Some(_) => "const JUMPS: __h::bool = true;\n",
-                None => "",
-            },
             duals(generics),
-            self.formula(),
             self.parameters(),
         );
         line!(
@@ -324,25 +307,6 @@ impl<'a> Emission<'a> {
         text + &holder.fill(&results)
     }
 
-    /// H, the force and the pieces as text, which a saved run is compared with.
-    fn formula(&self) -> String {
-        let model = self.context.model;
-        let mut formula = self.context.definition.text.hamiltonian.clone();
-        for force in &model.force {
-            let momentum = model.groups[usize::from(force.at.group)].name(force.at.side);
-            let value = print::text(model, force.value);
-            let _ = write!(
-                formula,
-                "; force on {momentum}, column {}: {value}",
-                force.at.column
-            );
-        }
-        for piece in &model.pieces {
-            let _ = write!(formula, "; piece {}", piece.name);
-        }
-        formula
-    }
-
     /// The method that writes the values of the parameters.
     fn parameters(&self) -> String {
         let context = self.context;
@@ -540,29 +504,4 @@ fn duals(generics: &Generics) -> String {
             format!("const DUALS: __h::core::primitive::u32 = __h::deepest(&[{all}]);\n")
         }
     }
-}
-
-/// The entries of `System::GROUPS`.
-fn groups(model: &Model, layout: Layout) -> String {
-    let mut out = String::new();
-    for (at, group) in model.groups.iter().enumerate() {
-        let columns = group.shape.columns();
-        let rank = match &group.shape {
-            Shape::Lattice(_, axes) => axes.len(),
-            Shape::Scalar => 0,
-            Shape::Vector(_) => 1,
-            Shape::Matrix(..) => 2,
-        };
-        let (part, offset) = match layout {
-            Layout::Scalars => (0, at),
-            Layout::Array => (0, 0),
-            Layout::Mixed => (at, 0),
-        };
-        let (coordinate, momentum) = (&group.coordinate, &group.momentum);
-        let _ = write!(
-            out,
-            "__h::group({coordinate:?}, {momentum:?}, [{rank}, {part}, {offset}, {columns}]), "
-        );
-    }
-    out
 }

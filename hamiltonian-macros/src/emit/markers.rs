@@ -12,8 +12,8 @@ use std::fmt::Write;
 /// A piece that cannot exist.
 const NEVER: &str = "__h::Never<__h::Point<__h::VectorOf<Self, T>>>";
 
-/// The types of pieces, their values, and which of them jump in time, if any does.
-pub type Pieces<'a> = (&'a [String], &'a str, Option<[bool; 2]>);
+/// The types of pieces, and their values.
+pub type Pieces<'a> = (&'a [String], &'a str);
 
 /// A trait of pieces, each as a type and as a function that returns one of these values, if they are there.
 pub fn of_pieces(
@@ -26,7 +26,7 @@ pub fn of_pieces(
     let mut items = String::new();
     for (at, name) in names.iter().enumerate() {
         let (ty, value) = match &pieces {
-            Ok((types, value, _)) => (types[at].as_str(), *value),
+            Ok((types, value)) => (types[at].as_str(), *value),
             Err(_) => (NEVER, "__h::Never::PIECE"),
         };
         let method = name.to_lowercase();
@@ -35,14 +35,11 @@ pub fn of_pieces(
             "type {name}<T: __h::Real> = {ty};\n#[inline(always)]\nfn {method}<T: __h::Real>() -> Self::{name}<T> {{ {value} }}"
         );
     }
-    if let Ok((_, _, Some(jumping))) = &pieces {
-        let _ = writeln!(items, "const JUMPING: [__h::bool; 2] = {jumping:?};");
-    }
     let declaration = context.generics.declaration();
     marker(out, context, name, &declaration, pieces.err(), &items);
 }
 
-/// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact` and `Cyclic`, `Display` and `Default`.
+/// `QuadraticKinetic`, `Autonomous`, `Unforced` and `Exact`, `Display` and `Default`.
 pub fn implementations(context: Context) -> String {
     let (structure, generics) = (&context.definition.structure, context.generics);
     let (mut out, mut known) = (String::new(), String::new());
@@ -65,17 +62,9 @@ pub fn implementations(context: Context) -> String {
             }
         }
     }
-    match structure.cyclic.as_slice() {
-        [] => known += " Cyclic",
-        names => {
-            let names = format!("const CYCLIC: &'static [&'static __h::str] = &{names:?};\n");
-            marker(&mut out, context, "Cyclic", &declaration, None, &names);
-        }
-    }
     let text = &context.definition.text;
     let texts = context.definition.checked.item.as_ref().map(|_| {
         let (constants, system) = generics.over_f64();
-        let names = structure.split.is_ok().then_some("NAMES");
         let (default, missing) = match (is_all_defaults(context), generics.scalars.is_empty()) {
             (false, _) => (without_default(&mut out, context), ""),
             (true, true) => ("= Self {}".to_owned(), " AnyParameter"),
@@ -86,11 +75,10 @@ pub fn implementations(context: Context) -> String {
         };
         known += missing;
         format!(
-            " {} [impl{constants}] {system}: {:?}, {:?} {} {default}",
+            " {} [impl{constants}] {system}: {:?}, {:?} {default}",
             generics.visibility,
             text.latex,
             text.latex_equations.join("\n"),
-            names.unwrap_or_default(),
         )
     });
     let _ = writeln!(

@@ -23,6 +23,7 @@ mod construct;
 mod context;
 mod declared;
 mod derived;
+mod description;
 mod dynamics;
 mod expression;
 mod externals;
@@ -172,6 +173,18 @@ pub struct Structure {
     pub growth: Option<u32>,
     /// The parts that jump at times that do not depend on the state, if any does.
     pub jumping: Option<Jumping>,
+}
+
+impl Structure {
+    /// Returns true if T is the first piece, because V jumps in time and T does not.
+    pub fn is_drift_first(&self) -> bool {
+        (self.jumping.as_ref()).is_some_and(|jumping| jumping.halves == [true, false])
+    }
+
+    /// Returns true if the force is a piece of its own, the last one.
+    pub fn is_forced_apart(&self) -> bool {
+        self.kick.is_some() && self.separable.is_err()
+    }
 }
 
 /// The parts of H that jump at times that do not depend on the state.

@@ -1,60 +1,15 @@
-//! Monitors, invariants and events: entries of the system's list, and methods of the type.
+//! Monitors, invariants and events: their values, and methods of the type.
 //!
-//! Input: a definition. Output: text of the entries and of their dispatch, tokens of the methods.
+//! Input: a definition. Output: text of their dispatch, tokens of the methods.
 //! Invariant: a vector-valued observable is one entry a component, in order.
 
 use super::context::Context;
 use super::{allowances, documented, lex};
-use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::facts::conditions;
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind};
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::fmt::Write;
-
-/// `System::OBSERVABLES` and `System::READS`, of a system that has some.
-pub fn constants(model: &Model) -> String {
-    if model.observables.is_empty() {
-        return String::new();
-    }
-    format!(
-        "const OBSERVABLES: &'static [__h::Observable] = &[{}];\n\
-         const READS: &'static [[__h::bool; 2]] = &[{}];\n",
-        entries(model),
-        reads(model)
-    )
-}
-
-fn entries(model: &Model) -> String {
-    let mut out = String::new();
-    for observable in &model.observables {
-        let kind = observable.kind;
-        for (component, node) in observable.components.iter().enumerate() {
-            let name = if observable.components.len() == 1 {
-                observable.name.clone()
-            } else {
-                format!("{}[{component}]", observable.name)
-            };
-            let _ = write!(
-                out,
-                "__h::Observable {{ name: {name:?}, kind: __h::ObservableKind::{kind:?}, \
-                 depends_on_time: {} }}, ",
-                model.dag.dependence(*node).on(Dependence::TIME),
-            );
-        }
-    }
-    out
-}
-
-fn reads(model: &Model) -> String {
-    let mut out = String::new();
-    for node in (model.observables.iter()).flat_map(|observable| &observable.components) {
-        let dependence = model.dag.dependence(*node);
-        let halves = [Dependence::Q, Dependence::P].map(|half| dependence.on(half));
-        let _ = write!(out, "{halves:?}, ");
-    }
-    out
-}
 
 /// The body of `Dynamics::observable`.
 pub fn dispatch(model: &Model) -> String {

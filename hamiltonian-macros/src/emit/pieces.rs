@@ -9,7 +9,7 @@ use super::holder::Holder;
 use super::layout::Slice;
 use super::markers;
 use super::scan::scan;
-use super::{Jumping, Nystrom, Reason};
+use super::{Nystrom, Reason};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Purpose};
@@ -67,9 +67,13 @@ impl Emission<'_> {
         let (structure, own) = (&context.definition.structure, &context.model.pieces);
         let kick = self.kick_kind();
         let halves = [kick, "__h::Shifts<__h::Drift>"].map(|kind| self.kernel(kind));
+        let split = match structure.is_drift_first() {
+            true => "DriftFirst",
+            false => "Split",
+        };
         let of_halves = [
             ("Separable", structure.separable.is_ok()),
-            ("Split", structure.split.is_ok() && own.is_empty()),
+            (split, structure.split.is_ok() && own.is_empty()),
             ("Nystrom", matches!(structure.nystrom, Ok(Nystrom::Halves))),
         ];
         let of_halves: Vec<&str> = (of_halves.into_iter())
@@ -78,55 +82,41 @@ impl Emission<'_> {
         if !of_halves.is_empty() {
             line!(
                 self,
-                "__h::halves!([impl{}] {}, {}, {kick}{}: {});",
+                "__h::halves!([impl{}] {}, {}, {kick}: {});",
                 context.generics.declaration(),
                 context.generics.system_type(),
                 self.prepared.ty(context),
-                structure
-                    .jumping
-                    .as_ref()
-                    .map_or(String::new(), |Jumping { halves: [v, t], .. }| {
-                        format!(", [{v} {t}]")
-                    }),
                 of_halves.join(" "),
             );
         }
         let mut own: Vec<String> = (0..own.len()).map(|at| self.numbered(at)).collect();
-        let jumping = structure.jumping.as_ref();
         let kicked = structure.nystrom.as_ref().map(|nystrom| match nystrom {
-            Nystrom::Halves => (halves.clone(), jumping.map(|jumping| jumping.halves)),
-            Nystrom::Pieces(numbers) => {
-                let jumps = jumping.map(|jumping| numbers.map(|number| jumping.pieces[number]));
-                (numbers.map(|number| own[number].clone()), jumps)
-            }
+            Nystrom::Halves => halves.clone(),
+            Nystrom::Pieces(numbers) => numbers.map(|number| own[number].clone()),
         });
-        if structure.kick.is_some() && structure.separable.is_err() {
+        if structure.is_forced_apart() {
             own.push(halves[0].clone());
         }
         let values = format!("({})", format!("{PIECE}, ").repeat(own.len()));
         let tuple = [format!("({},)", own.join(", "))];
         let mut of_pieces = |name, types: &[&str], pieces, bound| {
-            if !of_halves.contains(&name) {
+            let name_of_halves = if name == "Split" { split } else { name };
+            if !of_halves.contains(&name_of_halves) {
                 let pieces: Result<markers::Pieces, &Reason> = pieces;
                 let pieces = pieces.map_err(|reason| (bound, reason));
                 markers::of_pieces(&mut self.out, context, name, types, pieces);
             }
         };
-        let of_v_and_t = jumping.map(|jumping| jumping.halves);
         let separable = structure.separable.as_ref();
-        let separable = separable.map(|()| (&halves[..], PIECE, of_v_and_t));
+        let separable = separable.map(|()| (&halves[..], PIECE));
         of_pieces("Separable", &["Kick", "Drift"], separable, "__HIsSeparable");
-        let first_and_others = jumping.map(|jumping| match jumping.pieces.split_first() {
-            Some((first, others)) => [*first, others.contains(&true)],
-            None => [false; 2],
-        });
         let split = structure
             .split
             .as_ref()
-            .map(|()| (&tuple[..], values.as_str(), first_and_others));
+            .map(|()| (&tuple[..], values.as_str()));
         of_pieces("Split", &["Pieces"], split, "__HIsSplit");
         let kicked = kicked.as_ref();
-        let kicked = kicked.map(|(pieces, jumping)| (&pieces[..], PIECE, *jumping));
+        let kicked = kicked.map(|pieces| (&pieces[..], PIECE));
         let kicked = kicked.map_err(|reason| *reason);
         of_pieces(
             "Nystrom",

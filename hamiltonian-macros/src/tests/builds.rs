@@ -242,7 +242,7 @@ fn traits(source: &str) -> Vec<String> {
     let is_trait = |word: &&str| {
         let never = word.strip_prefix("__");
         never.is_some_and(|name| name.starts_with(char::is_uppercase))
-            || ["Shifts", "Moves", "Kick", "Nystrom", "Cyclic"].contains(word)
+            || ["Shifts", "Moves", "Kick", "Nystrom"].contains(word)
     };
     let mut traits: Vec<String> = words.filter(is_trait).map(str::to_owned).collect();
     traits.sort();

@@ -14,7 +14,7 @@ use crate::schemes::scheme::Scheme;
 use crate::systems::domain::{self, write_state};
 use crate::systems::flow::Scratch;
 use crate::systems::state::State;
-use crate::systems::system::{self, System, VectorOf};
+use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
@@ -164,7 +164,7 @@ pub(in crate::ensembles) fn explain<T: Real, S: System, M: Scheme<S>>(
     let failed = Failed {
         step: made + 1,
         lane: None,
-        clock: system::clock::<S>(),
+        clock: prepared.description().clock().into(),
         begin: begin.to_f64(),
         end: reached,
         q: q.into(),

@@ -18,7 +18,7 @@ use crate::runs::integrator::{check_start, check_step, duration};
 use crate::schemes::scheme::Scheme;
 use crate::systems::hash::hash_of;
 use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf, clock};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
@@ -129,7 +129,9 @@ where
         if let Some(run) = slot
             && !S::fits(&run.prepared, &prepared)
         {
-            return Err(Error::OtherSizes { system: S::NAME });
+            return Err(Error::OtherSizes {
+                system: (&*system.description().name).into(),
+            });
         }
         self.words.clear();
         (sweep.erased()).begin(&prepared, &start, step, &mut self.words)?;
@@ -152,7 +154,7 @@ where
             recorded: 0,
             values: Vec::new(),
         };
-        self.set_target(&mut active, clock, 0)?;
+        self.set_target(&mut active, prepared.description(), clock, 0)?;
         // An observer that receives no states is not attached.
         let observes = active.observer.interval() < u64::MAX;
         let interval = active.observer.interval();
@@ -161,7 +163,9 @@ where
             Some(run) => core::mem::take(&mut run.followed),
             None => FollowedQuantities::default(),
         };
-        FollowVisitor::list(&mut followed, |visitor| active.observer.follow(visitor));
+        FollowVisitor::list(prepared.description(), &mut followed, |visitor| {
+            active.observer.follow(visitor)
+        });
         // An observer of signs computes the previous values of its functions when it is attached.
         if !followed.sections.is_empty() {
             followed = FollowedQuantities::default();
@@ -221,6 +225,7 @@ where
     fn set_target(
         &self,
         active: &mut ActiveMember<O>,
+        system: &Description,
         clock_of: Clock<f64>,
         made: u64,
     ) -> Result<(), Error> {
@@ -229,12 +234,12 @@ where
                 // The clock has the start and the direction, but not the times of these steps.
                 let is_behind = (t - clock_of.start) * clock_of.interval < 0.0;
                 if is_behind {
-                    clock_of.whole_steps(0, t, clock::<S>())?;
+                    clock_of.whole_steps(0, t, system.clock())?;
                 }
                 None
             }
             (Some(t), _) => {
-                let (before, after) = clock_of.whole_steps(made, t, clock::<S>())?;
+                let (before, after) = clock_of.whole_steps(made, t, system.clock())?;
                 Some(made + before.unwrap_or(after))
             }
             (None, EndPoint::Steps(n)) => Some(*n),
@@ -324,7 +329,7 @@ where
                 return Ok(ControlFlow::Break((state, false)));
             }
             self.write(active, view, &state, false);
-            self.set_target(active, clock_of, view.step)?;
+            self.set_target(active, view.prepared.description(), clock_of, view.step)?;
         }
     }
 
@@ -486,7 +491,9 @@ where
                 }
                 let is_first = !active.is_followed && view.step == 0;
                 if is_first || is_changed && active.is_followed {
-                    FollowVisitor::list(followed, |visitor| active.observer.follow(visitor));
+                    FollowVisitor::list(view.prepared.description(), followed, |visitor| {
+                        active.observer.follow(visitor)
+                    });
                     active.is_followed = !followed.is_empty();
                 }
                 *stop = self.stop(&active, view.step);
@@ -520,9 +527,14 @@ where
         }
     }
 
-    fn take_drifts(&mut self, key: usize, followed: &mut FollowedQuantities<f64>) {
+    fn take_drifts(
+        &mut self,
+        key: usize,
+        system: &Description,
+        followed: &mut FollowedQuantities<f64>,
+    ) {
         if let Some(active) = &mut self.active[key] {
-            FollowVisitor::write_back(followed, |visitor| active.observer.follow(visitor));
+            FollowVisitor::write_back(system, followed, |visitor| active.observer.follow(visitor));
         }
     }
 

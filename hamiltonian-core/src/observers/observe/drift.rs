@@ -9,7 +9,7 @@ use super::quantity::Quantity;
 use super::{Observer, View, one_trajectory};
 use crate::error::Error;
 use crate::results::checkpoint::Memory;
-use crate::systems::system::{ObservableKind, System};
+use crate::systems::system::{Dynamics, ObservableKind, System, Text};
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
@@ -78,7 +78,7 @@ impl<T: Real, S: System> Observer<T, S> for EnergyDrift<T> {
             drift.save(to);
         }
     }
-    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
+    fn follow(&mut self, visitor: &mut FollowVisitor<'_, T>) -> bool {
         visitor.drift(Quantity::Energy, &mut self.drift);
         true
     }
@@ -102,7 +102,7 @@ pub struct Monitors<T = f64> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Monitor<T> {
     /// The declared name; for a component of a vector, with its index in brackets.
-    pub name: &'static str,
+    pub name: Text,
     /// The kind of declaration: monitor, invariant or event.
     pub kind: ObservableKind,
     /// The drift.
@@ -135,9 +135,9 @@ impl<T: Real, S: System> Observer<T, S> for Monitors<T> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         one_trajectory::<T>();
         self.monitors = (0..)
-            .zip(S::OBSERVABLES)
+            .zip(view.prepared.description().observables.iter())
             .map(|(index, observable)| Monitor {
-                name: observable.name,
+                name: observable.name.clone(),
                 kind: observable.kind,
                 drift: Deviation::new(view.observable(index)),
             })
@@ -163,15 +163,15 @@ impl<T: Real, S: System> Observer<T, S> for Monitors<T> {
             monitor.drift.save(to);
         }
     }
-    fn follow(&mut self, visitor: &mut FollowVisitor<T>) -> bool {
-        for (index, observable) in S::OBSERVABLES.iter().enumerate() {
+    fn follow(&mut self, visitor: &mut FollowVisitor<'_, T>) -> bool {
+        for (index, observable) in visitor.system.observables.iter().enumerate() {
             let mut drift = self.monitors.get(index).map(|one| one.drift.clone());
             visitor.drift(Quantity::Observable(index), &mut drift);
             let Some(drift) = drift else { continue };
             match self.monitors.get_mut(index) {
                 Some(monitor) => monitor.drift = drift,
                 None => self.monitors.push(Monitor {
-                    name: observable.name,
+                    name: observable.name.clone(),
                     kind: observable.kind,
                     drift,
                 }),
@@ -179,14 +179,14 @@ impl<T: Real, S: System> Observer<T, S> for Monitors<T> {
         }
         true
     }
-    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Monitors")?;
         let count = from.read_count()?;
-        self.monitors = (S::OBSERVABLES.iter())
+        self.monitors = (view.prepared.description().observables.iter())
             .take(usize::try_from(count).unwrap_or(usize::MAX))
             .map(|observable| {
                 Ok(Monitor {
-                    name: observable.name,
+                    name: observable.name.clone(),
                     kind: observable.kind,
                     drift: Deviation::restored(from)?,
                 })

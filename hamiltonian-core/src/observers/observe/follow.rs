@@ -6,6 +6,7 @@
 use super::deviation::Deviation;
 use super::quantity::Quantity;
 use super::section::MemberSection;
+use crate::systems::system::Description;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
@@ -41,20 +42,27 @@ impl<T> FollowedQuantities<T> {
 
 /// A visitor of the quantities that an observer follows, see [`Observer::follow`](crate::Observer::follow).
 #[derive(Debug)]
-pub struct FollowVisitor<T> {
+pub struct FollowVisitor<'a, T> {
+    /// The system, which has the names of the observables.
+    pub(crate) system: &'a Description,
     followed: FollowedQuantities<T>,
     /// The index of the drift that is written back next; `None` while quantities are listed.
     next_written: Option<usize>,
 }
 
-impl<T: Real> FollowVisitor<T> {
+impl<'a, T: Real> FollowVisitor<'a, T> {
     /// Lists the quantities that an observer follows. The list is empty if lanes cannot follow all of them. The storage
     /// of `into` is reused.
-    pub(crate) fn list(into: &mut FollowedQuantities<T>, follow: impl FnOnce(&mut Self) -> bool) {
+    pub(crate) fn list(
+        system: &'a Description,
+        into: &mut FollowedQuantities<T>,
+        follow: impl FnOnce(&mut Self) -> bool,
+    ) {
         let mut followed = core::mem::take(into);
         followed.drifts.clear();
         followed.sections.clear();
         let mut visitor = FollowVisitor {
+            system,
             followed,
             next_written: None,
         };
@@ -71,10 +79,12 @@ impl<T: Real> FollowVisitor<T> {
 
     /// Writes the drifts back to an observer.
     pub(crate) fn write_back(
+        system: &'a Description,
         followed: &mut FollowedQuantities<T>,
         follow: impl FnOnce(&mut Self) -> bool,
     ) {
         let mut visitor = FollowVisitor {
+            system,
             followed: core::mem::take(followed),
             next_written: Some(0),
         };

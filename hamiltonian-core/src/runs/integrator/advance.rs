@@ -12,7 +12,7 @@ use crate::observers::observe::{Observer, View};
 use crate::runs::failed::Failed;
 use crate::systems::domain;
 use crate::systems::state::{Carried, State};
-use crate::systems::system::{System, VectorOf, clock};
+use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -157,7 +157,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             let failed = Failed {
                 step: self.steps + 1,
                 lane,
-                clock: clock::<S>(),
+                clock: self.prepared.description().clock().into(),
                 begin: begin.to_f64(),
                 end: self.state.t.to_f64(),
                 q: numbers(&self.state.q),

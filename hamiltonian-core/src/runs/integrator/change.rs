@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::flows::map::{Clock, Step};
 use crate::observers::observe::Observer;
 use crate::systems::state::{Carried, IntoStart, State};
-use crate::systems::system::{Dynamics, System, VectorOf, names};
+use crate::systems::system::{Dynamics, System, VectorOf};
 use alloc::string::String;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -66,7 +66,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// [`Error::OtherTime`] if the state has another time than the run; [`Error::Shape`], [`Error::Start`],
     /// [`Error::Values`] as for a [new](Integrator::new) run. The run then is as before.
     pub fn set_state(&mut self, state: impl IntoStart<VectorOf<S, T>>) -> Result<(), Error> {
-        let mut state = state.into_start(names::<S>())?;
+        let mut state = state.into_start(self.prepared.description().first_names())?;
         check_change::<T, S>(&self.prepared, &self.state, &mut state)?;
         self.go_on_from(self.prepared.clone(), self.parameters.clone(), state)
     }

@@ -9,7 +9,7 @@ use crate::observers::output::names;
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
 use crate::systems::system::{
-    Dynamics, System, VectorOf, check_shape_like, clock, declared_energy,
+    Description, Dynamics, System, VectorOf, check_shape_like, declared_energy,
 };
 use crate::systems::vector::Vector;
 use alloc::format;
@@ -32,7 +32,7 @@ pub(crate) fn check_state<T: Real, S: System>(
     state: &State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
     system.check_shape(state)?;
-    check_numbers::<T, S>(state)
+    check_numbers(system.description(), state)
 }
 
 /// Returns an error for a state that cannot replace another one of a run: of another time or shape, with a NaN or an
@@ -42,15 +42,16 @@ pub(crate) fn check_change<T: Real, S: System>(
     from: &State<VectorOf<S, T>>,
     to: &mut State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
+    let description = prepared.description();
     if !to.t.equals(from.t).all() {
         return Err(Error::OtherTime {
-            clock: clock::<S>(),
+            clock: description.clock().into(),
             given: to.t.to_f64(),
             now: from.t.to_f64(),
         });
     }
-    check_shape_like::<S, _>([&from.q, &from.p], to)?;
-    check_numbers::<T, S>(to)?;
+    check_shape_like(description, [&from.q, &from.p], to)?;
+    check_numbers(description, to)?;
     onto_shell::<T, S>(prepared, to);
     // The parameters are those of the run, which has begun with them.
     check_values::<T, S>(prepared, to, String::new)
@@ -61,7 +62,7 @@ pub(super) fn onto_shell<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     state: &mut State<VectorOf<S, T>>,
 ) {
-    if S::FICTITIOUS_TIME.is_none() {
+    if prepared.description().fictitious_time.is_none() {
         return;
     }
     let h = declared_energy::<T, S>(prepared, state);
@@ -71,12 +72,12 @@ pub(super) fn onto_shell<T: Real, S: System>(
 }
 
 /// Returns an error for a state with a NaN or an infinity.
-fn check_numbers<T: Real, S: System>(state: &State<VectorOf<S, T>>) -> Result<(), Error> {
+fn check_numbers<V: Vector>(description: &Description, state: &State<V>) -> Result<(), Error> {
     if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
         return Ok(());
     }
     Err(Error::Start {
-        clock: clock::<S>(),
+        clock: description.clock().into(),
         time: state.t.to_f64(),
         q: numbers(&state.q),
         p: numbers(&state.p),
@@ -102,11 +103,14 @@ pub(crate) fn check_scheme<T: Real, S: System, M: Scheme<S>>(
 ) -> Result<(), Error> {
     /// Sums of weights are rounded.
     const ROUNDING: f64 = 1e-9;
-    if S::JUMPS {
-        let [first, last] = scheme.times_of_jumps();
+    let description = prepared.description();
+    if description.is_jumping() {
+        let [first, last] = scheme.times_of_jumps(description);
         if !(first > ROUNDING && last < 1.0 - ROUNDING) {
-            let (scheme, system) = (scheme.entry().name, S::NAME);
-            return Err(Error::Jumps { scheme, system });
+            return Err(Error::Jumps {
+                scheme: scheme.entry().name,
+                system: (*description.name).into(),
+            });
         }
     }
     scheme.check(prepared, start)
@@ -119,6 +123,7 @@ pub(super) fn check_values<T: Real, S: System>(
     start: &State<VectorOf<S, T>>,
     parameters: impl Fn() -> String,
 ) -> Result<(), Error> {
+    let description = prepared.description();
     let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
     let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
     let bad = |name: &str, value: T| {
@@ -139,7 +144,7 @@ pub(super) fn check_values<T: Real, S: System>(
             value: found,
             lane: (T::LANES > 1).then_some(lane),
             parameter: parameter_without_value(&parameters()),
-            clock: clock::<S>(),
+            clock: description.clock().into(),
             time: start.t.to_f64(),
             q: numbers(&start.q).into(),
             p: numbers(&start.p).into(),
@@ -149,10 +154,10 @@ pub(super) fn check_values<T: Real, S: System>(
         return Err(error);
     }
     if !(slopes.is_finite() && velocities.is_finite()) {
-        for name in names(S::GROUPS, &start.q) {
+        for name in names(&description.groups, &start.q) {
             let by = [
-                (name.group.coordinate, &slopes),
-                (name.group.momentum, &velocities),
+                (&name.group.coordinate, &slopes),
+                (&name.group.momentum, &velocities),
             ];
             for (variable, values) in by {
                 let derivative = format!("∂H/∂{}", name.of(variable));
@@ -162,7 +167,7 @@ pub(super) fn check_values<T: Real, S: System>(
             }
         }
     }
-    if S::FICTITIOUS_TIME.is_none() {
+    if description.fictitious_time.is_none() {
         return Ok(());
     }
     let Some(&given) = numbers(&start.p).last() else {
@@ -176,7 +181,9 @@ pub(super) fn check_values<T: Real, S: System>(
         return Ok(());
     }
     Err(Error::Shell {
-        momentum: S::GROUPS.last().map_or("", |group| group.momentum),
+        momentum: (description.groups.last())
+            .map_or("", |group| &group.momentum)
+            .into(),
         given,
         due: -declared_energy::<T, S>(prepared, start).to_f64(),
     })

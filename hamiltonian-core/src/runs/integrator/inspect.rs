@@ -48,7 +48,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// The observable of that name, a monitor, an invariant or an event, at the current state;
     /// `None` if there is none.
     pub fn observable_named(&self, name: &str) -> Option<T> {
-        let index = S::observable_index(name)?;
+        let index = self.prepared.description().observable_index(name)?;
         let State { t, q, p } = &self.state;
         Some(self.prepared.observable(index, *t, q, p))
     }

@@ -12,7 +12,7 @@ use crate::schemes::scheme::Scheme;
 use crate::systems::domain;
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, State};
-use crate::systems::system::{System, VectorOf, clock};
+use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::format;
 use alloc::string::String;
@@ -87,7 +87,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T,
         let is_near = ((t - now) / step).magnitude() <= most + self.rounding(now, t);
         if !is_near {
             return Err(Error::Far {
-                clock: clock::<S>(),
+                clock: self.prepared.description().clock().into(),
                 target: t.to_f64(),
                 from: (now - step).to_f64(),
                 to: (now + step).to_f64(),
@@ -175,7 +175,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
         Err(Error::Solve {
             step: 1,
             lane: None,
-            clock: clock::<S>(),
+            clock: self.prepared.description().clock().into(),
             time: from.t.to_f64(),
             residual: missed,
             iterations: MOST,
@@ -208,7 +208,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
         let failed = Failed {
             step: 1,
             lane: (T::LANES > 1).then(|| bad.unwrap_or(0)),
-            clock: clock::<S>(),
+            clock: self.prepared.description().clock().into(),
             begin: from.t.to_f64(),
             end: t.to_f64(),
             q: numbers(&point.q),
@@ -226,7 +226,7 @@ impl<T: Real> Clock<T> {
         &self,
         made: u64,
         t: T,
-        clock: &'static str,
+        clock: &str,
     ) -> Result<(Option<u64>, u64), Error> {
         /// The largest number of steps that is exact in `f64`.
         const MOST: f64 = (1_u64 << 53) as f64;
@@ -248,14 +248,14 @@ impl<T: Real> Clock<T> {
         let behind = count < made as f64;
         if behind {
             return Err(Error::Behind {
-                clock,
+                clock: clock.into(),
                 target: t.to_f64(),
                 now: since.at(made).to_f64(),
             });
         }
         if !counted {
             return Err(Error::Unreachable {
-                clock,
+                clock: clock.into(),
                 target: t.to_f64(),
             });
         }
@@ -324,7 +324,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     fn past(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         if !t.is_finite() {
             return Err(Error::Unreachable {
-                clock: clock::<S>(),
+                clock: self.prepared.description().clock().into(),
                 target: t.to_f64(),
             });
         }
@@ -361,7 +361,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             (Some(before), after) => {
                 let made = self.steps - self.began;
                 Err(Error::OffGrid {
-                    clock: clock::<S>(),
+                    clock: self.prepared.description().clock().into(),
                     target: t.to_f64(),
                     before: self.clock.at(made + before).to_f64(),
                     after: self.clock.at(made + after).to_f64(),
@@ -372,8 +372,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
 
     /// The number of steps to `t`, as in [`Clock::whole_steps`].
     fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), Error> {
-        self.clock
-            .whole_steps(self.steps - self.began, t, clock::<S>())
+        let clock = self.prepared.description().clock();
+        (self.clock).whole_steps(self.steps - self.began, t, clock)
     }
 
     /// The states at the given times, which are in the order of the run, independent of the step. The iterator ends if an

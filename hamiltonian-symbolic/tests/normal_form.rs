@@ -251,3 +251,13 @@ fn loops_are_linear_and_literal_ones_are_written_out() {
     );
     assert_eq!(is_zero(&m, node), Proof::Zero);
 }
+
+#[test]
+fn elements_at_fixed_indices_take_sizes_at_which_they_exist() {
+    let mut m = model("q[n]; p[n]", "n", "a k[50]");
+    let nodes = ["q[100]^a", "q[100]^a*k[n]"].map(|source| parse(&mut m, source));
+    let [far, nowhere] = nodes.map(|node| is_zero(&m, node));
+    assert!(matches!(far, Proof::NonZero { .. }), "{far:?}");
+    // q[100] needs n > 100, and k[n] needs n < 50.
+    assert_eq!(nowhere, Proof::Undecided);
+}

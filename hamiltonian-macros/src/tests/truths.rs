@@ -1,7 +1,7 @@
 //! Statements of mechanics, true and false: the true ones are proven, of the false ones none.
 //!
 //! `truths/true.txt` and `truths/false.txt` hold a definition a case, after a line of four `=` with its
-//! source or its fault. Of a false case each statement is to be refused.
+//! source or its fault. Of a false case each statement is to be refused; of those in `truths/disproven.txt`, by a point.
 
 mod faults;
 
@@ -69,6 +69,18 @@ fn false_statements_are_not_proven() {
         }
     }
     assert!(accepted.is_empty(), "{}", accepted.join("\n"));
+}
+
+#[test]
+fn false_statements_are_disproven() {
+    let mut open = Vec::new();
+    for (case, definition) in cases(include_str!("truths/disproven.txt")) {
+        let (errors, _) = judged(definition);
+        if !(matches!(errors.as_slice(), [error] if error.contains(" is not conserved"))) {
+            open.push(format!("{case}: {errors:#?}"));
+        }
+    }
+    assert!(open.is_empty(), "{}", open.join("\n"));
 }
 
 /// Definitions of each class of faults: 100, with `HAMILTONIAN_HEAVY=1` 400.

@@ -277,7 +277,7 @@ pub struct Dag {
     known: Map<Kind, Node>,
     ranges: Vec<Range>,
     known_ranges: Map<Range, Domain>,
-    /// Forms over sizes that are not negative, in proofs (see [`Model::with_rooms`](crate::model::Model)).
+    /// In proofs, [`rooms`](crate::ranges::Ranges::rooms) (see [`Model::with_rooms`](crate::model::Model)).
     pub(crate) rooms: Vec<Affine>,
     /// True if a loop was requested after [`LOOPS`] others.
     has_too_many_loops: bool,

@@ -1,7 +1,10 @@
-//! What elements at fixed indices say of sizes: where q[0] is read, the array has an element.
+//! Lower bounds on sizes from elements at fixed indices: a statement about q\[2\] is one about arrays of at least three
+//! rows.
 //!
-//! Input: expressions of a statement. Output: forms over sizes that are not negative wherever the statement has a
-//! meaning. Invariant: only elements that are read whatever the conditions and sizes are.
+//! Input: expressions of a statement. Output: its rooms. A room is the number of rows before or after an element at a
+//! fixed index, a form over sizes that is not negative at all sizes the statement is about. For example, q\[2\] in an
+//! array of N rows has the room N − 3 behind it. Invariant: only elements that are read whatever the conditions and sizes
+//! are.
 
 use crate::dag::{Array, Kind, Node};
 use crate::index::Affine;
@@ -9,7 +12,7 @@ use crate::model::Model;
 use std::borrow::Cow;
 
 impl Model {
-    /// The model in which as much is known of sizes as the elements in some expressions need.
+    /// The model with the [rooms](crate::ranges::Ranges::rooms) of the elements that some expressions read.
     pub(crate) fn with_rooms(&self, roots: &[Node]) -> Cow<'_, Model> {
         let read = self
             .dag
@@ -34,7 +37,7 @@ impl Model {
         Cow::Owned(model)
     }
 
-    /// The numbers of rows of an array before and after one that is read.
+    /// The numbers of rows of an array before and after an element at a fixed index.
     fn rooms_of(&self, node: Node) -> Option<[Affine; 2]> {
         let Kind::Element(array, row, _) = self.dag.kind(node) else {
             return None;

@@ -1,8 +1,8 @@
 //! Questions about indices in the loops around them.
 //!
 //! Input: indices and affine forms, and the ranges of loops. Output: statements that hold in every iteration,
-//! whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it; in proofs, elements at fixed
-//! indices are there.
+//! whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it but, in proofs, that the
+//! elements at fixed indices exist ([`Ranges::rooms`]).
 
 use crate::index::{Affine, Domain, End, Index};
 use crate::sort::Arrange;
@@ -12,15 +12,27 @@ pub trait Ranges {
     /// The range of a loop: the first value and one past the last.
     fn bounds(&self, domain: Domain) -> [&Affine; 2];
 
+    /// The rooms: forms over sizes that are never negative, such as N − 3 for an array of N rows in which row 2 is read.
+    fn rooms(&self) -> &[Affine] {
+        &[]
+    }
+
     /// The least or greatest value of a form over all iterations of its loops, as a form over sizes.
     fn extreme(&self, form: &Affine, end: End) -> Option<Affine> {
         form.eliminate(|domain, factor| end.of(self.bounds(domain), factor))
     }
 
-    /// Returns true if a form is never negative.
+    /// Returns true if a form is never negative, or never less than a room.
     fn is_never_negative(&self, form: &Affine) -> bool {
-        let least = self.extreme(form, End::Least);
-        least.is_some_and(|least| least.is_never_negative())
+        let is_so = |form: &Affine| {
+            let least = self.extreme(form, End::Least);
+            least.is_some_and(|least| least.is_never_negative())
+        };
+        let mut beyond = self
+            .rooms()
+            .iter()
+            .filter_map(|room| form.checked_plus(-1, room));
+        is_so(form) || beyond.any(|rest| is_so(&rest))
     }
 
     /// Returns true if a form is always in `0..extent`.

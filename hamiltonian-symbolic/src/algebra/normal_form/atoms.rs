@@ -126,6 +126,8 @@ pub(crate) struct Algebra {
     /// True if an expression is read that may be undefined where the statement is not or, in statements about
     /// all points, that distinguishes single points.
     pub(super) has_conditions: bool,
+    /// True if an expression is read that has elements the statement does not read.
+    pub(super) has_unread: bool,
     /// The points at which statements are to hold.
     pub(super) scope: Scope,
     /// The rest of the budget.
@@ -148,6 +150,7 @@ impl Algebra {
             redefined: 0,
             any_guarded: false,
             has_conditions: false,
+            has_unread: false,
             scope,
             budget,
             left_out: None,

@@ -329,9 +329,9 @@ impl Algebra {
     }
 
     /// A statement is about points at which x > 0, or near such points, unless a condition may
-    /// stand before the x.
+    /// stand before the x, or the statement does not read x.
     fn assume_positive(&mut self, x: &Poly) -> Result<(), Undecided> {
-        if self.has_conditions {
+        if self.has_conditions || self.has_unread {
             return Ok(());
         }
         self.set_positive(x)

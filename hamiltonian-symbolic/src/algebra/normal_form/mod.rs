@@ -28,10 +28,11 @@ pub(crate) use atoms::{Algebra, Key, Scope};
 pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_power};
 
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::index::{LOOPS, Size};
+use crate::index::{Affine, LOOPS, Size};
 use crate::loops::{Sample, SamplePoint, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
+use crate::ranges::Ranges;
 use angles::{LARGEST_MULTIPLE, LONGEST_ANGLE};
 use functions::MOST_ARGUMENTS;
 use reduce::PASSES;
@@ -48,6 +49,9 @@ pub(crate) const SMALL_BUDGET: Budget = Budget {
     terms: 4_000,
     products: 40_000,
 };
+
+/// The largest size that is tried.
+const LARGEST_SIZE: i64 = 256;
 
 /// The answer to the question if an expression is identically zero.
 #[derive(Clone, PartialEq, Debug)]
@@ -190,30 +194,13 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
     if dag.is_zero(node) {
         return Answer::Zero;
     }
-    let mut decide = |dag: &mut Dag, node: Node| {
-        algebra.count(dag, node)?;
-        let poly = algebra.convert(dag, node)?;
-        if symmetry::summands_vanish(algebra, &poly)? {
-            return Ok(true);
-        }
-        if !dag.has_loops(&[node]) {
-            return Ok(false);
-        }
-        let poly = symmetry::canonical(algebra, dag, &poly)?;
-        if symmetry::summands_vanish(algebra, &poly)? {
-            return Ok(true);
-        }
-        let Some(poly) = symmetry::in_triangles(algebra, dag, &poly)? else {
-            return Ok(false);
-        };
-        let poly = symmetry::canonical(algebra, dag, &poly)?;
-        symmetry::summands_vanish(algebra, &poly)
-    };
-    let mut decided = decide(dag, node);
+    let mut decided = decide(algebra, dag, node);
     if decided == Ok(false)
         && let Some(node) = telescope::telescoped(dag, node)
     {
-        decided = decide(dag, node);
+        // Terms that are written out, and cancel, may have elements that the statement does not read.
+        algebra.has_unread = true;
+        decided = decide(algebra, dag, node);
     }
     match decided {
         Err(undecided) => Answer::Limit(undecided),
@@ -223,8 +210,30 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
     }
 }
 
+/// Returns true if a node is identically zero by the rules for polynomials and for the loops as they are.
+fn decide(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Result<bool, Undecided> {
+    algebra.count(dag, node)?;
+    let poly = algebra.convert(dag, node)?;
+    if symmetry::summands_vanish(algebra, &poly)? {
+        return Ok(true);
+    }
+    if !dag.has_loops(&[node]) {
+        return Ok(false);
+    }
+    let poly = symmetry::canonical(algebra, dag, &poly)?;
+    if symmetry::summands_vanish(algebra, &poly)? {
+        return Ok(true);
+    }
+    let Some(poly) = symmetry::in_triangles(algebra, dag, &poly)? else {
+        return Ok(false);
+    };
+    let poly = symmetry::canonical(algebra, dag, &poly)?;
+    symmetry::summands_vanish(algebra, &poly)
+}
+
 /// The sizes at which a statement about all sizes is tried: small ones, one past every index that
-/// is given by number, and, where there are several sizes, different ones, some twice as large as others.
+/// is given by number, and, where there are several sizes, different ones, some twice as large as others. Each is raised
+/// until the elements at fixed indices exist; none is left where they exist at no sizes up to [`LARGEST_SIZE`].
 pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
     let count = model.sizes.len();
     if count == 0 {
@@ -234,12 +243,12 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
     for node in model.dag.reachable(roots) {
         if let Kind::Element(_, row, _) = model.dag.kind(node) {
             for axis in row.axes() {
-                last = last.max(axis.affine.constant.abs());
+                last = last.max(axis.affine.constant.saturating_abs());
             }
         }
     }
     let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).collect();
-    if (4..64).contains(&last) {
+    if (4..LARGEST_SIZE - 3).contains(&last) {
         trials.push(vec![last + 3; count]);
     }
     if count > 1 {
@@ -248,13 +257,31 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
         trials.push((1..).map(|n| 2 << n).take(count).collect());
         trials.push((1..=count).rev().map(|n| 2 << n).collect());
     }
-    // Elements at fixed indices are there.
-    trials.retain(|sizes| {
-        let size = |size: Size| sizes[usize::from(size.0)];
-        let mut rooms = model.dag.rooms.iter();
-        rooms.all(|room| room.value(&|_| 0, &size) >= 0)
-    });
-    trials
+    let mut fitting: Vec<Vec<i64>> = Vec::new();
+    for sizes in trials {
+        if let Some(sizes) = with_room(model.dag.rooms(), sizes)
+            && !fitting.contains(&sizes)
+        {
+            fitting.push(sizes);
+        }
+    }
+    fitting
+}
+
+/// The sizes, raised one by one until no room is negative.
+fn with_room(rooms: &[Affine], mut sizes: Vec<i64>) -> Option<Vec<i64>> {
+    let value =
+        |room: &Affine, sizes: &[i64]| room.value(&|_| 0, &|size: Size| sizes[usize::from(size.0)]);
+    while let Some(room) = rooms.iter().find(|room| value(room, &sizes) < 0) {
+        let before = value(room, &sizes);
+        let raised = (0..sizes.len()).find_map(|at| {
+            let mut more = sizes.clone();
+            more[at] += 1;
+            (more[at] <= LARGEST_SIZE && value(room, &more) > before).then_some(more)
+        });
+        sizes = raised?;
+    }
+    Some(sizes)
 }
 
 /// The effort of a search for a point.
@@ -323,7 +350,7 @@ pub(crate) fn witness(
                 halves: true,
                 ..negative(seed, signs)
             };
-            witnessed(&trials[0], how, others)
+            witnessed(trials.first()?, how, others)
         });
         if found.is_some() {
             return found;

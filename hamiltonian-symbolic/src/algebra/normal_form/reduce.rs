@@ -204,7 +204,8 @@ impl Algebra {
             .0
             .iter()
             .any(|&(atom, n)| match &self.entry(atom).key {
-                Key::Root(2, of) => counts(n) && of == x,
+                // A root that the statement does not read says nothing of the sign of x.
+                Key::Root(2, of) => counts(n) && of == x && (is_square || !self.has_unread),
                 Key::Root(_, of) => is_square && counts(n) && of == x,
                 Key::Divisor(of) => is_square && of == x,
                 _ => is_square && n < 0 && counts(n) && is_x(atom),

@@ -80,10 +80,10 @@ impl Verdict {
 /// conserved H.
 #[must_use]
 pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
+    let model = &*model.with_rooms(&[model.h(), expression]);
     if let Some(refused) = shell.and_then(|shell| left(model, shell)) {
         return refused;
     }
-    let model = &*model.with_rooms(&[model.h(), expression]);
     let (verdict, is_on_shell) = judge(model, expression, shell);
     let verdict = crossed(model, expression, verdict, is_on_shell);
     let is_open = matches!(verdict, Verdict::Undecided { .. } | Verdict::Jumps { .. });
@@ -133,6 +133,7 @@ pub fn is_invariant_of_lagrangian(
     legendre: &Legendre,
     in_velocities: Node,
 ) -> Verdict {
+    let model = &*model.with_rooms(&[model.h(), expression, in_velocities]);
     let has_velocities = model.dag.dependence(in_velocities).on(Dependence::VELOCITY);
     let is_free = model.force.is_empty();
     let is_of_velocities = is_free && has_velocities;

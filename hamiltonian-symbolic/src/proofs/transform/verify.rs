@@ -34,8 +34,8 @@ const CLOSE: f64 = 1e-8;
 /// [`NoTransform::Unverified`] with the first point where they differ; [`NoTransform::Uncompared`] where
 /// there is no point to compare at.
 pub fn check(transformed: &Transformed) -> Result<usize, NoTransform> {
-    let old = &transformed.source;
-    let old_roots = old.functions();
+    let old_roots = transformed.source.functions();
+    let old = &*transformed.source.with_rooms(&old_roots);
     let fitting = trials(old, &old_roots).into_iter();
     let fitting = fitting
         .filter(|sizes| sizes.is_empty() || loops::unroll_nodes(old, sizes, &old_roots).is_ok())

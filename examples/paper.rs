@@ -12,6 +12,7 @@
 use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::VectorOf;
+use hamiltonian::errors::StepError;
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::{
@@ -104,7 +105,7 @@ impl<S: System + Unforced> Problem<'_, S> {
         let mut run = Integrator::new(self.system, scheme, self.start.clone(), STEP)?
             .observe((EnergyDrift::new(), watcher));
         match run.advance_to(self.end) {
-            Ok(_) | Err(Error::NotFinite { .. }) => {}
+            Ok(_) | Err(Error::Step(StepError::NotFinite { .. })) => {}
             Err(error) => return Err(error),
         }
         let drift = &run.observer().0;

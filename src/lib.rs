@@ -34,7 +34,7 @@
 //! | [`results`] | tables, saved runs and stores |
 //! | [`analysis`] | Lyapunov exponents, periodic orbits, starts on a surface |
 //! | [`systems`] | functions with data, coordinates of bodies |
-//! | [`errors`] | the parts of [`Error`] |
+//! | [`errors`] | the phases of [`Error`] |
 //! | `plot` | pictures of results, with the feature `plot` |
 //! | [`gallery`] | the pictures of the examples |
 //!

@@ -1,6 +1,7 @@
 //! Arrays, sums and loops, end to end: derivatives against duals at every length.
 
 use crate::common::derivatives::{LENGTHS, check, close, numbers};
+use hamiltonian::errors::InputError;
 use hamiltonian::prelude::*;
 
 hamiltonian! {
@@ -101,14 +102,16 @@ fn bodies_counted_at_run_time() {
     close(by_parameters.m()[1], -1.0 / 8.0 - 1.0);
     assert_eq!((bodies.n(), bodies.m().len()), (2, 2));
     let refused = Gravity::new(3, vec![1.0]).unwrap_err();
-    assert_eq!(
-        refused,
-        Error::Shape {
-            name: "m".into(),
-            expected: 3,
-            found: 1
-        }
-    );
+    let Error::Input(InputError::Shape {
+        name,
+        expected,
+        found,
+        ..
+    }) = refused
+    else {
+        panic!("{refused}");
+    };
+    assert_eq!((&*name, expected, found), ("m", 3, 1));
 }
 
 /// A saved run of other masses is refused by the one that differs.

@@ -13,7 +13,7 @@ const ENGINE: &[&str] = &["algebra", "proofs", "flows", "programs"];
 
 /// The layers of the core, the lowest first.
 const CORE: &[&str] = &[
-    "error",
+    "errors",
     "systems",
     "flows",
     "loops",

@@ -2,6 +2,7 @@
 
 use crate::common::{bits, derivatives};
 use hamiltonian::VectorOf;
+use hamiltonian::errors::InputError;
 use hamiltonian::prelude::*;
 use hamiltonian::{Lattice, Scheme, Vector, observers::Recorder};
 
@@ -447,23 +448,26 @@ fn parameters_with_two_axes_are_lists_of_rows() {
 
 #[test]
 fn sizes_beyond_memory_are_told_by_new() {
-    let memory = |name: &str| Error::Memory { name: name.into() };
+    let memory = |error| match error {
+        Error::Input(InputError::Memory { name, .. }) => name.into_string(),
+        error => panic!("{error}"),
+    };
     for n in [usize::MAX, 1 << 61, 1 << 60, 1 << 40] {
-        assert_eq!(Pendulums::new(n, 2).unwrap_err(), memory("u"));
-        assert_eq!(Pendulums::new(2, n).unwrap_err(), memory("u"));
-        assert_eq!(Pendulums::new(n, n).unwrap_err(), memory("u"));
-        assert_eq!(Solid::new(1, 1, n).unwrap_err(), memory("u"));
+        assert_eq!(memory(Pendulums::new(n, 2).unwrap_err()), "u");
+        assert_eq!(memory(Pendulums::new(2, n).unwrap_err()), "u");
+        assert_eq!(memory(Pendulums::new(n, n).unwrap_err()), "u");
+        assert_eq!(memory(Solid::new(1, 1, n).unwrap_err()), "u");
         // The other coordinates have no axis of this extent.
-        assert_eq!(Solid::new(n, 1, 0).unwrap_err(), memory("v"));
-        assert_eq!(Pairs::new(n).unwrap_err(), memory("q"));
-        assert_eq!(Bodies::new(n).unwrap_err(), memory("q"));
+        assert_eq!(memory(Solid::new(n, 1, 0).unwrap_err()), "v");
+        assert_eq!(memory(Pairs::new(n).unwrap_err()), "q");
+        assert_eq!(memory(Bodies::new(n).unwrap_err()), "q");
         // No array has so many elements, and none is asked for.
         let weights = Weighed::new(1, n, vec![vec![1.0; 2]]).unwrap_err();
         assert!(
-            matches!(weights, Error::Shape { ref name, expected, found: 2 } if (&**name, expected) == ("w", n))
+            matches!(weights, Error::Input(InputError::Shape { name, expected, found: 2, .. }) if (&*name, expected) == ("w", n))
         );
         let weights = Weighed::new(8, n | 1 << 61, vec![vec![1.0; 2]]).unwrap_err();
-        assert_eq!(weights, memory("w"));
+        assert_eq!(memory(weights), "w");
     }
     assert!(Pendulums::new(usize::MAX, 0).is_ok());
     assert_eq!(

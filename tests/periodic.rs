@@ -1,5 +1,6 @@
 //! Periodic orbits against known ones.
 
+use hamiltonian::errors::SearchError;
 use hamiltonian::prelude::*;
 
 hamiltonian! {
@@ -119,7 +120,7 @@ fn an_unknown_section_and_rest_are_errors() {
     assert_eq!(error, expected);
     // With a period of 0 every start would be an orbit.
     let error = find("level", 1.0).unwrap_err();
-    let Error::NoPeriodicOrbit { gap, period } = error else {
+    let Error::Search(SearchError::NoPeriodicOrbit { gap, period, .. }) = error else {
         panic!("{error}");
     };
     assert!(gap > 1e-3 && period >= 0.5, "{gap}, {period}");
@@ -133,7 +134,10 @@ fn an_unknown_section_and_rest_are_errors() {
         20,
     );
     let error = error.unwrap_err();
-    assert!(matches!(error, Error::PointOrbit { .. }), "{error}");
+    assert!(
+        matches!(error, Error::Search(SearchError::PointOrbit { .. })),
+        "{error}"
+    );
 }
 
 hamiltonian! {

@@ -1,5 +1,6 @@
 //! Rust functions as potentials: derivatives by dual numbers, and functions with data as parameters.
 
+use hamiltonian::errors::StepError;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::author::Dynamics;
 
@@ -126,7 +127,10 @@ fn a_spline_is_a_potential() -> Result<(), Error> {
     let away = State::new([5.5, 0.0], [3.0, 0.0]);
     let mut run = Integrator::new(&well, BlanesMoan4, away, 0.02)?;
     let error = run.advance(1000);
-    assert!(matches!(error, Err(Error::NotFinite { .. })), "{error:?}");
+    assert!(
+        matches!(error, Err(Error::Step(StepError::NotFinite { .. }))),
+        "{error:?}"
+    );
     Ok(())
 }
 

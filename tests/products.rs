@@ -1,6 +1,7 @@
 //! Extents that are products of sizes.
 
 use crate::common::bits;
+use hamiltonian::errors::InputError;
 use hamiltonian::prelude::*;
 
 hamiltonian! {
@@ -209,7 +210,7 @@ hamiltonian! {
 #[test]
 fn products_beyond_usize_are_refused_wherever_they_stand() {
     fn refused<S>(made: Result<S, Error>, product: &str) {
-        let Err(Error::Memory { name }) = made else {
+        let Err(Error::Input(InputError::Memory { name, .. })) = made else {
             panic!("`{product}`: {:?}", made.err());
         };
         assert_eq!(&*name, product);

@@ -2,6 +2,7 @@
 //! rustc (`toolchain/sizes.rs`).
 
 use hamiltonian::analysis::{Branch, momentum_from_energy};
+use hamiltonian::errors::InputError;
 use hamiltonian::prelude::*;
 
 hamiltonian! {
@@ -55,23 +56,28 @@ hamiltonian! {
     coordinates heliocentric(q, m)
 }
 
-fn index(index: &'static str, reached: i64, extent: usize) -> Error {
-    Error::Index {
-        index,
-        reached,
-        extent,
+/// The index that is refused, the value that it reaches, and the extent.
+fn index(error: Error) -> (String, i64, usize) {
+    match error {
+        Error::Input(InputError::Index {
+            expression,
+            reached,
+            extent,
+            ..
+        }) => (expression.into_string(), reached, extent),
+        error => panic!("{error}"),
     }
 }
 
 #[test]
 fn sizes_of_run_time_are_asked_by_new() {
-    assert_eq!(Pinned::new(3).unwrap_err(), index("q[3]", 3, 3));
+    assert_eq!(index(Pinned::new(3).unwrap_err()), ("q[3]".into(), 3, 3));
     let least = State::new(vec![0.0, 0.0, 0.5, 2.0], vec![0.0; 4]);
     assert_eq!(Pinned::new(4).unwrap().energy(&least), 20.0);
     let masses = |k| vec![0.5; k];
     assert_eq!(
-        Weighed::new(3, 2, masses(2)).unwrap_err(),
-        index("m[i]", 2, 2)
+        index(Weighed::new(3, 2, masses(2)).unwrap_err()),
+        ("m[i]".into(), 2, 2)
     );
     let ones = State::new(vec![0.0; 3], vec![1.0; 3]);
     assert_eq!(Weighed::new(3, 4, masses(4)).unwrap().energy(&ones), 3.0);
@@ -83,8 +89,8 @@ fn sizes_of_run_time_are_asked_by_new() {
     );
     // Sizes first: where a size does not fit, the number of masses is not the reason.
     assert_eq!(
-        Weighed::new(3, 2, masses(3)).unwrap_err(),
-        index("m[i]", 2, 2)
+        index(Weighed::new(3, 2, masses(3)).unwrap_err()),
+        ("m[i]".into(), 2, 2)
     );
     assert_eq!(
         Split::new(2).unwrap_err().to_string(),
@@ -96,8 +102,8 @@ fn sizes_of_run_time_are_asked_by_new() {
 #[test]
 fn bodies_around_the_first_are_not_none() {
     assert_eq!(
-        AroundFirst::new(0, Vec::<f64>::new()).unwrap_err(),
-        index("q[0]", 0, 0)
+        index(AroundFirst::new(0, Vec::<f64>::new()).unwrap_err()),
+        ("q[0]".into(), 0, 0)
     );
     let one = AroundFirst::new(1, vec![2.0]).unwrap();
     let there = one.from_declared(&State::new(vec![3.0], vec![2.0]));
@@ -107,7 +113,10 @@ fn bodies_around_the_first_are_not_none() {
 #[test]
 fn iterations_that_do_not_take_place_reach_nothing() {
     // i = n - 4, j = n - 1.
-    assert_eq!(Pairs::new(8).unwrap_err(), index("q[i + j - 3]", 8, 8));
+    assert_eq!(
+        index(Pairs::new(8).unwrap_err()),
+        ("q[i + j - 3]".into(), 8, 8)
+    );
     for n in [0, 3, 4, 7] {
         let pairs = Pairs::new(n).unwrap();
         let q: Vec<f64> = (0..n).map(|i| i as f64).collect();
@@ -126,13 +135,16 @@ fn iterations_that_do_not_take_place_reach_nothing() {
 
 #[test]
 fn ranges_of_run_time_begin_at_0() {
-    assert_eq!(
-        Tail::new(2).unwrap_err(),
-        Error::Range {
-            range: "i in n - 3..n",
-            first: -1
-        }
-    );
+    let error = Tail::new(2).unwrap_err();
+    let Error::Input(InputError::Range {
+        expression,
+        reached,
+        ..
+    }) = error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!((&*expression, reached), ("i in n - 3..n", -1));
     let state = State::new(vec![0.0; 5], vec![2.0; 5]);
     assert_eq!(Tail::new(5).unwrap().energy(&state), 13.0);
 }
@@ -140,12 +152,12 @@ fn ranges_of_run_time_begin_at_0() {
 #[test]
 fn moduli_of_run_time_are_extents() {
     assert_eq!(
-        Around::new(2, 3).unwrap_err(),
-        index("q[(i + 1) % k]", 2, 2)
+        index(Around::new(2, 3).unwrap_err()),
+        ("q[(i + 1) % k]".into(), 2, 2)
     );
     assert_eq!(
-        Around::new(2, 0).unwrap_err(),
-        index("q[(i + 1) % k]", -1, 2)
+        index(Around::new(2, 0).unwrap_err()),
+        ("q[(i + 1) % k]".into(), -1, 2)
     );
     let state = State::new(vec![1.0, 2.0, 3.0], vec![0.0; 3]);
     // q₀q₁ + q₁q₀ + q₂q₁ + q₀.
@@ -154,23 +166,30 @@ fn moduli_of_run_time_are_extents() {
 
 #[test]
 fn states_of_another_length_are_errors() {
-    let shape = |name: &str, expected, found| Error::Shape {
-        name: name.into(),
-        expected,
-        found,
+    let shape = |error| match error {
+        Error::Input(InputError::Shape {
+            name,
+            expected,
+            found,
+            ..
+        }) => (name.into_string(), expected, found),
+        error => panic!("{error}"),
     };
     let system = Weighed::new(3, 3, vec![1.0; 3]).unwrap();
     let state = |q, p| State::new(vec![1.0; q], vec![1.0; p]);
     assert_eq!(system.check_shape(&state(3, 3)), Ok(()));
     let long = state(4, 3);
-    assert_eq!(system.check_shape(&long), Err(shape("q", 3, 4)));
+    assert_eq!(
+        shape(system.check_shape(&long).unwrap_err()),
+        ("q".into(), 3, 4)
+    );
     let short = state(3, 2);
     let error = system.check_shape(&short).unwrap_err();
     assert_eq!(error.to_string(), "`p` must have 3 components, found 2");
     let started = momentum_from_energy(&system, &short, 0, 1.0, Branch::Nearest);
-    assert_eq!(started.unwrap_err(), shape("p", 3, 2));
+    assert_eq!(shape(started.unwrap_err()), ("p".into(), 3, 2));
     let run = Integrator::new(&system, RungeKutta4, long, 0.1);
-    assert_eq!(run.map(|_| ()).unwrap_err(), shape("q", 3, 4));
+    assert_eq!(shape(run.map(|_| ()).unwrap_err()), ("q".into(), 3, 4));
     // Without a check before, the panic has both lengths.
     let panic = std::panic::catch_unwind(|| system.gradient(&state(4, 4))).unwrap_err();
     let text = panic.downcast_ref::<String>().expect("it is formatted");
@@ -186,5 +205,8 @@ fn states_of_another_length_are_errors() {
         MixedVector::new(1.0, vec![1.0; 2], vec![[1.0; 2]; 3]),
         vector(2),
     );
-    assert_eq!(mixed.check_shape(&state), Err(shape("r", 4, 6)));
+    assert_eq!(
+        shape(mixed.check_shape(&state).unwrap_err()),
+        ("r".into(), 4, 6)
+    );
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::needless_borrow)]
 
 use crate::common::systems::Paper34;
+use hamiltonian::errors::StepError;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{Composition, ImplicitMidpoint, Strang};
 use hamiltonian::{Error, Scheme};
@@ -176,8 +177,8 @@ fn a_flow_that_leaves_its_domain_is_an_error() {
     let start = State::new([1.0], [-1.0]);
     let mut run = Integrator::new(&Explodes::default(), Strang, start.clone(), 2.0).unwrap();
     match run.advance(1) {
-        Err(Error::NotFinite { piece, step, .. }) => {
-            assert_eq!((piece, step), (Some("q*p^2"), 1));
+        Err(Error::Step(StepError::NotFinite { piece, step, .. })) => {
+            assert_eq!((piece.as_deref(), step), (Some("q*p^2"), 1));
         }
         other => panic!("{other:?}"),
     }

@@ -4,6 +4,7 @@
 mod friction;
 
 use hamiltonian::analysis::{Branch, Section, momentum_from_energy, on_section};
+use hamiltonian::errors::{SearchError, StartError};
 use hamiltonian::prelude::*;
 use hamiltonian::{Dual, schemes::author::Dynamics};
 
@@ -247,15 +248,16 @@ fn starts_off_the_shell_are_errors() {
     };
     let run = |start| Integrator::new(&kepler, RungeKutta4, start, 1e-3).map(|_| ());
     let start = State::new([0.4, 0.0, 0.0], [0.0, 2.0, 0.0]);
-    let Err(Error::Shell {
+    let Err(Error::Start(StartError::Shell {
         momentum,
-        given,
+        value,
         due,
-    }) = run(start.clone())
+        ..
+    })) = run(start.clone())
     else {
         panic!("p_t = 0 is not the shell");
     };
-    assert_eq!((&*momentum, given), ("p_t", 0.0));
+    assert_eq!((&*momentum, value), ("p_t", 0.0));
     close(due, 0.5);
     let mut on = kepler.on_shell(&start);
     run(on.clone()).unwrap();
@@ -263,11 +265,17 @@ fn starts_off_the_shell_are_errors() {
     on.p[2] = 0.500_1;
     run(on.clone()).unwrap();
     on.p[2] = 0.51;
-    assert!(matches!(run(on), Err(Error::Shell { .. })));
+    assert!(matches!(
+        run(on),
+        Err(Error::Start(StartError::Shell { .. }))
+    ));
     // At rest far out nothing but p_t and the potential is there.
     let rest = State::new([1e8, 0.0, 0.0], [0.0, 0.0, 0.0]);
     run(kepler.on_shell(&rest)).unwrap();
-    assert!(matches!(run(rest), Err(Error::Shell { .. })));
+    assert!(matches!(
+        run(rest),
+        Err(Error::Start(StartError::Shell { .. }))
+    ));
     // A parabola: H = 0, so that p_t is 0 on the shell.
     run(State::new([0.5, 0.0, 0.0], [0.0, 2.0, 0.0])).unwrap();
 }
@@ -423,7 +431,7 @@ fn starts() {
     let none = momentum_from_energy(&flat, &guess, 1, -9.0, Branch::Nearest);
     assert!(matches!(
         none,
-        Err(Error::NoMomentum { name, index: 1, .. }) if *name == *"p_y"
+        Err(Error::Search(SearchError::NoMomentum { name, index: 1, .. })) if *name == *"p_y"
     ));
     // In another time the shell is K = 0, which fixes p_t, or any other momentum with p_t = −E.
     let sundman = Sundman::default();

@@ -66,7 +66,7 @@ impl<'a, S: System> Contest<'a, S> {
         let broken = match run.advance(steps) {
             Ok(_) => false,
             // The paper's schemes leave the numbers, the implicit ones find no solution.
-            Err(Error::NotFinite { .. } | Error::Solve { .. }) => true,
+            Err(Error::Step(_)) => true,
             Err(error) => return Err(error),
         };
         let each = begin.elapsed().as_secs_f64() / run.steps().max(1) as f64;

@@ -31,7 +31,7 @@
 //! # Ok::<(), hamiltonian_core::errors::KnotError>(())
 //! ```
 //!
-//! The folders are layers, and each reads only those before it: `error`; [`systems`], with vectors and states; `flows`,
+//! The folders are layers, and each reads only those before it: [`errors`]; [`systems`], with vectors and states; `flows`,
 //! what moves a state; `loops` over arrays; [`schemes`]; [`results`]; [`observers`]; `runs`; [`analysis`]; `ensembles`;
 //! `private`, for emitted code. The page of each says what enters and what leaves. The types of a run are at the root.
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -45,6 +45,7 @@ extern crate alloc;
 
 pub mod analysis;
 mod ensembles;
+pub mod errors;
 mod flows;
 mod loops;
 pub mod observers;
@@ -53,14 +54,13 @@ mod runs;
 pub mod schemes;
 pub mod systems;
 
-mod error;
 #[doc(hidden)]
 pub mod private;
 
 pub use ensembles::{
     End, Ensemble, Fused, Lyapunov, Member, Record, Rounding, Row, Status, Sweep, Unfused,
 };
-pub use error::Error;
+pub use errors::Error;
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 pub use observers::observe::{Observer, View};
 pub use results::checkpoint::Checkpoint;
@@ -81,13 +81,6 @@ pub use systems::vector::{IntoVector, Vector, shape};
 // Hidden, since the glob of the facade would put its pages among those of the library.
 #[doc(hidden)]
 pub use nalgebra;
-
-/// The parts of [`Error`]: errors of saved runs, tables, stores, shards and the knots of splines.
-pub mod errors {
-    #[cfg(feature = "std")]
-    pub use crate::error::StoreError;
-    pub use crate::error::{CheckpointError, KnotError, ShardError, TableError};
-}
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
 pub type StateOf<S, T = f64> = State<VectorOf<S, T>>;

@@ -25,7 +25,7 @@ pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
 
-pub use crate::error::Error;
+pub use crate::errors::Error;
 pub use crate::flows::exponential::Exponential;
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
 pub use crate::flows::kernel::{

@@ -3,6 +3,7 @@
 use crate::common::difference;
 use crate::common::systems::*;
 use core::ops::ControlFlow;
+use hamiltonian_core::errors::{StepError, TimeError};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::{Scheme, Vector, View};
@@ -87,11 +88,11 @@ fn parts_fail_like_steps() {
     let start = State::new([1.0], [0.3]);
     let run = Integrator::new(&Hand(Paper34), scheme, start.clone(), 0.5).unwrap();
     match run.state_at(0.3).unwrap_err() {
-        Error::Solve {
+        Error::Step(StepError::Unsolved {
             iterations: 3,
             time: 0.0,
             ..
-        } => {}
+        }) => {}
         other => panic!("{other:?}"),
     }
     assert_eq!(run.state(), &start);
@@ -119,7 +120,10 @@ fn any_time_on_request() {
     );
     for t in [f64::NAN, f64::INFINITY] {
         let beyond = run.advance_until(t).unwrap_err();
-        assert!(matches!(beyond, Error::Unreachable { .. }), "{beyond}");
+        assert!(
+            matches!(beyond, Error::Time(TimeError::Unreachable { .. })),
+            "{beyond}"
+        );
     }
     assert_eq!(run.steps(), 100);
 
@@ -135,7 +139,7 @@ fn any_time_on_request() {
     let mut run = new();
     let items: Vec<_> = run.states_at([0.1, 0.05, 0.2]).collect();
     assert_eq!(items.len(), 2);
-    assert!(items[0].is_ok() && matches!(items[1], Err(Error::Behind { .. })));
+    assert!(items[0].is_ok() && matches!(items[1], Err(Error::Time(TimeError::Behind { .. }))));
     // Backwards.
     let mut back = Integrator::new(&Hand(HenonHeiles), RungeKutta4, begin(), -0.01).unwrap();
     assert_eq!(back.advance_until(-0.335).unwrap().t, -0.335);

@@ -6,6 +6,7 @@
 use crate::common::random::Random;
 use crate::common::systems::{Formula, Hand, Ready};
 use core::cell::Cell;
+use hamiltonian_core::errors::StepError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::{Flow, Group, OneStep, Piece, Point, Weight};
@@ -172,14 +173,14 @@ impl Count {
                 continue;
             };
             let piece = match error {
-                Error::NotFinite { piece, .. } => piece,
+                Error::Step(StepError::NotFinite { piece, .. }) => piece,
                 // Equations of an adjoint that have no solution, inside all domains.
-                Error::Solve { .. } if FIRST.get().is_none() => return,
-                Error::Solve { .. } => None,
+                Error::Step(StepError::Unsolved { .. }) if FIRST.get().is_none() => return,
+                Error::Step(StepError::Unsolved { .. }) => None,
                 error => panic!("{error}"),
             };
             self.failed += 1;
-            self.wrong += u32::from(piece != FIRST.get());
+            self.wrong += u32::from(piece.as_deref() != FIRST.get());
             return;
         }
     }

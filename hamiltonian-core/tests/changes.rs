@@ -1,6 +1,7 @@
 //! Runs that are changed between two steps: the state, the parameters.
 
 use crate::common::systems::*;
+use hamiltonian_core::errors::{StartError, TimeError};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::{Real, Scheme, private::SVector};
 
@@ -35,7 +36,10 @@ fn a_changed_run_goes_on_as_a_new_one() {
         assert_eq!(run.steps(), 1_999);
         run.advance_to(0.7 + 300.0).unwrap();
         assert_eq!(run.steps(), 3_000);
-        assert!(matches!(run.advance_to(300.0), Err(Error::Behind { .. })));
+        assert!(matches!(
+            run.advance_to(300.0),
+            Err(Error::Time(TimeError::Behind { .. }))
+        ));
     }
     of(StormerVerlet::KickDriftKick);
     of(StormerVerlet::DriftKickDrift);
@@ -74,7 +78,7 @@ fn a_state_that_cannot_be_a_start_is_refused() {
     let mut twin = run.clone();
     let other = run.set_state(start());
     assert!(
-        matches!(other, Err(Error::OtherTime { given: 0.0, now, .. }) if now == 1.0),
+        matches!(other, Err(Error::Start(StartError::OtherTime { time: 0.0, now, .. })) if now == 1.0),
         "{other:?}"
     );
     let message = other.unwrap_err().to_string();
@@ -88,10 +92,16 @@ fn a_state_that_cannot_be_a_start_is_refused() {
     let mut bad = twin.state().clone();
     bad.q[1] = f64::NAN;
     let mut run = twin.clone();
-    assert!(matches!(run.set_state(bad), Err(Error::Start { .. })));
+    assert!(matches!(
+        run.set_state(bad),
+        Err(Error::Start(StartError::NotFinite { .. }))
+    ));
     let mut far = twin.state().clone();
     far.q[1] = 1e200;
-    assert!(matches!(run.set_state(far), Err(Error::Values { .. })));
+    assert!(matches!(
+        run.set_state(far),
+        Err(Error::Start(StartError::Values { .. }))
+    ));
     run.advance(50).unwrap();
     twin.advance(50).unwrap();
     assert_eq!(

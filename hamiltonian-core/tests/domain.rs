@@ -6,6 +6,7 @@
 use crate::common::four::Four;
 use crate::common::random::{Random, cases};
 use crate::common::systems::{Formula, Halves, Hand, number};
+use hamiltonian_core::errors::StepError;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::Group;
 use hamiltonian_core::schemes::{
@@ -252,9 +253,9 @@ impl Case {
         for _ in 0..n {
             match path.advance(1) {
                 Ok(state) => states.push(state.clone()),
-                Err(Error::NotFinite { .. }) => break,
+                Err(Error::Step(StepError::NotFinite { .. })) => break,
                 // An implicit step that is not solved is another error.
-                Err(Error::Solve { .. }) => return,
+                Err(Error::Step(StepError::Unsolved { .. })) => return,
                 Err(error) => panic!("{place}: {error}"),
             }
         }
@@ -294,14 +295,14 @@ impl Case {
                 }
             }
             Some(bad) => {
-                let Err(Error::NotFinite {
+                let Err(Error::Step(StepError::NotFinite {
                     step,
                     energy,
                     time,
                     q,
                     p,
                     ..
-                }) = result
+                })) = result
                 else {
                     panic!("step {bad} is outside: {result:?}, {place}");
                 };
@@ -356,7 +357,7 @@ impl Case {
             }
             let part = run.state_at(run.state().t + h);
             // An implicit step by itself begins with another iterate, and may not be solved.
-            let is_refused = matches!(part, Err(Error::NotFinite { .. } | Error::Solve { .. }));
+            let is_refused = matches!(part, Err(Error::Step(_)));
             assert!(is_refused, "{part:?} {place}");
         }
     }
@@ -437,12 +438,12 @@ fn the_first_lane_that_leaves_the_domain_is_named() {
             }
             (
                 Some((bad, lane)),
-                Err(Error::NotFinite {
+                Err(Error::Step(StepError::NotFinite {
                     step,
                     lane: named,
                     energy,
                     ..
-                }),
+                })),
             ) => {
                 assert_eq!((step, named), (bad as u64, Some(lane as u32)), "{case:?}");
                 assert_eq!(energy.is_none(), is_broken(lane, bad), "{case:?}");
@@ -481,9 +482,9 @@ fn the_quoted_run_is_an_error() {
         )
     };
     let error = quoted().unwrap().advance(100).unwrap_err();
-    let Error::NotFinite {
+    let Error::Step(StepError::NotFinite {
         step, energy, q, ..
-    } = &error
+    }) = &error
     else {
         panic!("{error}");
     };

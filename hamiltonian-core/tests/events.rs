@@ -3,6 +3,7 @@
 use crate::common::systems::*;
 use core::f64::consts::{PI, TAU};
 use core::ops::ControlFlow;
+use hamiltonian_core::errors::TimeError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::{DoubleDouble, Error, Scheme, View};
@@ -347,14 +348,18 @@ fn outputs_at_times_are_those_of_the_run() {
     }
     // A time behind the start is an error.
     let mut behind = new().observe(at_times([-1.0, 1.0], Recorder::new()));
-    assert!(matches!(
-        behind.advance(1),
-        Err(Error::Behind {
-            target: -1.0,
-            now: 0.0,
-            ..
-        })
-    ));
+    let error = behind.advance(1).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            Error::Time(TimeError::Behind {
+                target: -1.0,
+                now: 0.0,
+                ..
+            })
+        ),
+        "{error}"
+    );
     // An observer may end the run there.
     let mut run = new().observe(at_times(grid(), Until(0.5)));
     run.advance(80).unwrap();

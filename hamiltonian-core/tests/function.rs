@@ -200,12 +200,13 @@ fn bad_knots_are_refused() {
         Spline::periodic(&[0.0, 1.0, 2.0], &[1.0; 3]),
         Err(KnotError::TooFew {
             needed: 4,
-            found: 3
+            found: 3,
+            ..
         })
     ));
     assert!(matches!(
         Grid::natural([0.0; 2], [1.0, 0.0], &table()),
-        Err(KnotError::Spacing { at: 1, .. })
+        Err(KnotError::Spacing { index: 1, .. })
     ));
     let mut ragged = table();
     ragged[3].pop();
@@ -213,7 +214,8 @@ fn bad_knots_are_refused() {
         Grid::natural([0.0; 2], [1.0; 2], &ragged),
         Err(KnotError::Lengths {
             knots: 5,
-            values: 4
+            values: 4,
+            ..
         })
     ));
     let none: [[f64; 4]; 0] = [];

@@ -2,6 +2,7 @@
 
 use crate::common::four::Four;
 use crate::common::systems::*;
+use hamiltonian_core::errors::StepError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::Coupled;
 use hamiltonian_core::private::SVector;
@@ -121,11 +122,11 @@ fn a_solve_fails_in_its_lane_alone() {
     let step = Four([0.05; 4]);
     let mut run = Integrator::new(&Hand(Paper34), scheme, start.clone(), step).unwrap();
     match run.advance(5).unwrap_err() {
-        Error::Solve {
+        Error::Step(StepError::Unsolved {
             step: 1,
             lane: Some(1),
             ..
-        } => {}
+        }) => {}
         other => panic!("{other:?}"),
     }
     let prepared = System::prepare::<Four>(&Hand(Paper34));

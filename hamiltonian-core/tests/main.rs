@@ -11,6 +11,7 @@ mod composition;
 mod described;
 mod domain;
 mod drift;
+mod errors;
 mod estimate;
 mod events;
 mod exponential;

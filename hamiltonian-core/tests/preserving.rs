@@ -9,6 +9,7 @@ use super::common::systems::{
 };
 use super::common::{difference, start};
 use hamiltonian_core::VectorOf;
+use hamiltonian_core::errors::{StepError, TimeError};
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
     DoubleDouble, Error, Integrator, Real, Scheme, State, System, Vector,
@@ -202,7 +203,7 @@ fn steps_with_few_stages_have_the_same_bits_together_and_one_by_one() {
         Integrator::new(&system, ImplicitMidpoint::default(), start, 1.6).expect("a good start");
     let error = run.advance(200).expect_err("no fixed point");
     assert!(
-        matches!(error, Error::Solve { step, .. } if step > 1),
+        matches!(error, Error::Step(StepError::Unsolved { step, .. }) if step > 1),
         "{error}"
     );
 }
@@ -311,9 +312,15 @@ fn any_time_with_variable_steps() {
         let mut beside = new();
         assert_eq!(beside.advance(run.steps()).unwrap(), run.state());
         let far = run.state_at(times[1]).unwrap_err();
-        assert!(matches!(far, Error::Far { .. }), "{far}");
-        assert!(matches!(run.advance_until(0.0), Err(Error::Far { .. })));
-        assert_eq!(run.advance_to(4.0).unwrap_err(), Error::Uneven);
+        assert!(matches!(far, Error::Time(TimeError::Far { .. })), "{far}");
+        assert!(matches!(
+            run.advance_until(0.0),
+            Err(Error::Time(TimeError::Far { .. }))
+        ));
+        assert!(matches!(
+            run.advance_to(4.0),
+            Err(Error::Time(TimeError::Uneven { .. }))
+        ));
         assert!(run.advance_until(f64::NAN).is_err());
     }
 }

@@ -5,6 +5,7 @@ use hamiltonian_core::VectorOf;
 use hamiltonian_core::analysis::{
     Branch, Section, coordinate_on_event, momentum_from_energy, on_section,
 };
+use hamiltonian_core::errors::{InputError, ObservableError, SearchError, StartError};
 use hamiltonian_core::systems::coordinates::{
     from_heliocentric, from_jacobi, to_heliocentric, to_jacobi,
 };
@@ -217,7 +218,7 @@ fn linear_concave_shifted_and_bounded_hamiltonians_are_solved() {
         close(solve(0, at, 7.0, Branch::Forward), 2.0);
         assert!(matches!(
             solve(0, at, 7.0, Branch::Backward),
-            Err(Error::NoMomentum { .. })
+            Err(Error::Search(SearchError::NoMomentum { .. }))
         ));
         // The increasing side of a concave one is the smaller root.
         close(solve(1, at, 1.0, Branch::Forward), 4.0);
@@ -246,16 +247,17 @@ fn beyond_a_turning_point_the_error_has_the_values() {
     let least: f64 = system.energy(&guess(0.0));
     for at in [0.0, 1.5, -40.0] {
         match momentum_from_energy(&system, &guess(at), 1, least - 0.01, Branch::Nearest) {
-            Err(Error::NoMomentum {
+            Err(Error::Search(SearchError::NoMomentum {
                 name,
                 index,
-                energy,
-                reached,
+                required,
+                closest,
                 at,
-            }) => {
+                ..
+            })) => {
                 assert_eq!((&*name, index), ("p_theta", 1));
-                assert_eq!(energy, least - 0.01);
-                assert!((reached - least).abs() < 1e-12, "{reached} {least}");
+                assert_eq!(required, least - 0.01);
+                assert!((closest - least).abs() < 1e-12, "{closest} {least}");
                 assert!(at.abs() < 1e-4);
             }
             other => panic!("{other:?}"),
@@ -317,27 +319,35 @@ fn an_event_that_depends_on_the_momentum_is_solved_with_it() {
 fn what_is_not_there_is_an_error() {
     let system = schwarzschild(0.0);
     let start = guess::<f64>(1.0);
-    assert_eq!(
+    assert!(matches!(
         momentum_from_energy(&system, &start, 2, MINUS_HALF, Branch::Nearest),
-        Err(Error::Component { index: 2, count: 2 })
-    );
-    assert_eq!(
+        Err(Error::Search(SearchError::Component {
+            index: 2,
+            count: 2,
+            ..
+        }))
+    ));
+    assert!(matches!(
         coordinate_on_event(&system, &start, 9, 0),
-        Err(Error::Observable { index: 9, count: 5 })
-    );
+        Err(Error::Observable(ObservableError::Index {
+            index: 9,
+            count: 5,
+            ..
+        }))
+    ));
     let broken = State::new([f64::NAN, 1.0], [0.0, 0.0]);
     assert!(matches!(
         momentum_from_energy(&system, &broken, 1, MINUS_HALF, Branch::Nearest),
-        Err(Error::Start { .. })
+        Err(Error::Start(StartError::NotFinite { .. }))
     ));
     match coordinate_on_event(&system, &start, 2, 0) {
-        Err(Error::NoCrossing {
+        Err(Error::Search(SearchError::NoCrossing {
             event,
             name,
             from,
             value,
             ..
-        }) => assert_eq!((&*event, &*name, from, value), ("never", "r", 11.0, 122.0)),
+        })) => assert_eq!((&*event, &*name, from, value), ("never", "r", 11.0, 122.0)),
         other => panic!("{other:?}"),
     }
     // A pole is no zero: 1/(r − 3.1) = −40 is passed over for no other.
@@ -347,7 +357,7 @@ fn what_is_not_there_is_an_error() {
     // Neither is a jump.
     assert!(matches!(
         coordinate_on_event(&system, &start, 4, 0),
-        Err(Error::NoCrossing { event, .. }) if *event == *"jump"
+        Err(Error::Search(SearchError::NoCrossing { event, .. })) if *event == *"jump"
     ));
     // No momentum where the event is.
     let section = Section {
@@ -357,7 +367,7 @@ fn what_is_not_there_is_an_error() {
     };
     assert!(matches!(
         on_section(&system, &start, section, -1e3, Branch::Nearest),
-        Err(Error::NoMomentum { .. })
+        Err(Error::Search(SearchError::NoMomentum { .. }))
     ));
 }
 
@@ -470,15 +480,19 @@ fn bodies_that_do_not_fit_are_errors() {
     let (start, mut masses) = bodies(3);
     assert!(matches!(
         to_jacobi(&start, &masses[..2]),
-        Err(Error::Shape { .. })
+        Err(Error::Input(InputError::Shape { .. }))
     ));
     assert!(matches!(
         to_jacobi(&start, &masses[..0]),
-        Err(Error::Shape { .. })
+        Err(Error::Input(InputError::Shape { .. }))
     ));
     masses[0] = 0.0;
-    assert_eq!(
+    assert!(matches!(
         to_jacobi(&start, &masses),
-        Err(Error::Masses { body: 0, sum: 0.0 })
-    );
+        Err(Error::Input(InputError::Masses {
+            body: 0,
+            sum: 0.0,
+            ..
+        }))
+    ));
 }

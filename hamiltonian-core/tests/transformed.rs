@@ -4,6 +4,7 @@ use super::common::kepler::{InRadius, Kepler, in_radius, pericentre};
 use super::common::measures::{assert_order, defect, tangent};
 use super::common::systems::Hand;
 use super::preserving::Close;
+use hamiltonian_core::errors::StartError;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
@@ -180,28 +181,28 @@ fn what_is_no_monitor_is_refused() {
     let system = in_radius(false);
     let nowhere = State::new([0.0, 0.0], [0.0, 1.0]);
     let refused = system.start::<f64>(&nowhere).expect_err("g = 0");
-    assert_eq!(refused, Error::Monitor { value: 0.0 });
+    assert!(matches!(
+        refused,
+        Error::Start(StartError::Monitor { value: 0.0, .. })
+    ));
     let system = in_radius(true);
     let mut off = system.start(&pericentre::<f64>(0.6)).expect("a good start");
     // At rest too, where ∂g/∂p is 0.
     let rest = (system.start(&State::new([1.0, 0.0], [0.0, 0.0]))).expect("a good start");
     let verlet = TransformedVerlet::default();
-    let scheme = "TransformedVerlet";
+    let is_refused = |error: Option<Error>| matches!(error, Some(Error::Start(StartError::MonitorOfMomenta { scheme, .. })) if *scheme == *"TransformedVerlet");
     for start in [off.clone(), rest.clone()] {
         let alone = Integrator::new(&system, verlet, start.clone(), 0.1).err();
-        assert_eq!(alone, Some(Error::MonitorOfMomenta { scheme }));
+        assert!(is_refused(alone));
         let composed = Integrator::new(&system, KahanLi6.of(verlet), start, 0.1).err();
-        assert_eq!(composed, Some(Error::MonitorOfMomenta { scheme }));
+        assert!(is_refused(composed));
     }
     Integrator::new(&in_radius(false), verlet, rest, 0.1).expect("a monitor of coordinates");
     off.p.y[0] += 0.1;
     let refused =
         Integrator::new(&system, Gauss::<2>::default(), off, 0.1).expect_err("off the shell");
     assert!(
-        matches!(
-            refused,
-            Error::Shell { ref momentum, .. } if **momentum == *"p_t"
-        ),
+        matches!(&refused, Error::Start(StartError::Shell { momentum, .. }) if **momentum == *"p_t"),
         "{refused}"
     );
 }

@@ -11,6 +11,7 @@ use super::common::systems::{
 };
 use super::schemes::{on_34, on_the_double_pendulum, symplectic};
 use hamiltonian_core::VectorOf;
+use hamiltonian_core::errors::{SearchError, StartError};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::author::Ends;
 use hamiltonian_core::schemes::collocation::Collocation;
@@ -463,14 +464,20 @@ fn ends_without_a_path_are_errors() {
         let error = scheme
             .extremal(&system, 0.0, h, ends())
             .expect_err("no step");
-        assert!(matches!(error, Error::Step { .. }), "{error}");
+        assert!(
+            matches!(error, Error::Start(StartError::Step { .. })),
+            "{error}"
+        );
     }
     // Faster than light.
     let error = scheme
         .extremal(&system, 0.0, 0.5, ends())
         .expect_err("no path");
     assert!(
-        matches!(error, Error::Stationary { step: 0.5, .. }),
+        matches!(
+            error,
+            Error::Search(SearchError::NoStationaryPath { length: 0.5, .. })
+        ),
         "{error}"
     );
 }

@@ -8,7 +8,7 @@ mod arcs;
 mod least_squares;
 
 use crate::analysis::tangent::multipliers;
-use crate::error::Error;
+use crate::errors::{Error, SearchError, StartError};
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
 use crate::systems::system::{Dynamics, System};
@@ -209,12 +209,13 @@ impl<'a> OrbitSearch<'a> {
     /// Finds the orbit near `guess`. All coordinates must return to their values: an angle that grows by 2π does not.
     ///
     /// # Errors
-    /// [`Error::NoPeriodicOrbit`] if the method does not converge, for example because the guess is far, because the
-    /// condition does not single out an orbit, or because the period leaves the range from half to twice the guess;
-    /// [`Error::PointOrbit`] if the orbit is an equilibrium; [`Error::FarOrbit`] if it is too far from the guess;
-    /// [`Error::Symmetry`] for signs that are no symmetry; [`Error::Unknown`] for a section that the system does not
-    /// declare; those of [`Tangent::new`](crate::analysis::Tangent::new) and [`Tangent::advance`](crate::analysis::Tangent::advance) at the
-    /// guess.
+    /// [`SearchError::NoPeriodicOrbit`] if the method does not converge, for example because the guess is far,
+    /// because the condition does not single out an orbit, or because the period leaves the range from half to twice
+    /// the guess; [`SearchError::PointOrbit`] if the orbit is an equilibrium; [`SearchError::FarOrbit`] if it is too
+    /// far from the guess; [`SearchError::Symmetry`] for signs that are no symmetry;
+    /// [`ObservableError::Unknown`](crate::errors::ObservableError::Unknown) for a section that the system does not
+    /// declare; those of [`Tangent::new`](crate::analysis::Tangent::new) and
+    /// [`Tangent::advance`](crate::analysis::Tangent::advance) at the guess.
     ///
     /// With [`Closing::Driven`], a point is accepted if ∂H/∂t is not 0 along the guess, or if the guess is that point.
     pub fn find<S, M, V>(
@@ -237,10 +238,10 @@ impl<'a> OrbitSearch<'a> {
         if let Some(name) = section
             && system.description().observable_index(name).is_none()
         {
-            return Err(system.description().unknown(name));
+            return Err(system.description().unknown(name).into());
         }
         if self.steps == 0 {
-            return Err(Error::NoSteps);
+            return Err(StartError::NoSteps.into());
         }
         let size = 2 * guess.q.len();
         let odd = self.odd(size)?;
@@ -280,7 +281,7 @@ impl<'a> OrbitSearch<'a> {
             is_at_rest || path.nodes.iter().enumerate().any(changes)
         };
         if guessed == [0.0; 2] && !is_driven {
-            return Err(Error::PointOrbit { distance: 0.0 });
+            return Err(SearchError::PointOrbit { distance: 0.0 }.into());
         }
         let units: Vec<f64> = (0..size)
             .map(|i| match guessed[usize::from(2 * i >= size)] {
@@ -300,10 +301,10 @@ impl<'a> OrbitSearch<'a> {
         let missed = |nodes: &Nodes, gap: f64| {
             let path = shooting.path_through(&nodes.points[0], nodes.period);
             match path.is_ok_and(|path| is_point(&path)) {
-                true => Error::PointOrbit {
+                true => SearchError::PointOrbit {
                     distance: distance(&nodes.points[0]),
                 },
-                false => Error::NoPeriodicOrbit {
+                false => SearchError::NoPeriodicOrbit {
                     gap,
                     period: nodes.period,
                 },
@@ -326,7 +327,7 @@ impl<'a> OrbitSearch<'a> {
                 period,
             })?;
             if !shot.is_met() {
-                return Err(missed(&found, shot.gap));
+                return Err(missed(&found, shot.gap).into());
             }
             path = shooting.path_through(&found.points[0], found.period)?;
             nodes.period = found.period;
@@ -334,13 +335,13 @@ impl<'a> OrbitSearch<'a> {
         nodes.points = path.nodes;
         let (nodes, shot) = shooting.converge(nodes)?;
         if !shot.is_met() {
-            return Err(missed(&nodes, shot.gap));
+            return Err(missed(&nodes, shot.gap).into());
         }
         let found = &nodes.points[0];
         let path = shooting.path_through(found, nodes.period)?;
         let distance = distance(found);
         if is_point(&path) {
-            return Err(Error::PointOrbit { distance });
+            return Err(SearchError::PointOrbit { distance }.into());
         }
         let mut squares = [0.0; 2];
         for (i, (x, from)) in found.iter().zip(&original).enumerate() {
@@ -349,11 +350,12 @@ impl<'a> OrbitSearch<'a> {
         }
         let widths = Real::sqrt(squares[0].max(squares[1]));
         if guessed != [0.0; 2] && (widths > self.reach || widths.is_nan()) {
-            return Err(Error::FarOrbit {
+            return Err(SearchError::FarOrbit {
                 distance,
                 widths,
                 period: nodes.period,
-            });
+            }
+            .into());
         }
         let mut monodromy = shot.product;
         for i in 0..size {
@@ -370,7 +372,7 @@ impl<'a> OrbitSearch<'a> {
     }
 
     /// The components that the symmetry changes.
-    fn odd(&self, size: usize) -> Result<Vec<bool>, Error> {
+    fn odd(&self, size: usize) -> Result<Vec<bool>, SearchError> {
         let Some(signs) = self.signs else {
             return Ok(vec![false; size]);
         };
@@ -378,7 +380,7 @@ impl<'a> OrbitSearch<'a> {
         let is_pair = |(q, p): (&i8, &i8)| q.abs() == 1 && *p == -q;
         match signs.len() == size && q.iter().zip(p).all(is_pair) {
             true => Ok(signs.iter().map(|sign| *sign < 0).collect()),
-            false => Err(Error::Symmetry { change: None }),
+            false => Err(SearchError::Symmetry { change: None }),
         }
     }
 
@@ -389,7 +391,7 @@ impl<'a> OrbitSearch<'a> {
         odd: &[bool],
         path: &Path,
         period: f64,
-    ) -> Result<(), Error>
+    ) -> Result<(), SearchError>
     where
         V: Vector<Scalar = f64>,
         S: System<Shape: Shape<Vector<f64> = V>>,
@@ -415,7 +417,7 @@ impl<'a> OrbitSearch<'a> {
                 .fold(before.abs(), |sum, (slope, x)| sum + (slope * x).abs());
             let change = changed - before;
             if change.is_nan() || change.abs() > LEAST * size {
-                return Err(Error::Symmetry {
+                return Err(SearchError::Symmetry {
                     change: Some(change),
                 });
             }

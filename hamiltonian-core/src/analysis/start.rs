@@ -19,7 +19,7 @@
 
 mod search;
 
-use crate::error::Error;
+use crate::errors::{Error, ObservableError, SearchError};
 use crate::runs::integrator::check_state;
 use crate::systems::state::State;
 use crate::systems::system::{Description, Dynamics, Group, System, VectorOf};
@@ -59,8 +59,9 @@ pub struct Section {
 /// duals the result has derivatives. A minimum that touches E to rounding counts as a root.
 ///
 /// # Errors
-/// [`Error::NoMomentum`] if H = E for no value (beyond a turning point), with the value of H
-/// nearest to E; [`Error::Shape`], [`Error::Component`], [`Error::Start`].
+/// [`SearchError::NoMomentum`] if H = E for no value (beyond a turning point), with the value of H nearest to E;
+/// [`InputError::Shape`](crate::errors::InputError::Shape), [`SearchError::Component`],
+/// [`StartError::NotFinite`](crate::errors::StartError::NotFinite).
 pub fn momentum_from_energy<T: Real, S: System>(
     system: &S,
     state: &State<VectorOf<S, T>>,
@@ -89,8 +90,9 @@ pub fn momentum_from_energy<T: Real, S: System>(
 /// zero nearest to the state's own value, found by its change of sign.
 ///
 /// # Errors
-/// [`Error::NoCrossing`] if none was found; [`Error::Observable`], [`Error::Shape`],
-/// [`Error::Component`], [`Error::Start`].
+/// [`SearchError::NoCrossing`] if none was found; [`ObservableError::Index`],
+/// [`InputError::Shape`](crate::errors::InputError::Shape), [`SearchError::Component`],
+/// [`StartError::NotFinite`](crate::errors::StartError::NotFinite).
 pub fn coordinate_on_event<T: Real, S: System>(
     system: &S,
     state: &State<VectorOf<S, T>>,
@@ -100,10 +102,11 @@ pub fn coordinate_on_event<T: Real, S: System>(
     check_state(system, state)?;
     let count = system.description().observables.len();
     if event >= count {
-        return Err(Error::Observable {
+        return Err(ObservableError::Index {
             index: event,
             count,
-        });
+        }
+        .into());
     }
     check_component(coordinate, state.q.len())?;
     let prepared = system.prepare();
@@ -166,13 +169,8 @@ pub fn on_section<T: Real, S: System>(
         Err(value) => {
             // If there is no momentum at the event, the error is the missing momentum.
             solved?;
-            Err(no_crossing::<T, S>(
-                system.description(),
-                event,
-                coordinate,
-                state,
-                value,
-            ))
+            let system = system.description();
+            Err(no_crossing::<T, S>(system, event, coordinate, state, value).into())
         }
     }
 }
@@ -332,11 +330,11 @@ fn is_negative<T: Real>(x: T) -> bool {
     x.lt(T::zero()).all()
 }
 
-fn check_component(index: usize, count: usize) -> Result<(), Error> {
+fn check_component(index: usize, count: usize) -> Result<(), SearchError> {
     if index < count {
         Ok(())
     } else {
-        Err(Error::Component { index, count })
+        Err(SearchError::Component { index, count })
     }
 }
 
@@ -345,12 +343,12 @@ fn no_momentum<T: Real, S: System>(
     momentum: usize,
     energy: T,
     closest: &EnergySample<T>,
-) -> Error {
-    Error::NoMomentum {
+) -> SearchError {
+    SearchError::NoMomentum {
         name: name::<VectorOf<S, T>>(system, momentum, |group| &group.momentum).into(),
         index: momentum,
-        energy: energy.to_f64(),
-        reached: (closest.f + energy).to_f64(),
+        required: energy.to_f64(),
+        closest: (closest.f + energy).to_f64(),
         at: closest.x.to_f64(),
     }
 }
@@ -361,8 +359,8 @@ fn no_crossing<T: Real, S: System>(
     coordinate: usize,
     state: &State<VectorOf<S, T>>,
     value: T,
-) -> Error {
-    Error::NoCrossing {
+) -> SearchError {
+    SearchError::NoCrossing {
         event: (system.observables.get(event))
             .map_or("", |o| &o.name)
             .into(),

@@ -8,7 +8,7 @@
 mod eigenvalues;
 mod megno;
 
-use crate::error::Error;
+use crate::errors::{Error, StartError};
 use crate::flows::map::Map;
 use crate::runs::integrator::{Integrator, MapOf};
 use crate::schemes::scheme::{CarriedBy, Scheme};
@@ -52,7 +52,7 @@ impl<T: Real, S: System, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// The whole derivative of the map needs as many as there are coordinates and momenta.
     ///
     /// # Errors
-    /// Those of [`Integrator::new`]; [`Error::Deviations`] for no deviation, or more than there are
+    /// Those of [`Integrator::new`]; [`StartError::Deviations`] for no deviation, or more than there are
     /// coordinates and momenta.
     pub fn new<M>(
         system: &S,
@@ -78,7 +78,8 @@ impl<T: Real, S: System, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// Makes `n` steps.
     ///
     /// # Errors
-    /// Those of [`Integrator::advance`]. A deviation that overflows is [`Error::NotFinite`]: call
+    /// Those of [`Integrator::advance`]. A deviation that overflows is
+    /// [`StepError::NotFinite`](crate::errors::StepError::NotFinite): call
     /// [`orthonormalise`](Tangent::orthonormalise) more often.
     pub fn advance(&mut self, n: u64) -> Result<(), Error> {
         self.runs
@@ -157,7 +158,7 @@ impl<T: Real, S: System, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoSteps`] for 0 steps; those of [`advance`](Tangent::advance).
+    /// [`StartError::NoSteps`] for 0 steps; those of [`advance`](Tangent::advance).
     pub fn lyapunov(&mut self, steps: u64, every: u64) -> Result<Vec<T>, Error> {
         let mut sums = alloc::vec![T::zero(); self.runs.len()];
         let begin = self.time();
@@ -180,7 +181,7 @@ impl<T: Real, S: System, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         mut see: impl FnMut([u64; 2], &[T]),
     ) -> Result<(), Error> {
         if steps == 0 {
-            return Err(Error::NoSteps);
+            return Err(StartError::NoSteps.into());
         }
         let mut made = 0;
         self.orthonormalise();
@@ -327,10 +328,10 @@ pub(crate) fn aslant<T: Real, V: Vector<Scalar = Dual<T>>>(lifted: &State<V>) ->
 }
 
 /// Returns an error for no deviation, or for more than a state of `n` coordinates has directions.
-pub(crate) fn check_deviations(deviations: usize, n: usize) -> Result<(), Error> {
+pub(crate) fn check_deviations(deviations: usize, n: usize) -> Result<(), StartError> {
     match deviations == 0 || deviations > 2 * n {
         false => Ok(()),
-        true => Err(Error::Deviations {
+        true => Err(StartError::Deviations {
             most: 2 * n,
             found: deviations,
         }),
@@ -461,7 +462,7 @@ where
 /// ```
 ///
 /// # Errors
-/// [`Error::NoSteps`] for 0 steps; those of [`Tangent::new`] and [`Tangent::advance`].
+/// [`StartError::NoSteps`] for 0 steps; those of [`Tangent::new`] and [`Tangent::advance`].
 pub fn megno<T, S, M>(
     system: &S,
     scheme: M,

@@ -7,7 +7,7 @@ use super::drive;
 use super::drive::deviations::{self, Deviations};
 use super::host::Host;
 use super::rounding::Rounding;
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::Map;
 use crate::runs::integrator::{Recipe, check_scheme};
 use crate::schemes::scheme::{CarriedBy, Entry, Listed, Scheme};

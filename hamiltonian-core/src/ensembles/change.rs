@@ -5,7 +5,7 @@
 
 use super::bound::ErasedScheme;
 use super::guard::guard;
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::Clock;
 use crate::observers::observe::Observer;
 use crate::runs::integrator::{Part, Recipe, check_change};

@@ -6,7 +6,7 @@
 
 use super::guard::guard;
 use super::host::{Host, MemberRun, RunAtStop};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::Clock;
 use crate::observers::observe::{FollowVisitor, FollowedQuantities, Observer, View};
 use crate::systems::state::State;

@@ -1,13 +1,15 @@
 //! Calls of users' closures, whose panics become errors.
 //!
-//! Input: a closure. Output: its value, or [`Error::Panicked`] with the text of the panic.
+//! Input: a closure. Output: its value, or `SweepError::Panicked` with the
+//! text of the panic.
 
-use crate::error::Error;
+use crate::errors::Error;
 
-/// Returns the value of a closure. If it panics, and panics unwind, returns [`Error::Panicked`].
+/// Returns the value of a closure. If it panics, and panics unwind, returns
+/// `SweepError::Panicked`.
 #[cfg(feature = "std")]
 pub(crate) fn guard<A>(closure: impl FnOnce() -> A) -> Result<A, Error> {
-    use alloc::borrow::ToOwned;
+    use crate::errors::SweepError;
     use alloc::string::String;
     use std::panic::{AssertUnwindSafe, catch_unwind};
     // Unwind-safe: the closure modifies data of its own member only, which is not used again.
@@ -16,11 +18,14 @@ pub(crate) fn guard<A>(closure: impl FnOnce() -> A) -> Result<A, Error> {
             payload.downcast_ref::<&str>(),
             payload.downcast_ref::<String>(),
         ) {
-            (Some(text), _) => (*text).to_owned(),
-            (_, Some(text)) => text.clone(),
-            _ => "no message".to_owned(),
+            (Some(text), _) => *text,
+            (_, Some(text)) => text.as_str(),
+            _ => "no message",
         };
-        Error::Panicked { message }
+        SweepError::Panicked {
+            message: message.into(),
+        }
+        .into()
     })
 }
 

@@ -4,7 +4,7 @@
 //! Invariant: a run has all that is needed to continue a member in any lane, over the member's own scalar.
 //! Nothing in it depends on the level, the lane or the other members.
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::Clock;
 use crate::observers::observe::{FollowedQuantities, View};
 use crate::systems::state::State;

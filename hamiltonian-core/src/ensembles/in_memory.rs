@@ -9,7 +9,7 @@ use super::chunk::{Chunk, ChunkHost, ChunkOf, Common, Decision, Finished, end_of
 use super::guard::guard;
 use super::rounding::{Fused, Rounding, Unfused};
 use super::threads;
-use crate::error::Error;
+use crate::errors::{Error, SweepError};
 use crate::flows::map::Clock;
 use crate::observers::observe::{Observer, Unobserved, Verdict, View};
 use crate::results::checkpoint::Memory;
@@ -17,7 +17,6 @@ use crate::runs::integrator::{check_start, check_step, duration};
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
 use crate::systems::system::{System, VectorOf};
-use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
@@ -72,7 +71,7 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
     /// An invalid start is the error of its member, see [`states`](Ensemble::states).
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::Step`].
+    /// [`SweepError::NoMembers`], [`StartError::Step`](crate::errors::StartError::Step).
     pub fn new(
         count: usize,
         mut make: impl FnMut(Member) -> (S, State<VectorOf<S>>),
@@ -94,7 +93,7 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
         step: f64,
     ) -> Result<Self, Error> {
         if count == 0 {
-            return Err(Error::NoMembers);
+            return Err(SweepError::NoMembers.into());
         }
         check_step(step)?;
         let of_type = Arc::new(scheme);
@@ -122,7 +121,7 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
                         && !S::fits(first, &prepared)
                     {
                         let system = (*system.description().name).into();
-                        return Err(Error::OtherSizes { system });
+                        return Err(SweepError::OtherSizes { system }.into());
                     }
                     scheme.begin(&prepared, &start, step, &mut chunk.words)?;
                     common.varies |= scheme.varies(&prepared, &start, step);
@@ -176,7 +175,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     ///
     /// Call `observe` once. For several observers, return a tuple.
     ///
-    /// A member for which the closure panics fails with [`Error::Panicked`]. Its entry in
+    /// A member for which the closure panics fails with [`SweepError::Panicked`]. Its entry in
     /// [`observers`](Ensemble::observers) is an observer made for another member, which receives no states.
     pub fn observe<N: Observer<f64, S> + Send>(
         self,
@@ -387,7 +386,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// it, or its error.
     ///
     /// # Errors
-    /// [`Error::Member`] with the index and the error of the member.
+    /// [`SweepError::Member`] with the index and the error of the member.
     pub fn states(&self) -> impl Iterator<Item = Result<State<VectorOf<S>>, Error>> {
         (0..self.chunks.len()).flat_map(|number| self.closed(number, 0..usize::MAX, None))
     }
@@ -445,15 +444,12 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
             bound::drive::<f64, S, M, A>(scheme, host);
         });
-        let member = |key: usize, error: Error| Error::Member {
-            index: chunk.first + key,
-            error: Box::new(error),
-        };
+        let member = |key: usize, error: Error| SweepError::member(chunk.first + key, error);
         keys.map(|key| match (chunk.finished.get(&key), states[key].take()) {
             (Some(Finished::Failed(error, _)), _) => Err(member(key, error.clone())),
             (Some(Finished::Ended(state, _)), _) => Ok((**state).clone()),
             (None, Some(state)) => state.map_err(|error| member(key, error)),
-            (None, None) => Err(Error::NoMembers),
+            (None, None) => Err(SweepError::NoMembers.into()),
         })
         .collect()
     }

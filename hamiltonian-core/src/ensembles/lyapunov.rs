@@ -11,7 +11,7 @@ use super::rounding::{Fused, Rounding, Unfused};
 use super::threads;
 use super::{MakeMember, Member};
 use crate::analysis::tangent::{aslant, check_deviations, lifted, towards};
-use crate::error::Error;
+use crate::errors::{Error, StartError, SweepError};
 use crate::runs::integrator::{check_scheme, check_start, check_step, duration};
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
@@ -158,7 +158,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
         }
     }
 
-    /// Stops with [`Error::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
+    /// Stops with [`SweepError::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
     #[must_use]
     pub fn cancel(mut self, flag: &'a AtomicBool) -> Self {
         self.cancel = Some(flag);
@@ -175,8 +175,9 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Computes the exponents of each member, or its error, in the order of the index.
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::NoSteps`], [`Error::Step`], [`Error::Cancelled`]. A member that fails has
-    /// [`Error::Member`] in its place, with an error of its start, [`Error::Deviations`] or an error of its steps.
+    /// [`SweepError::NoMembers`], [`StartError::NoSteps`], [`StartError::Step`], [`SweepError::Cancelled`]. A member
+    /// that fails has [`SweepError::Member`] in its place, with an error of its start, [`StartError::Deviations`] or
+    /// an error of its steps.
     pub fn collect(&self) -> Result<Vec<Result<Vec<f64>, Error>>, Error> {
         self.compute(Indicator::Rates, self.deviations)
     }
@@ -233,10 +234,10 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
         /// The largest number of members in a chunk, which one thread computes.
         const CHUNK: usize = 640;
         if self.count == 0 {
-            return Err(Error::NoMembers);
+            return Err(SweepError::NoMembers.into());
         }
         if self.steps == 0 {
-            return Err(Error::NoSteps);
+            return Err(StartError::NoSteps.into());
         }
         check_step(self.step)?;
         // A multiple of the lanes of most packs, so that no lane is idle.
@@ -249,10 +250,11 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
         let mut result = Ok(());
         in_order(self.count.div_ceil(size), self.threads, chunk, |_, some| {
             let Some(some) = some else {
-                result = Err(Error::Cancelled {
+                result = Err(SweepError::Cancelled {
                     done: all.len(),
                     of: self.count,
-                });
+                }
+                .into());
                 return ControlFlow::Break(());
             };
             all.extend(some);
@@ -302,10 +304,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
                 Some(error) => Err(error),
                 None => results.next().unwrap_or_else(|| Ok(Vec::new())),
             };
-            of_member.map_err(|error| Error::Member {
-                index,
-                error: Box::new(error),
-            })
+            of_member.map_err(|error| SweepError::member(index, error))
         });
         Some(numbers.collect())
     }
@@ -324,7 +323,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
         let fits = |other: &DeviatedMember<D, S>| S::fits(&other.prepared, &prepared);
         if !other.is_none_or(fits) {
             let system = (*system.description().name).into();
-            return Err(Error::OtherSizes { system });
+            return Err(SweepError::OtherSizes { system }.into());
         }
         let mut words = Vec::new();
         for deviation in 0..count {

@@ -43,7 +43,7 @@ pub use record::{End, Record, Row, Status};
 pub use rounding::{Fused, Rounding, Unfused};
 pub use sweep::Sweep;
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::systems::state::State;
 use crate::systems::system::VectorOf;
 use alloc::boxed::Box;

@@ -3,7 +3,7 @@
 //! Input: the ends of members. Output: [`Row`]s of numbers, in the order of the index.
 
 use super::Member;
-use crate::error::Error;
+use crate::errors::{Error, StepError, SweepError};
 use crate::systems::state::State;
 use crate::systems::system::{Dynamics, System, VectorOf, declared_energy};
 use alloc::boxed::Box;
@@ -73,13 +73,14 @@ pub enum Status {
     Ended = 1,
     /// The member's observer has ended it, for example at an event.
     Stopped = 2,
-    /// The member could not start: [`Error::Start`], [`Error::Values`] or another error of a start.
+    /// The member could not start: [`StartError::NotFinite`](crate::errors::StartError::NotFinite),
+    /// [`StartError::Values`](crate::errors::StartError::Values) or another error of a start.
     Start = 3,
-    /// [`Error::NotFinite`].
+    /// [`StepError::NotFinite`].
     NotFinite = 4,
-    /// [`Error::Solve`].
+    /// [`StepError::Unsolved`].
     Unsolved = 5,
-    /// [`Error::Panicked`].
+    /// [`SweepError::Panicked`].
     Panicked = 6,
     /// Another error after the start.
     Failed = 7,
@@ -89,10 +90,10 @@ impl Status {
     /// Returns the status for an error; `begun` is false for an error of the start.
     pub(crate) fn of(error: &Error, begun: bool) -> Self {
         match error {
-            Error::Panicked { .. } => Status::Panicked,
+            Error::Sweep(SweepError::Panicked { .. }) => Status::Panicked,
             _ if !begun => Status::Start,
-            Error::NotFinite { .. } => Status::NotFinite,
-            Error::Solve { .. } => Status::Unsolved,
+            Error::Step(StepError::NotFinite { .. }) => Status::NotFinite,
+            Error::Step(StepError::Unsolved { .. }) => Status::Unsolved,
             _ => Status::Failed,
         }
     }

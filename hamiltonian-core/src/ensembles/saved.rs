@@ -7,7 +7,7 @@ use super::Member;
 use super::chunk::Finished;
 use super::in_memory::Ensemble;
 use super::rounding::{Rounding, Unfused};
-use crate::error::{CheckpointError, Error};
+use crate::errors::{CheckpointError, Error, SweepError};
 use crate::observers::observe::Observer;
 use crate::results::checkpoint::{Checkpoint, Memory};
 use crate::schemes::scheme::Scheme;
@@ -104,7 +104,7 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
     /// Continues a saved ensemble with the same bits. The same closure must make its members.
     ///
     /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. A member
-    /// that had failed has the error [`Error::Before`].
+    /// that had failed has the error [`SweepError::Before`].
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -182,8 +182,11 @@ impl<S: System, M: Scheme<S>, A: Rounding> Ensemble<S, M, (), A> {
                 let finished = match (numbers.read_count()?, &swarm.common.template) {
                     (ON, _) => continue,
                     (FAILED, _) => {
-                        let message = numbers.read_text()?;
-                        Finished::Failed(Error::Before { message }, numbers.read_count()?)
+                        let message = numbers.read_text()?.into();
+                        Finished::Failed(
+                            SweepError::Before { message }.into(),
+                            numbers.read_count()?,
+                        )
                     }
                     (ENDED, Some(template)) => {
                         let state = numbers.read_state(template)?;
@@ -204,6 +207,5 @@ impl<S: System, M: Scheme<S>, A: Rounding> Ensemble<S, M, (), A> {
 }
 
 fn damaged() -> Error {
-    let reason = "the numbers do not fit";
-    CheckpointError::Damaged { reason }.into()
+    CheckpointError::damaged("the numbers do not fit").into()
 }

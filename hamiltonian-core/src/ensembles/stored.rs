@@ -8,7 +8,7 @@ use super::guard::guard;
 use super::record::{Batch, Record, Status};
 use super::rounding::Rounding;
 use super::sweep::{EndPoint, Sweep};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::observers::observe::Observer;
 use crate::results::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
 use crate::schemes::scheme::Scheme;
@@ -43,8 +43,10 @@ where
     /// CPU level.
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; [`StoreError`](crate::errors::StoreError) if the
-    /// store belongs to another sweep or to other members, and if a file cannot be written.
+    /// [`SweepError::NoMembers`](crate::errors::SweepError::NoMembers),
+    /// [`SweepError::NoEnd`](crate::errors::SweepError::NoEnd),
+    /// [`SweepError::Cancelled`](crate::errors::SweepError::Cancelled); [`StoreError`](crate::errors::StoreError) if
+    /// the store belongs to another sweep or to other members, and if a file cannot be written.
     pub fn store(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
         self.check()?;
         let store = Store::open_or_create(path, &self.layout())?;

@@ -12,7 +12,7 @@ use super::record::{Batch, End, Record, Row};
 use super::rounding::{Fused, Rounding, Unfused};
 use super::threads;
 use super::{MakeMember, Member};
-use crate::error::Error;
+use crate::errors::{Error, SweepError, TimeError};
 use crate::observers::observe::{Observer, Unobserved};
 use crate::results::shard::Shard;
 use crate::results::table::Table;
@@ -165,8 +165,8 @@ impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
     /// Records one row per member and time. The closure receives the member at each time.
     ///
     /// The times are in the direction of the run, and members end at the last one. A member with a time before its
-    /// start fails with [`Error::Behind`]. A member that failed has NaN in the rows of the times that it did not reach.
-    /// If its observer ended a member, the row of the next time has its last state, and later rows have NaN.
+    /// start fails with [`TimeError::Behind`]. A member that failed has NaN in the rows of the times that it did not
+    /// reach. If its observer ended a member, the row of the next time has its last state, and later rows have NaN.
     pub fn record_at<const N: usize>(
         self,
         times: impl IntoIterator<Item = f64>,
@@ -350,7 +350,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
         &self.scheme
     }
 
-    /// Stops the sweep with [`Error::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
+    /// Stops the sweep with [`SweepError::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
     #[must_use]
     pub fn cancel(mut self, flag: &'a AtomicBool) -> Self {
         self.cancel = Some(flag);
@@ -413,9 +413,9 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; for the times of
-    /// [`record_at`](Sweep::record_at), [`Error::Unreachable`] if one is NaN or infinite, and [`Error::Behind`] if one
-    /// comes before the previous one. The error of a member is in its row.
+    /// [`SweepError::NoMembers`], [`SweepError::NoEnd`], [`SweepError::Cancelled`]; for the times of
+    /// [`record_at`](Sweep::record_at), [`TimeError::Unreachable`] if one is NaN or infinite, and
+    /// [`TimeError::Behind`] if one comes before the previous one. The error of a member is in its row.
     pub fn fold<U>(&self, init: U, mut take: impl FnMut(U, &Row<'_>) -> U) -> Result<U, Error> {
         self.try_fold(init, |all, row| ControlFlow::Continue(take(all, row)))
     }
@@ -444,7 +444,7 @@ where
             }
             Ok(ControlFlow::Continue(()))
         })?;
-        all.ok_or(Error::NoMembers)
+        all.ok_or(SweepError::NoMembers.into())
     }
 
     /// Runs the sweep and collects the rows into a table. The first column, `member`, has the index of the member. The
@@ -477,12 +477,12 @@ where
     /// Checks that the sweep has members, that they have ends, and that the times of its record are in order.
     pub(crate) fn check(&self) -> Result<(), Error> {
         if self.count == 0 {
-            return Err(Error::NoMembers);
+            return Err(SweepError::NoMembers.into());
         }
         match (&self.record.times, &self.end) {
-            (Some(times), _) if times.is_empty() => Err(Error::NoEnd),
-            (None, EndPoint::Unknown) => Err(Error::NoEnd),
-            (Some(times), _) => self.check_times(times),
+            (Some(times), _) if times.is_empty() => Err(SweepError::NoEnd.into()),
+            (None, EndPoint::Unknown) => Err(SweepError::NoEnd.into()),
+            (Some(times), _) => Ok(self.check_times(times)?),
             _ => Ok(()),
         }
     }
@@ -496,7 +496,7 @@ where
 
     /// Checks that times are finite, and in the direction of the common step. If each member has its own step, any
     /// direction is accepted here, and members that run in the other one fail.
-    fn check_times(&self, times: &[f64]) -> Result<(), Error> {
+    fn check_times(&self, times: &[f64]) -> Result<(), TimeError> {
         let clock = || {
             let system = self.first_system();
             let clock = system
@@ -506,7 +506,7 @@ where
         };
         if let Some(&target) = times.iter().find(|t| !t.is_finite()) {
             let clock = clock();
-            return Err(Error::Unreachable { clock, target });
+            return Err(TimeError::Unreachable { clock, target });
         }
         let direction = match self.step_each {
             Some(_) => times[times.len() - 1] - times[0],
@@ -515,7 +515,7 @@ where
         let is_behind =
             |pair: &&[f64]| (pair[1] < pair[0]) != (pair[1] != pair[0] && direction < 0.0);
         match times.windows(2).find(is_behind) {
-            Some(pair) => Err(Error::Behind {
+            Some(pair) => Err(TimeError::Behind {
                 clock: clock(),
                 target: pair[1],
                 now: pair[0],
@@ -538,7 +538,7 @@ where
         let work = |job: usize| SweepHost::new(self, chunks[job].clone(), hashes).batch();
         in_order(chunks.len(), self.threads, work, |_, batch| {
             if batch.cancelled {
-                result = Err(Error::Cancelled { done, of });
+                result = Err(SweepError::Cancelled { done, of }.into());
                 return ControlFlow::Break(());
             }
             done += batch.outcomes.len();

@@ -6,7 +6,7 @@
 use super::chunk::Shared;
 use super::in_memory::Ensemble;
 use super::rounding::Rounding;
-use crate::error::Error;
+use crate::errors::{Error, SweepError, TimeError};
 use crate::flows::map::Clock;
 use crate::observers::observe::Observer;
 use crate::schemes::scheme::Scheme;
@@ -23,13 +23,13 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.0]));
     /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 0.01)?;
     /// assert_eq!(swarm.advance_to(1.0)?.steps(), 100);
-    /// assert!(matches!(swarm.advance_to(1.005), Err(Error::OffGrid { .. })));
+    /// assert!(matches!(swarm.advance_to(1.005), Err(Error::Time(_))));
     /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::OffGrid`], [`Error::Behind`], [`Error::Unreachable`]; [`Error::Apart`] if members start at different
-    /// times or if their steps vary in time. After an error no step has been made.
+    /// [`TimeError::OffGrid`], [`TimeError::Behind`], [`TimeError::Unreachable`]; [`SweepError::Apart`] if members
+    /// start at different times or if their steps vary in time. After an error no step has been made.
     pub fn advance_to(&mut self, t: f64) -> Result<&mut Self, Error> {
         let Some(time) = self.clock()? else {
             return Ok(self);
@@ -37,12 +37,13 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
         let made = self.common.steps;
         match time.whole_steps(made, t, self.time_name())? {
             (None, steps) => Ok(self.advance(steps)),
-            (Some(before), after) => Err(Error::OffGrid {
+            (Some(before), after) => Err(TimeError::OffGrid {
                 clock: self.time_name().into(),
                 target: t,
                 before: time.at(made + before),
                 after: time.at(made + after),
-            }),
+            }
+            .into()),
         }
     }
 
@@ -67,7 +68,7 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     /// ```
     ///
     /// # Errors
-    /// [`Error::Behind`], [`Error::Unreachable`], [`Error::Apart`]. The error of a member is in its place,
+    /// [`TimeError::Behind`], [`TimeError::Unreachable`], [`SweepError::Apart`]. The error of a member is in its place,
     /// see [`states`](Ensemble::states).
     pub fn advance_until(
         &mut self,
@@ -91,8 +92,8 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     /// Returns the clock that all members share; `None` if no member could start.
     fn clock(&self) -> Result<Option<Clock<f64>>, Error> {
         if self.common.varies {
-            let reason = "their steps vary in time";
-            return Err(Error::Apart { reason });
+            let reason = "their steps vary in time".into();
+            return Err(SweepError::Apart { reason }.into());
         }
         let mut first: Option<f64> = None;
         for chunk in &self.chunks {
@@ -103,8 +104,8 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
             };
             for start in starts {
                 if first.get_or_insert(*start).to_bits() != start.to_bits() {
-                    let reason = "they start at different times";
-                    return Err(Error::Apart { reason });
+                    let reason = "they start at different times".into();
+                    return Err(SweepError::Apart { reason }.into());
                 }
             }
         }

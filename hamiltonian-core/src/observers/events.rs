@@ -10,13 +10,14 @@ mod locate;
 
 pub use event::Event;
 
-use crate::error::{Error, Known};
+use crate::errors::{Error, Known, ObservableError};
 use crate::observers::observe::{FollowVisitor, MemberSection, Observer, View, one_trajectory};
 use crate::observers::root::{Sample, side};
 use crate::results::checkpoint::Memory;
 use crate::systems::state::State;
 use crate::systems::system::{Dynamics, Observable, System, VectorOf};
 use crate::systems::vector::{Shape, Vector};
+use alloc::boxed::Box;
 use alloc::collections::VecDeque;
 use alloc::format;
 use alloc::string::String;
@@ -83,9 +84,10 @@ pub struct Located<V: Vector> {
 /// ```
 ///
 /// # Errors
-/// The run returns [`Error::Event`] for a name that the system does not declare, for a period that is not positive, and
-/// inside [`every`](crate::observers::every), since `Events` needs the state after every step. It also returns the
-/// errors of the shorter steps. Over packs of lanes it does not compile, since each lane has events of its own.
+/// The run returns [`ObservableError::Event`] for a name that the system does not declare, for a period that is not
+/// positive, and inside [`every`](crate::observers::every), since `Events` needs the state after every step. It also
+/// returns the errors of the shorter steps. Over packs of lanes it does not compile, since each lane has events of
+/// its own.
 #[derive(Debug, Clone)]
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,
@@ -221,12 +223,13 @@ impl<V: Vector> Events<V> {
         Ok(())
     }
 
-    fn error(&self, event: usize, reason: impl Into<String>) -> Error {
+    fn error(&self, event: usize, reason: impl Into<Box<str>>) -> Error {
         let name = self.events.get(event).map(|event| event.name.clone());
-        Error::Event {
-            name: name.unwrap_or_default(),
+        ObservableError::Event {
+            name: name.unwrap_or_default().into(),
             reason: reason.into(),
         }
+        .into()
     }
 
     /// Locates the events of a step from `before` to the present state, in the order of time.

@@ -20,7 +20,7 @@ pub use follow::{FollowVisitor, FollowedQuantities};
 pub use quantity::Quantity;
 pub(crate) use section::{LaneSection, MemberSection};
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::results::checkpoint::Memory;
 use crate::systems::state::State;
 use crate::systems::system::{Dynamics, System, VectorOf, declared_energy};
@@ -65,7 +65,7 @@ impl<T: Real, S: System> View<'_, T, S> {
     /// Returns the state at a time at most one step away, computed by a shorter step of the same scheme.
     ///
     /// # Errors
-    /// [`Error::Far`] for a time further away, and errors of a step.
+    /// [`TimeError::Far`](crate::errors::TimeError::Far) for a time further away, and errors of a step.
     pub fn state_at(&self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         self.between.state_at(t)
     }

@@ -4,7 +4,7 @@
 //! row is t, coordinates, momenta, observables, each in declaration order, a group of rank 2 body by
 //! body, or the columns selected, in their order.
 
-use crate::error::{Error, TableError};
+use crate::errors::{Error, TableError};
 use crate::observers::observe::{Observer, View, one_trajectory};
 use crate::results::checkpoint::{Checkpoint, Memory};
 use crate::results::table::{Table, wrapped};

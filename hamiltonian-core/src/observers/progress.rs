@@ -3,7 +3,7 @@
 //! Input: the number of steps of a run. Output: [`Progress`], an observer that moves a bar.
 //! Invariant: like every observer, it does not affect the run.
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::observers::observe::{Observer, View};
 use crate::results::checkpoint::Memory;
 use crate::systems::system::System;

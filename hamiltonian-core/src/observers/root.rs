@@ -3,7 +3,7 @@
 //! Input: the function, its values at 0 and 1. Output: the point, to the rounding of 1, and the
 //! value there. Invariant: points do not depend on dual parts of values.
 
-use crate::error::Error;
+use crate::errors::Error;
 use hamiltonian_lanes::{Mask, Real};
 
 /// A point of the line and the value of a function there.

@@ -3,7 +3,7 @@
 //! Input: times, and an observer. Output: the observer receives the states at those times. Invariant: no
 //! bit of the run changes; the states are those of [`state_at`](crate::Integrator::state_at).
 
-use crate::error::Error;
+use crate::errors::{Error, TimeError};
 use crate::observers::observe::{Observer, View, one_trajectory};
 use crate::results::checkpoint::Memory;
 use crate::systems::state::State;
@@ -92,13 +92,20 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
             let target = t.to_f64();
             let clock = || view.prepared.description().clock().into();
             if is_behind {
-                let clock = clock();
                 let now = before.t.to_f64();
-                return Err(Error::Behind { clock, target, now });
+                return Err(TimeError::Behind {
+                    clock: clock(),
+                    target,
+                    now,
+                }
+                .into());
             }
             if !t.is_finite() {
-                let clock = clock();
-                return Err(Error::Unreachable { clock, target });
+                return Err(TimeError::Unreachable {
+                    clock: clock(),
+                    target,
+                }
+                .into());
             }
             let state = match meets(t, view.state.t) {
                 true => view.state.clone(),

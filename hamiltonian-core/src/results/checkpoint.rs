@@ -9,10 +9,9 @@
 //! in bytes, then the bytes, padded with zeros), counts, and floating-point numbers by their bits. The
 //! last word is a checksum of all before it.
 
-use crate::error::{CheckpointError, Error};
+use crate::errors::{CheckpointError, Error};
 use crate::systems::state::State;
 use crate::systems::vector::Vector;
-use alloc::borrow::ToOwned;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
@@ -101,7 +100,7 @@ impl Checkpoint {
     /// [`CheckpointError::Foreign`], [`CheckpointError::Newer`], [`CheckpointError::Older`],
     /// [`CheckpointError::Damaged`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let damaged = |reason| Error::from(CheckpointError::Damaged { reason });
+        let damaged = |reason: &str| Error::from(CheckpointError::damaged(reason));
         let Some(rest) = bytes.strip_prefix(MAGIC) else {
             return Err(CheckpointError::Foreign.into());
         };
@@ -115,15 +114,15 @@ impl Checkpoint {
         };
         if *version > VERSION {
             return Err(CheckpointError::Newer {
-                found: *version,
-                known: VERSION,
+                version: *version,
+                readable: VERSION,
             }
             .into());
         }
         if *version < VERSION {
             return Err(CheckpointError::Older {
-                found: *version,
-                known: VERSION,
+                version: *version,
+                readable: VERSION,
             }
             .into());
         }
@@ -203,9 +202,9 @@ impl Checkpoint {
             return Ok(());
         };
         Err(CheckpointError::Other {
-            what,
-            saved: saved.to_owned(),
-            given: given.to_owned(),
+            what: what.into(),
+            saved: saved.into(),
+            given: given.into(),
         }
         .into())
     }
@@ -227,8 +226,8 @@ pub(crate) fn differing<'a>(saved: &'a str, given: &'a str) -> Option<(&'a str, 
 fn file_error(path: &std::path::Path, error: &std::io::Error) -> Error {
     use alloc::string::ToString;
     CheckpointError::File {
-        path: path.display().to_string(),
-        message: error.to_string(),
+        path: path.display().to_string().into(),
+        message: error.to_string().into(),
     }
     .into()
 }
@@ -345,12 +344,7 @@ impl Memory {
     pub fn read_count(&mut self) -> Result<u64, Error> {
         let word = self.words.get(self.read).copied();
         self.read += usize::from(word.is_some());
-        word.ok_or(
-            CheckpointError::Damaged {
-                reason: "it is too short",
-            }
-            .into(),
-        )
+        word.ok_or_else(|| CheckpointError::damaged("it is too short").into())
     }
 
     /// Reads a number.
@@ -409,10 +403,8 @@ impl Memory {
     /// [`CheckpointError::Damaged`] if it is not below.
     pub(crate) fn read_index(&mut self, len: usize) -> Result<usize, Error> {
         let index = usize::try_from(self.read_count()?).ok();
-        let damaged = CheckpointError::Damaged {
-            reason: "an index is out of range",
-        };
-        (index.filter(|index| *index < len)).ok_or(damaged.into())
+        let damaged = || CheckpointError::damaged("an index is out of range").into();
+        (index.filter(|index| *index < len)).ok_or_else(damaged)
     }
 
     /// Reads a text.
@@ -420,20 +412,18 @@ impl Memory {
     /// # Errors
     /// [`CheckpointError::Damaged`] where there is none.
     pub fn read_text(&mut self) -> Result<String, Error> {
-        let damaged = CheckpointError::Damaged {
-            reason: "a text is not one",
-        };
+        let damaged = || Error::from(CheckpointError::damaged("a text is not one"));
         let length = self.read_count()?;
         let left = 8 * (self.words.len() - self.read) as u64;
         if length > left {
-            return Err(damaged.into());
+            return Err(damaged());
         }
         let mut bytes = Vec::with_capacity(length as usize);
         while (bytes.len() as u64) < length {
             bytes.extend(self.read_count()?.to_le_bytes());
         }
         bytes.truncate(length as usize);
-        String::from_utf8(bytes).map_err(|_| damaged.into())
+        String::from_utf8(bytes).map_err(|_| damaged())
     }
 
     /// Reads a count and as many elements.

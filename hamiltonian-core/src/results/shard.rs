@@ -4,8 +4,7 @@
 //! Invariant: 0 ≤ k < n. Variables that contradict each other are an error, never part 0: two processes
 //! with the same part would do the same work, and one without a part all of it.
 
-use crate::error::{Error, ShardError};
-use alloc::borrow::ToOwned;
+use crate::errors::{Error, ShardError};
 use alloc::format;
 use alloc::string::String;
 use core::fmt;
@@ -56,9 +55,9 @@ impl Shard {
         match NonZeroU64::new(count) {
             Some(count) if index < count.get() => Ok(Shard { index, count }),
             _ => Err(ShardError::Range {
-                index,
-                count,
-                variable,
+                shard: index,
+                shards: count,
+                variable: variable.map(Into::into),
             }),
         }
     }
@@ -159,9 +158,9 @@ fn parsed(text: &str, variable: Option<&'static str>) -> Result<Shard, ShardErro
     let (index, count) = (text.split_once('/'))
         .and_then(|(index, count)| Some((whole(index)?, whole(count)?)))
         .ok_or_else(|| ShardError::Form {
-            variable,
-            text: text.to_owned(),
-            expected: "`k/n`, for example `0/4`",
+            variable: variable.map(Into::into),
+            text: text.into(),
+            form: "`k/n`, for example `0/4`".into(),
         })?;
     Shard::of(index, count, variable)
 }
@@ -191,9 +190,9 @@ impl Variables<'_> {
         match whole(&text) {
             Some(number) => Ok(Some(number)),
             None => Err(ShardError::Form {
-                variable: Some(name),
-                text,
-                expected: "a number of decimal digits",
+                variable: Some(name.into()),
+                text: text.into(),
+                form: "a number of decimal digits".into(),
             }),
         }
     }
@@ -201,10 +200,10 @@ impl Variables<'_> {
     /// The number that a variable must have because another one is set.
     #[inline]
     fn besides(&self, name: &'static str, variable: &'static str) -> Result<u64, ShardError> {
-        self.number(name)?.ok_or(ShardError::Missing {
-            variable,
-            missing: name,
-            remedy: "start the program by its launcher, or set `HAMILTONIAN_SHARD=k/n`",
+        self.number(name)?.ok_or_else(|| ShardError::Missing {
+            present: variable.into(),
+            missing: name.into(),
+            remedy: "start the program by its launcher, or set `HAMILTONIAN_SHARD=k/n`".into(),
         })
     }
 
@@ -260,11 +259,11 @@ fn slurm_array(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     let min = env.besides(MIN, ID)?;
     let step = env.besides(STEP, ID)?;
     let count = env.besides(COUNT, ID)?;
-    let contradiction = |one: (&str, u64), other: (&str, u64), reason| {
+    let contradiction = |one: (&str, u64), other: (&str, u64), reason: &str| {
         Err(ShardError::Contradiction {
-            one: format!("{}={}", one.0, one.1),
-            other: format!("{}={}", other.0, other.1),
-            reason,
+            one: format!("{}={}", one.0, one.1).into(),
+            other: format!("{}={}", other.0, other.1).into(),
+            reason: reason.into(),
         })
     };
     if id < min {
@@ -309,9 +308,9 @@ fn slurm_step(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
         && tasks != of_step
     {
         return Err(ShardError::Contradiction {
-            one: format!("{NTASKS}={tasks}"),
-            other: format!("{OF_STEP}={of_step}"),
-            reason: "a step has one number of tasks",
+            one: format!("{NTASKS}={tasks}").into(),
+            other: format!("{OF_STEP}={of_step}").into(),
+            reason: "a step has one number of tasks".into(),
         });
     }
     let count = match of_step {
@@ -326,11 +325,11 @@ fn slurm_step(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
 fn hyperqueue(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     const ID: &str = "HQ_TASK_ID";
     const SHARDS: &str = "HAMILTONIAN_SHARDS";
-    let missing = |variable, missing, remedy| {
+    let missing = |present: &str, missing: &str, remedy: &str| {
         Err(ShardError::Missing {
-            variable,
-            missing,
-            remedy,
+            present: present.into(),
+            missing: missing.into(),
+            remedy: remedy.into(),
         })
     };
     match (env.number(ID)?, env.number(SHARDS)?) {

@@ -3,7 +3,7 @@
 //! Input: a run of any type. Output: [`AnyRun`], the part of a run that does not depend on its
 //! type. Invariant: numbers are `f64`: of a pack, the first lane.
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::observers::observe::Observer;
 use crate::runs::integrator::{Integrator, MapOf};
 use crate::schemes::scheme::Entry;

@@ -1,6 +1,6 @@
-//! The place of a failed step, without its cause ([`Error`] has both).
+//! The place of a failed step, without its cause ([`StepError`] has both).
 
-use crate::error::Error;
+use crate::errors::StepError;
 use crate::flows::map::Cause;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -27,7 +27,7 @@ pub(crate) struct Failed {
 
 impl Failed {
     /// The error of a step with this cause.
-    pub(crate) fn because(self, cause: Cause) -> Error {
+    pub(crate) fn because(self, cause: Cause) -> StepError {
         let Failed {
             step, lane, clock, ..
         } = self;
@@ -40,7 +40,7 @@ impl Failed {
             Cause::Unsolved {
                 residual,
                 iterations,
-            } => Error::Solve {
+            } => StepError::Unsolved {
                 step,
                 lane,
                 clock,
@@ -48,18 +48,18 @@ impl Failed {
                 residual,
                 iterations,
             },
-            Cause::Overflow | Cause::Piece(_) => Error::NotFinite {
+            Cause::Overflow | Cause::Piece(_) => StepError::NotFinite {
                 step,
                 energy: self.energy,
                 piece: match cause {
-                    Cause::Piece(name) => Some(name),
+                    Cause::Piece(name) => Some(name.into()),
                     _ => None,
                 },
                 lane,
                 clock,
                 time: self.end,
-                q: self.q,
-                p: self.p,
+                q: self.q.into(),
+                p: self.p.into(),
             },
         }
     }

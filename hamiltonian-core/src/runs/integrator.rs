@@ -18,7 +18,7 @@ pub(crate) use checks::{check_change, check_scheme, check_start, check_state, ch
 pub use estimate::ErrorEstimate;
 pub(crate) use part::{Part, Recipe};
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::{Clock, Map, Step};
 use crate::observers::observe::{Every, Observer, Unobserved, Verdict, View, Watch, every, watch};
 use crate::results::checkpoint::Memory;
@@ -132,11 +132,14 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
     /// backwards.
     ///
     /// # Errors
-    /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] if `start` does not have
-    /// the system's shape; [`Error::Start`] if it is not finite; [`Error::Values`] if H or a
-    /// derivative of it is not finite there; [`Error::Shell`] for a system in another time if the start is off the shell
-    /// H = 0 by more than a thousandth of the energies in it; [`Error::Jumps`] for a scheme that evaluates H(t) at the
-    /// ends of steps, if H jumps; those of [`Scheme::check`].
+    /// [`StartError::Step`](crate::errors::StartError::Step) for a zero, NaN or infinite step;
+    /// [`InputError::Shape`](crate::errors::InputError::Shape) if `start` does not have the system's shape;
+    /// [`StartError::NotFinite`](crate::errors::StartError::NotFinite) if it is not finite;
+    /// [`StartError::Values`](crate::errors::StartError::Values) if H or a derivative of it is not finite there;
+    /// [`StartError::Shell`](crate::errors::StartError::Shell) for a system in another time if the start is off the
+    /// shell H = 0 by more than a thousandth of the energies in it;
+    /// [`StartError::Jumps`](crate::errors::StartError::Jumps) for a scheme that evaluates H(t) at the ends of steps,
+    /// if H jumps; those of [`Scheme::check`].
     pub fn new<M: Scheme<S, Map<T> = R>>(
         system: &S,
         scheme: M,

@@ -3,7 +3,7 @@
 //! Input: a run, or a [`Checkpoint`]. Output: the other. Invariant: a checkpoint of another system,
 //! of other parameters or of another scheme is refused.
 
-use crate::error::{CheckpointError, Error};
+use crate::errors::{CheckpointError, Error};
 use crate::flows::map::Clock;
 use crate::flows::map::Map;
 use crate::observers::observe::Observer;
@@ -159,10 +159,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
         }
         let [steps, began, first, flags] = checkpoint.counts;
         if !numbers.is_empty() || began > steps || first > began {
-            return Err(CheckpointError::Damaged {
-                reason: "the numbers do not fit",
-            }
-            .into());
+            return Err(CheckpointError::damaged("the numbers do not fit").into());
         }
         let clock = Clock {
             start,

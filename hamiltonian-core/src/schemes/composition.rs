@@ -5,7 +5,7 @@
 
 use super::splitting::Weight;
 use super::tables::{Coefficients, general as tables};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::iterate::{Contraction, iterate};
 use crate::flows::map::{Cause, Either, Map, ScalarOf, Step};
 use crate::schemes::scheme::{Entry, Listed, OneStep, Scheme, Symmetric};

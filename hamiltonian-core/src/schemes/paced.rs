@@ -3,7 +3,7 @@
 //! Input: a one-step scheme and a [`Density`]. Output: [`Paced`]. Invariant: the map is symmetric
 //! in the point and the density together, so it adds no drift to that of a fixed step.
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::{Cause, Map, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, OneStep, Scheme};
 use crate::systems::flow::{Scratch, VectorField};

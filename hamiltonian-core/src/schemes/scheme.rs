@@ -4,7 +4,7 @@
 //! carries. Invariant: the requirements of a scheme are the bounds of its implementation, so a wrong pairing is a
 //! compile error.
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::{Map, Step};
 use crate::systems::state::{CarriedShape, State};
 use crate::systems::system::{Description, System, VectorOf};
@@ -203,7 +203,7 @@ pub trait Scheme<S: System>: Listed {
     /// that the bounds of the implementation do not express. The provided method returns none.
     ///
     /// # Errors
-    /// [`Error::MonitorOfMomenta`].
+    /// [`StartError::MonitorOfMomenta`](crate::errors::StartError::MonitorOfMomenta).
     fn check<T: Real>(&self, _: &S::Prepared<T>, _: &State<VectorOf<S, T>>) -> Result<(), Error> {
         Ok(())
     }

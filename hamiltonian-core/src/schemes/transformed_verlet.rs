@@ -3,7 +3,7 @@
 //! Input: H = ½pᵀM⁻¹p + V(q) in the time of a monitor function g(q). Output: [`TransformedVerlet`].
 //! Invariant: one ∂V/∂q a step; only two equations, for one number each, are implicit.
 
-use crate::error::Error;
+use crate::errors::{Error, StartError};
 use crate::flows::iterate::{Contraction, iterate};
 use crate::flows::map::{Cause, Map, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
@@ -114,8 +114,8 @@ where
             }
             prepared.monitor.gradient_p(T::zero(), q, &p, &mut slope);
             if slope.components().any(|x| x.magnitude() > 0.0) {
-                let scheme = self.entry().name;
-                return Err(Error::MonitorOfMomenta { scheme });
+                let scheme = self.entry().name.into();
+                return Err(StartError::MonitorOfMomenta { scheme }.into());
             }
         }
         Ok(())

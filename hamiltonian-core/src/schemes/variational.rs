@@ -6,7 +6,7 @@
 
 use super::collocation::{Collocation, constant, multiples};
 use super::stages::{Carries, Collocated, CollocatedWork, Modes, Stages, at_rest, of_fixed_point};
-use crate::error::Error;
+use crate::errors::{Error, SearchError, StartError};
 use crate::flows::map::Step;
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::systems::state::{Point, State};
@@ -371,8 +371,8 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// momentum given.
     ///
     /// # Errors
-    /// [`Error::Step`] if h is zero or not finite, [`Error::Shape`] if an end does not have the
-    /// system's shape, [`Error::Stationary`] if no path was found.
+    /// [`StartError::Step`] if h is zero or not finite, [`InputError::Shape`](crate::errors::InputError::Shape) if an
+    /// end does not have the system's shape, [`SearchError::NoStationaryPath`] if no path was found.
     ///
     /// ```
     /// use hamiltonian::schemes::author::Ends;
@@ -394,9 +394,9 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
         h: T,
         ends: Ends<VectorOf<S, T>>,
     ) -> Result<Extremal<VectorOf<S, T>>, Error> {
-        let step = h.to_f64();
-        if !h.is_finite() || step == 0.0 {
-            return Err(Error::Step { step });
+        let length = h.to_f64();
+        if !h.is_finite() || length == 0.0 {
+            return Err(StartError::Step { value: length }.into());
         }
         let shape = |q: &VectorOf<S, T>, p: &VectorOf<S, T>| {
             let (q, p) = (q.clone(), p.clone());
@@ -462,12 +462,13 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
         );
         if !outcome.solved.all() {
             let lane = (!outcome.solved).first().unwrap_or(0);
-            return Err(Error::Stationary {
+            return Err(SearchError::NoStationaryPath {
                 time: t.to_f64(),
-                step,
+                length,
                 residual: outcome.residual.lane(lane),
                 iterations: outcome.iterations,
-            });
+            }
+            .into());
         }
         let increments = &work.increments.0;
         let (one, change) = (T::one(), &increments[0].q);

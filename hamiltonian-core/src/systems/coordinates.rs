@@ -20,7 +20,7 @@
 //! # Ok::<(), Error>(())
 //! ```
 
-use crate::error::Error;
+use crate::errors::{Error, InputError};
 use crate::systems::state::State;
 use crate::systems::vector::Vector;
 use alloc::vec::Vec;
@@ -35,8 +35,8 @@ use nalgebra::{DefaultAllocator, Dim, OMatrix};
 /// Source: Wisdom & Holman, AJ 102, 1528 (1991), doi:10.1086/115978.
 ///
 /// # Errors
-/// [`Error::Shape`] if the numbers of masses and rows differ, or if there are no rows;
-/// [`Error::Masses`].
+/// [`InputError::Shape`] if the numbers of masses and rows differ, or if there are no rows;
+/// [`InputError::Masses`].
 pub fn to_jacobi<T, R, C, P>(
     state: &State<OMatrix<T, R, C>>,
     masses: &[P],
@@ -148,9 +148,12 @@ where
 }
 
 /// The masses of all bodies, and their partial sums.
-fn summed<T: Real, P: Parameter>(bodies: usize, masses: &[P]) -> Result<(Vec<T>, Vec<T>), Error> {
+fn summed<T: Real, P: Parameter>(
+    bodies: usize,
+    masses: &[P],
+) -> Result<(Vec<T>, Vec<T>), InputError> {
     if bodies == 0 || masses.len() != bodies {
-        return Err(Error::Shape {
+        return Err(InputError::Shape {
             name: "masses".into(),
             expected: bodies.max(1),
             found: masses.len(),
@@ -163,7 +166,7 @@ fn summed<T: Real, P: Parameter>(bodies: usize, masses: &[P]) -> Result<(Vec<T>,
         sum += *mass;
         let size = sum.to_f64();
         if !(size > 0.0 && size.is_finite()) {
-            return Err(Error::Masses { body, sum: size });
+            return Err(InputError::Masses { body, sum: size });
         }
         sums.push(sum);
     }

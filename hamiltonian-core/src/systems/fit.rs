@@ -3,7 +3,7 @@
 //! Input: what [`IntoVector`] makes of lists of numbers. Output: the storage that a definition declares. Invariant: a
 //! length that only the run time knows is an error if it does not fit, and never a panic.
 
-use crate::error::Error;
+use crate::errors::{Error, InputError};
 use crate::systems::lattice::{Lattice, check_axes, check_extents};
 use crate::systems::uneven::{Uneven, named};
 use crate::systems::vector::{IntoVector, Vector, shape};
@@ -18,7 +18,7 @@ pub trait Fit<V: Vector>: Vector {
     /// The same numbers in that storage.
     ///
     /// # Errors
-    /// [`Error::Shape`], [`Error::Row`] or [`Error::Extent`] for other lengths.
+    /// [`InputError::Shape`], [`InputError::Row`] or [`InputError::Extent`] for other lengths.
     fn fit(self, name: &str) -> Result<V, Error>;
     /// What `set` makes of the same numbers in that storage.
     fn set<X>(self, name: &str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;
@@ -82,10 +82,13 @@ trait Rectangle: Vector {
 }
 
 /// The elements of an array in storage of another type, if its extents are those of the type.
-fn fitted<W: Vector, V: Rectangle<Scalar = W::Scalar>>(name: &str, from: &W) -> Result<V, Error> {
+fn fitted<W: Vector, V: Rectangle<Scalar = W::Scalar>>(
+    name: &str,
+    from: &W,
+) -> Result<V, InputError> {
     if let Some(Uneven([(_, expected), (at, found)])) = from.uneven(0) {
-        return Err(Error::Row {
-            name: named(name, at),
+        return Err(InputError::Row {
+            name: named(name, at).into(),
             expected: *expected,
             found: *found,
         });
@@ -102,8 +105,8 @@ fn fitted<W: Vector, V: Rectangle<Scalar = W::Scalar>>(name: &str, from: &W) -> 
     let [rows, columns] = V::declared();
     let extents = [rows.unwrap_or(found[0]), columns.unwrap_or(found[1])];
     if by_rows && !elements.is_empty() && extents[1] != found[1] {
-        return Err(Error::Row {
-            name: named(name, &[0]),
+        return Err(InputError::Row {
+            name: named(name, &[0]).into(),
             expected: extents[1],
             found: found[1],
         });
@@ -169,10 +172,10 @@ macro_rules! fit {
         impl<T: Real, $($generics)*> Fit<$to> for $from {
             type Outcome<X> = Result<X, Error>;
             fn fit(self, name: &str) -> Result<$to, Error> {
-                fitted(name, &self)
+                Ok(fitted(name, &self)?)
             }
             fn set<X>(self, name: &str, set: impl FnOnce($to) -> X) -> Result<X, Error> {
-                fitted(name, &self).map(set)
+                Ok(set(fitted(name, &self)?))
             }
         }
     };

@@ -7,7 +7,7 @@ mod nested;
 
 pub use nested::lattice;
 
-use crate::error::Error;
+use crate::errors::InputError;
 use crate::systems::uneven::{Uneven, same_part};
 use crate::systems::vector::{Shape, Vector};
 use alloc::boxed::Box;
@@ -195,12 +195,12 @@ fn product(extents: &[usize]) -> Option<usize> {
 /// Checks that coordinates of these extents fit into memory.
 ///
 /// # Errors
-/// [`Error::Memory`] with the name of the coordinate.
-pub fn fits(name: &'static str, extents: &[usize]) -> Result<(), Error> {
+/// [`InputError::Memory`] with the name of the coordinate.
+pub fn fits(name: &str, extents: &[usize]) -> Result<(), InputError> {
     let has_room = |number: usize| Vec::<f64>::new().try_reserve_exact(number).is_ok();
     match product(extents) {
         Some(number) if has_room(number) => Ok(()),
-        _ => Err(Error::Memory { name: name.into() }),
+        _ => Err(InputError::Memory { name: name.into() }),
     }
 }
 
@@ -224,12 +224,16 @@ pub(crate) fn write_indices(out: &mut dyn Write, extents: &[usize], number: usiz
 /// An error where an element of a parameter is NaN. The last index of `values` is the fastest.
 ///
 /// # Errors
-/// [`Error::Parameter`] with the name of the first.
-pub fn check_parameter<T: Real>(name: &str, extents: &[usize], values: &[T]) -> Result<(), Error> {
+/// [`InputError::Parameter`] with the name of the first.
+pub fn check_parameter<T: Real>(
+    name: &str,
+    extents: &[usize],
+    values: &[T],
+) -> Result<(), InputError> {
     match values.iter().position(|value| !value.equals(*value).all()) {
         None => Ok(()),
-        Some(at) => Err(Error::Parameter {
-            name: element(name, extents, at),
+        Some(at) => Err(InputError::Parameter {
+            name: element(name, extents, at).into(),
         }),
     }
 }
@@ -237,13 +241,13 @@ pub fn check_parameter<T: Real>(name: &str, extents: &[usize], values: &[T]) -> 
 /// Checks the extents and the numbers of a parameter with several axes.
 ///
 /// # Errors
-/// [`Error::Row`] if nested lists differ in length, [`Error::Extent`] if an extent is not the declared one,
-/// [`Error::Memory`] if no array has so many elements, [`Error::Parameter`] for the first number that is NaN.
+/// [`InputError::Row`] if nested lists differ in length, [`InputError::Extent`] if an extent is not the declared one,
+/// [`InputError::Memory`] if no array has so many elements, [`InputError::Parameter`] for the first number that is NaN.
 pub fn check_lattice<T: Real, const R: usize>(
     name: &str,
     extents: [usize; R],
     given: &Lattice<T, R>,
-) -> Result<(), Error> {
+) -> Result<(), InputError> {
     check_axes(name, extents, given)?;
     check_parameter(name, &extents, &given.elements)
 }
@@ -253,9 +257,9 @@ pub(crate) fn check_axes<T: Real, const R: usize>(
     name: &str,
     extents: [usize; R],
     given: &Lattice<T, R>,
-) -> Result<(), Error> {
+) -> Result<(), InputError> {
     let Some(number) = product(&extents) else {
-        return Err(Error::Memory { name: name.into() });
+        return Err(InputError::Memory { name: name.into() });
     };
     let found = (&given.extents[..], given.elements.len());
     same_part(name, given.uneven(0), (&extents, number), found)
@@ -264,23 +268,27 @@ pub(crate) fn check_axes<T: Real, const R: usize>(
 /// Checks the rows and columns of an array of parameters.
 ///
 /// # Errors
-/// [`Error::Shape`] if the number of elements differs, [`Error::Extent`] if an extent does, [`Error::Memory`]
-/// if no array has so many elements.
-pub fn check_extents(name: &str, expected: [usize; 2], found: [usize; 2]) -> Result<(), Error> {
+/// [`InputError::Shape`] if the number of elements differs, [`InputError::Extent`] if an extent does,
+/// [`InputError::Memory`] if no array has so many elements.
+pub fn check_extents(
+    name: &str,
+    expected: [usize; 2],
+    found: [usize; 2],
+) -> Result<(), InputError> {
     let Some(number) = product(&expected) else {
-        return Err(Error::Memory { name: name.into() });
+        return Err(InputError::Memory { name: name.into() });
     };
     // An array that exists has a number of elements.
     let given = found[0] * found[1];
     if number != given {
-        return Err(Error::Shape {
+        return Err(InputError::Shape {
             name: name.into(),
             expected: number,
             found: given,
         });
     }
     match (0..2).find(|axis| expected[*axis] != found[*axis]) {
-        Some(axis) if number > 0 => Err(Error::Extent {
+        Some(axis) if number > 0 => Err(InputError::Extent {
             name: name.into(),
             axis,
             expected: expected[axis],
@@ -300,7 +308,7 @@ mod tests {
         for extents in [[usize::MAX, 2], [1 << 31, 1 << 31]] {
             let error = fits("u", &extents);
             assert!(
-                matches!(&error, Err(Error::Memory { name }) if **name == *"u"),
+                matches!(&error, Err(InputError::Memory { name }) if **name == *"u"),
                 "{error:?}"
             );
         }

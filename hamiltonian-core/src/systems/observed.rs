@@ -3,7 +3,7 @@
 //! Input: a system and the name of one of its observables. Output: [`Observed`], a system whose H is the observable.
 //! Invariant: derivatives are computed by the observable's code over dual numbers.
 
-use crate::error::Error;
+use crate::errors::{Error, ObservableError};
 use crate::systems::flow::VectorField;
 use crate::systems::system::gather::{InPack, Kept, with_whole};
 use crate::systems::system::{
@@ -40,18 +40,20 @@ impl<S: System> Observed<S> {
     /// Creates the system for the observable of this name: `height`, or `angular_momentum[2]` for a component.
     ///
     /// # Errors
-    /// [`Error::Unknown`] if the system does not declare it, [`Error::Timed`] if it depends on time.
+    /// [`ObservableError::Unknown`] if the system does not declare it, [`ObservableError::Timed`] if it depends on
+    /// time.
     pub fn new(system: S, name: &str) -> Result<Self, Error> {
         let known = system.description();
         let Some(index) = known.observable_index(name) else {
-            return Err(known.unknown(name));
+            return Err(known.unknown(name).into());
         };
         let observable = &known.observables[index];
         if observable.depends_on_time {
-            return Err(Error::Timed {
+            return Err(ObservableError::Timed {
                 name: (*observable.name).into(),
                 system: (*known.name).into(),
-            });
+            }
+            .into());
         }
         let description = Arc::new(Description {
             name: known.name.clone(),

@@ -6,7 +6,7 @@
 //! loops, nor where every loop runs at every iteration of those around it; otherwise loops outside
 //! of the inner two are run.
 
-use crate::error::Error;
+use crate::errors::InputError;
 
 /// An index that is affine in sizes and loop variables, in its loops.
 ///
@@ -61,22 +61,22 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
     /// Returns an error if a sum of products of sizes is too large.
     ///
     /// # Errors
-    /// [`Error::Memory`]
-    pub fn check_memory(&self, sum: &str) -> Result<(), Error> {
+    /// [`InputError::Memory`]
+    pub fn check_memory(&self, sum: &str) -> Result<(), InputError> {
         match self.fits() {
             true => Ok(()),
-            false => Err(Error::Memory { name: sum.into() }),
+            false => Err(InputError::Memory { name: sum.into() }),
         }
     }
 
     /// Returns an error if `index` leaves `0..extent`.
     ///
     /// # Errors
-    /// [`Error::Index`]
-    pub const fn check(&self, index: &'static str, extent: usize) -> Result<(), Error> {
+    /// [`InputError::Index`]
+    pub fn check(&self, index: &str, extent: usize) -> Result<(), InputError> {
         match self.escape(extent) {
-            Some(reached) => Err(Error::Index {
-                index,
+            Some(reached) => Err(InputError::Index {
+                expression: index.into(),
                 reached,
                 extent,
             }),
@@ -87,10 +87,13 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
     /// Returns an error if the first value of `range` is negative.
     ///
     /// # Errors
-    /// [`Error::Range`]
-    pub const fn check_range(&self, range: &'static str) -> Result<(), Error> {
+    /// [`InputError::Range`]
+    pub fn check_range(&self, range: &str) -> Result<(), InputError> {
         match self.escape(usize::MAX) {
-            Some(first) if first < 0 => Err(Error::Range { range, first }),
+            Some(first) if first < 0 => Err(InputError::Range {
+                expression: range.into(),
+                reached: first,
+            }),
             Some(_) | None => Ok(()),
         }
     }

@@ -4,7 +4,7 @@
 //! [`Gradient`]. Invariant: coordinates and momenta have one type; that they have one shape too
 //! is checked where a run begins.
 
-use crate::error::Error;
+use crate::errors::{Error, InputError};
 use crate::systems::fit::Fit;
 use crate::systems::vector::{IntoVector, Over, Shape, Vector};
 use alloc::vec::Vec;
@@ -105,8 +105,8 @@ pub trait IntoStart<V: Vector> {
     /// The state, given the names of its coordinates and momenta for an error.
     ///
     /// # Errors
-    /// [`Error::Shape`] or [`Error::Row`] if a list whose length the compiler does not know has another length than
-    /// the type.
+    /// [`InputError::Shape`] or [`InputError::Row`] if a list whose length the compiler does not know has another
+    /// length than the type.
     fn into_start(self, names: [&str; 2]) -> Result<State<V>, Error>;
 }
 
@@ -123,10 +123,10 @@ impl<V: Vector, W: Fit<V, Scalar = V::Scalar>> IntoStart<V> for State<W> {
 }
 
 /// Checks that a slice has as many elements as a state.
-fn has_length(expected: usize, found: usize) -> Result<(), Error> {
+fn has_length(expected: usize, found: usize) -> Result<(), InputError> {
     match expected == found {
         true => Ok(()),
-        false => Err(Error::Shape {
+        false => Err(InputError::Shape {
             name: "state".into(),
             expected,
             found,
@@ -301,7 +301,7 @@ impl<V: Vector> State<V> {
     /// [`to_vec`](State::to_vec) into a slice, without allocating.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the slice has another number of elements.
+    /// [`InputError::Shape`] if the slice has another number of elements.
     pub fn write_to(&self, into: &mut [V::Scalar]) -> Result<(), Error> {
         let expected = self.q.len() + self.p.len();
         has_length(expected, into.len())?;
@@ -326,7 +326,7 @@ impl<V: Vector> State<V> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Shape`] if the slice has another number of elements.
+    /// [`InputError::Shape`] if the slice has another number of elements.
     pub fn from_slice(shape: &V, values: &[V::Scalar]) -> Result<Self, Error> {
         has_length(2 * shape.len(), values.len())?;
         let mut state = State {

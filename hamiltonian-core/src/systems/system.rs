@@ -6,7 +6,7 @@
 //! the field or the flow is made; what remains per evaluation depends on (t, q, p) or, such as 1/m\[i\], on
 //! an element of a parameter array.
 
-use crate::error::Error;
+use crate::errors::{Error, InputError};
 use crate::systems::flow::{Piece, Pieces, VectorField};
 mod description;
 pub mod gather;
@@ -170,8 +170,8 @@ pub trait System {
     /// same type, and evaluation on it panics. Runs and starts make this check once.
     ///
     /// # Errors
-    /// [`Error::Shape`] with the first coordinate or momentum of another length, [`Error::Extent`] with the
-    /// first axis of another extent, [`Error::Row`] with a row of another length than others.
+    /// [`InputError::Shape`] with the first coordinate or momentum of another length, [`InputError::Extent`] with the
+    /// first axis of another extent, [`InputError::Row`] with a row of another length than others.
     fn check_shape<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> Result<(), Error> {
         let zeros = self.zeros();
         check_shape_like(self.description(), [&zeros, &zeros], state)
@@ -550,7 +550,7 @@ pub(crate) fn check_shape_like<V: Vector>(
     let coordinates = groups.clone().map(|g| (g.part, &*g.coordinate));
     same_shape(coordinates, q, &state.q)?;
     let momenta = groups.map(|g| (g.part, &*g.momentum));
-    same_shape(momenta, p, &state.p)
+    Ok(same_shape(momenta, p, &state.p)?)
 }
 
 /// An error where a part has not the length the system asks for, with the name of the first group
@@ -559,7 +559,7 @@ fn same_shape<'a, V: Vector>(
     groups: impl Iterator<Item = (usize, &'a str)> + Clone,
     expected: &V,
     found: &V,
-) -> Result<(), Error> {
+) -> Result<(), InputError> {
     (0..V::PARTS).try_for_each(|k| {
         let group = groups.clone().find(|(part, _)| *part == k);
         let name = group.map_or("", |(_, name)| name);

@@ -4,7 +4,7 @@
 //! time is s with dt = g ds. Invariant: orbits on the shell K = 0 are those of H, and the lengths
 //! of steps are part of the integrated system, not of a separate control.
 
-use crate::error::Error;
+use crate::errors::{Error, StartError};
 use crate::systems::flow::VectorField;
 use crate::systems::observed::Observed;
 use crate::systems::state::{Pair, State};
@@ -82,7 +82,8 @@ impl<S: System + Clone> TimeTransformed<S, Observed<S>> {
     /// H in the time of a monitor that the system declares, by its name.
     ///
     /// # Errors
-    /// [`Error::Unknown`] if it declares none of this name, [`Error::Timed`] if it depends on time.
+    /// [`ObservableError::Unknown`](crate::errors::ObservableError::Unknown) if it declares none of this name,
+    /// [`ObservableError::Timed`](crate::errors::ObservableError::Timed) if it depends on time.
     pub fn by(system: S, monitor: &str) -> Result<Self, Error> {
         let monitor = Observed::new(system.clone(), monitor)?;
         Ok(TimeTransformed::new(system, monitor))
@@ -104,8 +105,8 @@ impl<S: System, G> TimeTransformed<S, G> {
     /// The start of a run from a state of H: s = 0, and p_t = −H.
     ///
     /// # Errors
-    /// [`Error::Shape`] for a state of another shape, [`Error::Monitor`] if g is not positive
-    /// there.
+    /// [`InputError::Shape`](crate::errors::InputError::Shape) for a state of another shape, [`StartError::Monitor`]
+    /// if g is not positive there.
     pub fn start<T: Real>(
         &self,
         state: &State<VectorOf<S, T>>,
@@ -119,7 +120,7 @@ impl<S: System, G> TimeTransformed<S, G> {
         let value = monitor.energy(state.t, &state.q, &state.p);
         if !T::zero().lt(value).all() {
             let value = value.to_f64();
-            return Err(Error::Monitor { value });
+            return Err(StartError::Monitor { value }.into());
         }
         let with = |x: &VectorOf<S, T>, time: T| Pair {
             x: x.clone(),

@@ -2,7 +2,7 @@
 //!
 //! Input: extents, or two of the parts. Output: the error that names an axis or a part.
 
-use crate::error::Error;
+use crate::errors::InputError;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -13,12 +13,12 @@ pub struct Uneven(pub(crate) [(Vec<usize>, usize); 2]);
 
 impl Uneven {
     /// The error for coordinates of these extents: it names a part whose length differs.
-    pub(crate) fn error(&self, name: &str, extents: &[usize]) -> Error {
+    pub(crate) fn error(&self, name: &str, extents: &[usize]) -> InputError {
         let [first, second] = &self.0;
         let expected = extents.get(first.0.len()).copied().unwrap_or_default();
         let (at, found) = if first.1 == expected { second } else { first };
-        Error::Row {
-            name: named(name, at),
+        InputError::Row {
+            name: named(name, at).into(),
             expected,
             found: *found,
         }
@@ -37,7 +37,7 @@ pub(crate) fn same_part(
     uneven: Option<&Uneven>,
     expected: (&[usize], usize),
     found: (&[usize], usize),
-) -> Result<(), Error> {
+) -> Result<(), InputError> {
     if let Some(uneven) = uneven {
         return Err(uneven.error(name, expected.0));
     }
@@ -46,13 +46,13 @@ pub(crate) fn same_part(
     let is_empty = expected == 0 && found == 0;
     let mut extents = axes.iter().zip(own).enumerate();
     match extents.find(|(_, (a, b))| !is_empty && a != b) {
-        Some((axis, (expected, found))) => Err(Error::Extent {
+        Some((axis, (expected, found))) => Err(InputError::Extent {
             name: name.into(),
             axis,
             expected: *expected,
             found: *found,
         }),
-        None if expected != found => Err(Error::Shape {
+        None if expected != found => Err(InputError::Shape {
             name: name.into(),
             expected,
             found,

@@ -30,7 +30,7 @@ impl<S: System> Visitor<S> for NoAllocations<S> {
             run.advance(1).unwrap();
             run.advance_to(run.time() + run.interval() * 10.0).unwrap();
         });
-        assert_eq!(count, 0, "{name} on {}", system.description().name);
+        assert_eq!(count, 0, "{name} on {}", self.0.description().name);
         let observers = (
             EnergyDrift::new(),
             every(10, (Monitors::new(), Recorder::with_capacity(101))),
@@ -43,7 +43,7 @@ impl<S: System> Visitor<S> for NoAllocations<S> {
             count,
             0,
             "{name} on {}, observed",
-            system.description().name
+            self.0.description().name
         );
         assert_eq!(run.observer().1.inner.1.rows(), 101);
     }

@@ -2,6 +2,7 @@
 
 use crate::common::four::Four;
 use crate::common::systems::*;
+use hamiltonian_core::errors::StepError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::walk::{
@@ -32,7 +33,10 @@ fn failures_name_their_lane() {
                 Integrator::new(&Hand(HenonHeiles), scheme, start, Four([0.01; 4])).unwrap();
             let error = run.advance(100_000).unwrap_err();
             match &error {
-                Error::NotFinite { lane, step, .. } | Error::Solve { lane, step, .. } => {
+                Error::Step(
+                    StepError::NotFinite { lane, step, .. }
+                    | StepError::Unsolved { lane, step, .. },
+                ) => {
                     assert_eq!((*lane, *step), (Some(2), run.steps() + 1), "{name}");
                 }
                 other => panic!("{name}: {other:?}"),

@@ -49,7 +49,7 @@ impl<S: Sample<Dual<f64>>> Visitor<S> for Forms {
             "{} {} on {}: {defect:.1e}",
             entry.name,
             entry.variant,
-            system.description().name
+            S::sample().description().name
         );
         let right = match entry.preserves {
             Form::OnePoint => defect <= 3e-13,

@@ -2,6 +2,7 @@
 
 use crate::common::start;
 use crate::common::systems::*;
+use hamiltonian_core::errors::StepError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
@@ -69,14 +70,14 @@ fn the_first_bad_step_is_found() {
                 .expect("it escapes");
             let entry = scheme.entry();
             match &expected {
-                Error::NotFinite {
+                Error::Step(StepError::NotFinite {
                     step,
                     energy,
                     time,
                     q,
                     p,
                     ..
-                } => {
+                }) => {
                     assert_eq!(*step, single.steps() + 1);
                     assert_eq!(*time, *step as f64 * single.interval());
                     // H overflows before its variables do.
@@ -84,13 +85,13 @@ fn the_first_bad_step_is_found() {
                     assert_eq!(energy.is_some(), numbers_are_finite, "{}", entry.name);
                     assert!(energy.is_none_or(|h| !h.is_finite()), "{}", entry.name);
                 }
-                Error::Solve {
+                Error::Step(StepError::Unsolved {
                     step,
                     time,
                     residual,
                     iterations,
                     ..
-                } => {
+                }) => {
                     let implicit = [
                         "ImplicitMidpoint",
                         "Gauss",

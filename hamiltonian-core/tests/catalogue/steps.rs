@@ -5,6 +5,7 @@ use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
 use crate::saved::watchers;
 use hamiltonian_core::Scheme;
+use hamiltonian_core::errors::{StartError, TimeError};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::walk::{
@@ -49,9 +50,9 @@ impl<S: Sample<f64>> Visitor<S> for Parts {
         // Beyond a step, or no time at all.
         for t in [time + 1.01 * interval, time - 1.01 * interval, f64::NAN] {
             match run.state_at(t).unwrap_err() {
-                Error::Far {
+                Error::Time(TimeError::Far {
                     target, from, to, ..
-                } => {
+                }) => {
                     assert!(target.to_bits() == t.to_bits() && from < to, "{name:?}");
                     let reach = 2.0 * interval;
                     assert!((to - from - reach).abs() < 1e-15, "{name:?}");
@@ -87,7 +88,10 @@ impl Visitor<Heiles> for Changes {
         );
         assert_eq!((run.steps(), run.step()), (1037, -0.03), "{name}");
         for step in [0.0, f64::NAN] {
-            assert!(matches!(run.change_step(step), Err(Error::Step { .. })));
+            assert!(matches!(
+                run.change_step(step),
+                Err(Error::Start(StartError::Step { .. }))
+            ));
         }
         assert_eq!(run.state(), other.state(), "{name}");
     }

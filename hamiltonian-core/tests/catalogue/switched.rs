@@ -1,6 +1,7 @@
 //! H(t) with jumps at the ends of steps: each scheme is that of smooth systems one after the other, or is refused.
 
 use crate::common::systems::{Formula, Halves, Hand};
+use hamiltonian_core::errors::StartError;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_compensated, visit_doubled, visit_energy, visit_exact,
@@ -177,7 +178,7 @@ impl<const V: bool, const T: bool> Visitor<System<V, T, true>> for Walk {
             // The smooth systems, by the method that every system accepts, with fine steps.
             let exact = case.finer(8).in_parts(Gauss::<4>::default());
             let end = match case.end(scheme.clone()) {
-                Err(Error::Jumps { .. }) => {
+                Err(Error::Start(StartError::Jumps { .. })) => {
                     self.refused.push(name.clone());
                     continue;
                 }
@@ -321,7 +322,10 @@ fn schemes_that_evaluate_jumps_at_the_ends_of_steps_are_refused() {
     // If both halves jump, one of them is evaluated at the ends of steps.
     let refused = |result: Result<[f64; 2], Error>| {
         let error = result.expect_err("refused");
-        assert!(matches!(error, Error::Jumps { .. }), "{error}");
+        assert!(
+            matches!(error, Error::Start(StartError::Jumps { .. })),
+            "{error}"
+        );
         assert!(error.to_string().contains("use `Gauss`"), "{error}");
     };
     refused(case.end(StormerVerlet::default()));

@@ -2,6 +2,7 @@
 
 use super::*;
 use hamiltonian::Scheme;
+use hamiltonian::errors::{StartError, SweepError};
 
 fn swaying(member: Member) -> (Pendulum, StateOf<Pendulum>) {
     let at = part(member.index);
@@ -159,14 +160,23 @@ fn a_bad_change_is_the_error_of_its_member() {
     swarm.advance(10);
     for (index, state) in swarm.states().enumerate() {
         let error = |state: Result<StateOf<Pendulum>, Error>| match state {
-            Err(Error::Member { error, .. }) => Some(*error),
+            Err(Error::Sweep(SweepError::Member { error, .. })) => Some(*error),
             _ => None,
         };
         let found = error(state);
         match index {
-            3 => assert!(matches!(found, Some(Error::Start { .. }))),
-            5 => assert!(matches!(found, Some(Error::OtherTime { .. }))),
-            7 => assert!(matches!(found, Some(Error::Panicked { .. }))),
+            3 => assert!(matches!(
+                found,
+                Some(Error::Start(StartError::NotFinite { .. }))
+            )),
+            5 => assert!(matches!(
+                found,
+                Some(Error::Start(StartError::OtherTime { .. }))
+            )),
+            7 => assert!(matches!(
+                found,
+                Some(Error::Sweep(SweepError::Panicked { .. }))
+            )),
             _ => assert!(found.is_none(), "{found:?}"),
         }
     }

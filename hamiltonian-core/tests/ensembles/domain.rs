@@ -1,6 +1,7 @@
 //! Members that leave the domain of H: the errors of their single runs.
 
 use super::*;
+use hamiltonian::errors::SweepError;
 
 /// The generated members.
 const MEMBERS: usize = 330;
@@ -74,7 +75,7 @@ fn single(index: usize, end: Option<f64>) -> Result<Vec<u64>, String> {
 /// The error inside that of a member.
 fn alone(error: &Error) -> String {
     match error {
-        Error::Member { error, .. } => error.to_string(),
+        Error::Sweep(SweepError::Member { error, .. }) => error.to_string(),
         other => other.to_string(),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use hamiltonian::Scheme;
+use hamiltonian::errors::SweepError;
 use hamiltonian::schemes::author::{Map, Scratch, Step};
 use std::f64::consts::TAU;
 
@@ -173,7 +174,7 @@ fn events_before_a_failure_are_found_once() {
             assert_eq!(end.is_err(), index % 6 == 3, "{place}");
             match (end, expected) {
                 (Ok(end), Ok(expected)) => assert_eq!(bits(&end), bits(&expected), "{place}"),
-                (Err(Error::Member { error, .. }), Err(expected)) => {
+                (Err(Error::Sweep(SweepError::Member { error, .. })), Err(expected)) => {
                     assert_eq!(error.to_string(), expected.to_string(), "{place}");
                 }
                 (end, expected) => panic!("{place}: {end:?}, alone {expected:?}"),

@@ -1,6 +1,7 @@
 //! Exponents and other indicators of chaos of members.
 
 use super::*;
+use hamiltonian::errors::{StartError, SweepError};
 use std::sync::atomic::AtomicBool;
 
 /// Exponents, MEGNO and GALI of members in lanes have the bits of single tangents.
@@ -29,7 +30,12 @@ where
                     let same = bits(found) == bits(&expected);
                     assert!(same, "member {index}: {found:?} {expected:?}");
                 }
-                (Err(Error::Member { index: of, error }), Err(expected)) => {
+                (
+                    Err(Error::Sweep(SweepError::Member {
+                        index: of, error, ..
+                    })),
+                    Err(expected),
+                ) => {
                     assert_eq!((*of, error.to_string()), (index, expected.to_string()));
                 }
                 (found, expected) => panic!("member {index}: {found:?}, alone {expected:?}"),
@@ -87,24 +93,33 @@ fn indicators_of_members_are_those_of_single_tangents() {
     });
     let _level = one_level();
     let of = || Lyapunov::new(2, mixture, ImplicitMidpoint::default(), 0.1);
-    assert!(matches!(of().collect(), Err(Error::NoSteps)));
-    assert!(matches!(of().megno(), Err(Error::NoSteps)));
+    assert!(matches!(
+        of().collect(),
+        Err(Error::Start(StartError::NoSteps { .. }))
+    ));
+    assert!(matches!(
+        of().megno(),
+        Err(Error::Start(StartError::NoSteps { .. }))
+    ));
     let three = of().steps(1).gali(3).expect("members");
-    assert!(
-        three
-            .iter()
-            .all(|one| matches!(one, Err(Error::Member { error, .. })
-        if matches!(**error, Error::Deviations { most: 2, found: 3 })))
-    );
+    assert!(three.iter().all(
+        |one| matches!(one, Err(Error::Sweep(SweepError::Member { error, .. }))
+        if matches!(**error, Error::Start(StartError::Deviations { most: 2, found: 3, .. })))
+    ));
     let none = Lyapunov::new(0, mixture, ImplicitMidpoint::default(), 0.1).steps(1);
-    assert!(matches!(none.collect(), Err(Error::NoMembers)));
+    assert!(matches!(
+        none.collect(),
+        Err(Error::Sweep(SweepError::NoMembers { .. }))
+    ));
     let many = of().steps(1).deviations(3).collect().expect("members");
-    assert!(
-        many.iter()
-            .all(|one| matches!(one, Err(Error::Member { error, .. })
-        if matches!(**error, Error::Deviations { most: 2, found: 3 })))
-    );
+    assert!(many.iter().all(
+        |one| matches!(one, Err(Error::Sweep(SweepError::Member { error, .. }))
+        if matches!(**error, Error::Start(StartError::Deviations { most: 2, found: 3, .. })))
+    ));
     let stop = AtomicBool::new(true);
     let stopped = of().steps(1).cancel(&stop).collect();
-    assert!(matches!(stopped, Err(Error::Cancelled { done: 0, of: 2 })));
+    assert!(matches!(
+        stopped,
+        Err(Error::Sweep(SweepError::Cancelled { done: 0, of: 2, .. }))
+    ));
 }

@@ -103,7 +103,7 @@ fn chain(member: Member) -> (Chain, StateOf<Chain>) {
 fn holes(member: Member) -> Result<(Hole, StateOf<Hole>), Error> {
     let q = match member.index {
         11 => -1.0,
-        13 => return Err(Error::NoSteps),
+        13 => return Err(Error::other("it cannot be made")),
         index if index % 7 == 0 => 0.5 + 0.1 * part(index),
         _ => 100.0,
     };

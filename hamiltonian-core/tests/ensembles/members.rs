@@ -1,6 +1,7 @@
 //! Members are single runs, bit by bit.
 
 use super::*;
+use hamiltonian::errors::{StartError, StepError, SweepError};
 
 /// Members of a reproducible ensemble, advanced in two calls on two threads, have the bits of single runs.
 pub(super) fn agrees<S, M>(make: impl Fn(Member) -> (S, StateOf<S>), scheme: M)
@@ -111,7 +112,12 @@ fn fail_alone<A: hamiltonian::Rounding>(
                 assert!((found.q[0] - expected.q[0]).abs() < 1e-10);
                 assert_eq!(swarm.steps_of(index), Some(1800));
             }
-            (Err(expected), Err(Error::Member { index: of, error })) => {
+            (
+                Err(expected),
+                Err(Error::Sweep(SweepError::Member {
+                    index: of, error, ..
+                })),
+            ) => {
                 failed += 1;
                 assert_eq!(of, index);
                 if is_exact {
@@ -120,14 +126,17 @@ fn fail_alone<A: hamiltonian::Rounding>(
                 }
                 let same = match (&*error, &expected) {
                     (
-                        Error::NotFinite {
+                        Error::Step(StepError::NotFinite {
                             step: a, piece: c, ..
-                        },
-                        Error::NotFinite {
+                        }),
+                        Error::Step(StepError::NotFinite {
                             step: b, piece: d, ..
-                        },
+                        }),
                     ) => a.abs_diff(*b) <= 1 && c == d,
-                    (Error::Values { .. }, Error::Values { .. }) => true,
+                    (
+                        Error::Start(StartError::Values { .. }),
+                        Error::Start(StartError::Values { .. }),
+                    ) => true,
                     _ => false,
                 };
                 assert!(same, "{error} {expected}");

@@ -77,8 +77,8 @@ fn shards_of_two_levels_share_a_reproducible_store_alone() {
         let Err(Error::Store(StoreError::Other { saved, given, .. })) = refused else {
             panic!("{refused:?}");
         };
-        assert_eq!(saved, format!("\"level\": \"{worst:?}\""));
-        assert_eq!(given, format!("\"level\": \"{best:?}\""));
+        assert_eq!(&*saved, format!("\"level\": \"{worst:?}\""));
+        assert_eq!(&*given, format!("\"level\": \"{best:?}\""));
     }
     assert!(last.expect("a store").is_complete());
     let read = std::fs::read_to_string(unfused.join("zarr.json")).expect("a store");

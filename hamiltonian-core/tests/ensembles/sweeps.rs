@@ -1,6 +1,7 @@
 //! Sweeps: rows of members, and errors.
 
 use super::*;
+use hamiltonian::errors::{StartError, SweepError};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 #[test]
@@ -96,15 +97,21 @@ fn sweeps_record_at_times_and_sections() {
 fn bad_input_is_a_typed_error() {
     let _level = one_level();
     let none = Ensemble::new(0, pendulum, StormerVerlet::default(), 0.1);
-    assert!(matches!(none, Err(Error::NoMembers)));
+    assert!(matches!(
+        none,
+        Err(Error::Sweep(SweepError::NoMembers { .. }))
+    ));
     assert!(matches!(
         Ensemble::new(3, pendulum, StormerVerlet::default(), 0.0),
-        Err(Error::Step { .. })
+        Err(Error::Start(StartError::Step { .. }))
     ));
     let none = Sweep::new(0, pendulum, StormerVerlet::default(), 0.1)
         .steps(1)
         .record(["q"], |end| [end.state.q[0]]);
-    assert!(matches!(none.collect(), Err(Error::NoMembers)));
+    assert!(matches!(
+        none.collect(),
+        Err(Error::Sweep(SweepError::NoMembers { .. }))
+    ));
 
     let panics = |member: Member| {
         assert_ne!(member.index, 5, "no member {}", member.index);
@@ -160,6 +167,6 @@ fn bad_input_is_a_typed_error() {
         });
     let cancelled = sweep.collect();
     assert!(
-        matches!(cancelled, Err(Error::Cancelled { done, of: 1000 }) if (400..1000).contains(&done))
+        matches!(cancelled, Err(Error::Sweep(SweepError::Cancelled { done, of: 1000, .. })) if (400..1000).contains(&done))
     );
 }

@@ -5,6 +5,7 @@
 //! evaluates V(t) at the ends of steps.
 
 use super::*;
+use hamiltonian::errors::{StartError, SweepError};
 
 hamiltonian! {
     /// An oscillator whose strength jumps twice.
@@ -209,9 +210,12 @@ fn an_ensemble_refuses_what_a_single_run_refuses() {
     swarm.advance(3);
     for end in swarm.states() {
         let error = end.expect_err("refused");
-        let Error::Member { error, .. } = error else {
+        let Error::Sweep(SweepError::Member { error, .. }) = error else {
             panic!("{error}");
         };
-        assert!(matches!(*error, Error::Jumps { .. }), "{error}");
+        assert!(
+            matches!(*error, Error::Start(StartError::Jumps { .. })),
+            "{error}"
+        );
     }
 }

@@ -3,6 +3,7 @@
 use super::*;
 use core::ops::ControlFlow;
 use hamiltonian::View;
+use hamiltonian::errors::{StepError, TimeError};
 
 /// The members of each sweep.
 const MEMBERS: usize = 13;
@@ -52,7 +53,7 @@ const FAULTS: [Fault; 5] = [
 fn falling(member: Member) -> Result<(Hole, StateOf<Hole>), Error> {
     let q = match member.index {
         3 => -1.0,
-        8 => return Err(Error::NoSteps),
+        8 => return Err(Error::other("it cannot be made")),
         index if index % 2 == 0 => 0.3 + 0.1 * index as f64,
         _ => 100.0,
     };
@@ -98,10 +99,10 @@ fn single(index: usize, times: &[f64], step: f64, ends: bool) -> (Status, Vec<Op
         match run.advance_until(*t) {
             Ok(_) if has_ended && k > 0 => return (Status::Stopped, values),
             Ok(state) => *value = Some([state.t, state.q[0]]),
-            Err(Error::NotFinite { .. }) => return (Status::NotFinite, values),
-            Err(Error::Behind { .. }) if k == 0 => return (Status::Start, values),
+            Err(Error::Step(StepError::NotFinite { .. })) => return (Status::NotFinite, values),
+            Err(Error::Time(TimeError::Behind { .. })) if k == 0 => return (Status::Start, values),
             // The first time is the start, and the member runs in the other direction.
-            Err(Error::Behind { .. }) => return (Status::Failed, values),
+            Err(Error::Time(TimeError::Behind { .. })) => return (Status::Failed, values),
             Err(error) => panic!("{error}"),
         }
     }
@@ -178,8 +179,8 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
         seen[case as usize % FAULTS.len()] += 1;
         let context = format!("case {case}: {fault:?}, step {step}, {times:?}");
         let table = match (fault, table) {
-            (Fault::Order | Fault::Direction, Err(Error::Behind { .. }))
-            | (Fault::Number, Err(Error::Unreachable { .. })) => continue,
+            (Fault::Order | Fault::Direction, Err(Error::Time(TimeError::Behind { .. })))
+            | (Fault::Number, Err(Error::Time(TimeError::Unreachable { .. }))) => continue,
             (Fault::None | Fault::Early, Ok(table)) => table,
             (_, other) => panic!("{context}: {:?}", other.err()),
         };

@@ -2,6 +2,7 @@
 
 use super::*;
 use hamiltonian_core::VectorOf;
+use hamiltonian_core::errors::{SweepError, TimeError};
 
 /// Steps that vary in time, in principle.
 #[derive(Debug, Clone, Copy)]
@@ -59,13 +60,16 @@ fn members_reach_a_time_as_single_runs_do() {
     }
     let steps = swarm.steps();
     assert!(
-        matches!(swarm.advance_to(6.03), Err(Error::OffGrid { before, after, .. })
+        matches!(swarm.advance_to(6.03), Err(Error::Time(TimeError::OffGrid { before, after, .. }))
         if (before, after) == (6.0, 6.0625))
     );
-    assert!(matches!(swarm.advance_to(1.0), Err(Error::Behind { .. })));
+    assert!(matches!(
+        swarm.advance_to(1.0),
+        Err(Error::Time(TimeError::Behind { .. }))
+    ));
     assert!(matches!(
         swarm.advance_until(f64::NAN).map(|_| ()),
-        Err(Error::Unreachable { .. })
+        Err(Error::Time(TimeError::Unreachable { .. }))
     ));
     assert_eq!(swarm.steps(), steps);
     let reached = swarm.advance_to(7.0).expect("on the grid");
@@ -73,7 +77,10 @@ fn members_reach_a_time_as_single_runs_do() {
 
     let mut apart =
         Ensemble::new(COUNT, pendulum, StormerVerlet::default(), 0.1).expect("there are members");
-    assert!(matches!(apart.advance_to(2.0), Err(Error::Apart { .. })));
+    assert!(matches!(
+        apart.advance_to(2.0),
+        Err(Error::Sweep(SweepError::Apart { .. }))
+    ));
     let varying = Paced {
         scheme: StormerVerlet::default(),
         density: Steady,
@@ -81,7 +88,7 @@ fn members_reach_a_time_as_single_runs_do() {
     let mut varying = Ensemble::new(3, together, varying, 0.1).expect("there are members");
     assert!(matches!(
         varying.advance_until(2.0).map(|_| ()),
-        Err(Error::Apart { .. })
+        Err(Error::Sweep(SweepError::Apart { .. }))
     ));
 }
 

@@ -4,6 +4,7 @@
 use crate::common::bits::check;
 use crate::common::derivatives::numbers;
 use crate::symbolic;
+use hamiltonian::errors::{StartError, StepError};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::author::{Dynamics, VectorField};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
@@ -107,7 +108,7 @@ fn points_that_meet_are_an_error_with_its_place() -> Result<(), Error> {
             let start = State::new(places.clone(), momenta.clone());
             let run = Integrator::new(&system, StormerVerlet::default(), start, 0.5)?;
             let mut run = run.threads(threads);
-            let Err(Error::NotFinite { step, p, .. }) = run.advance(10) else {
+            let Err(Error::Step(StepError::NotFinite { step, p, .. })) = run.advance(10) else {
                 panic!("{n} points met")
             };
             assert_eq!(step, 2);
@@ -118,7 +119,7 @@ fn points_that_meet_are_an_error_with_its_place() -> Result<(), Error> {
         places[last] = 0.0;
         let start = State::new(places, momenta);
         let error = Integrator::new(&system, StormerVerlet::default(), start, 0.5);
-        let Err(Error::Values { name, .. }) = error else {
+        let Err(Error::Start(StartError::Values { name, .. })) = error else {
             panic!("{n} points met at the start")
         };
         assert_eq!(&*name, "H");

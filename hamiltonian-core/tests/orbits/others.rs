@@ -4,6 +4,7 @@
 //! scheme, and Kepler's third law has the period.
 
 use super::*;
+use hamiltonian::errors::SearchError;
 
 /// The width of a path, half a period forwards and half backwards: coordinates, then momenta.
 fn widths(system: &Hand<Planar, 2>, guess: &Place, period: f64) -> Option<[f64; 2]> {
@@ -122,11 +123,12 @@ fn orbits_of_kepler_and_of_henon_and_heiles_are_periodic() {
         let orbit = match search.find(&system, Gauss::<4>::default(), guess.clone()) {
             Ok(orbit) => orbit,
             Err(
-                Error::NoPeriodicOrbit { .. }
-                | Error::FarOrbit { .. }
-                | Error::PointOrbit { .. }
-                | Error::NotFinite { .. }
-                | Error::Solve { .. },
+                Error::Search(
+                    SearchError::NoPeriodicOrbit { .. }
+                    | SearchError::FarOrbit { .. }
+                    | SearchError::PointOrbit { .. },
+                )
+                | Error::Step(_),
             ) => continue,
             Err(error) => panic!("{place}: {error}"),
         };

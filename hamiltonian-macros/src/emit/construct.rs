@@ -166,10 +166,10 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         let [products, bounds] = reach::constructed(context);
         let room = products + &groups.collect::<String>();
         let more = (!bounds.is_empty()).then(|| {
-            quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
+            quote! { #[doc = " `InputError::Index` or `InputError::Range` if an index of H leaves its array for these sizes."] }
         });
         let memory = (!room.is_empty()).then(|| {
-            quote! { #[doc = " `Error::Memory` if arrays of these sizes do not fit into memory."] }
+            quote! { #[doc = " `InputError::Memory` if arrays of these sizes do not fit into memory."] }
         });
         quote! {
             /// The system of these sizes and parameters: the sizes first, then functions, then the parameters
@@ -177,8 +177,8 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             #sets
             ///
             /// # Errors
-            /// `Error::Shape` if an array does not have the number of components that its sizes say,
-            /// `Error::Parameter` if a number given is NaN.
+            /// `InputError::Shape` if an array does not have the number of components that its sizes say,
+            /// `InputError::Parameter` if a number given is NaN.
             #more
             #memory
             #allow

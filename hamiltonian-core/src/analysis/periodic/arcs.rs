@@ -11,7 +11,7 @@
 
 use super::least_squares::solve;
 use crate::analysis::tangent::{Tangent, lifted};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::runs::integrator::Integrator;
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::{Gradient, State};

@@ -9,7 +9,7 @@ use super::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::scalar::explain;
 use super::{CarriedIn, MapIn, MaskIn};
 use crate::analysis::tangent::{Columns, Megno, gram_schmidt, volume};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::{Clock, Map};
 use crate::schemes::scheme::Scheme;
 use crate::systems::domain::inside;

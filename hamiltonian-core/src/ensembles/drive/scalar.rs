@@ -5,7 +5,7 @@
 
 use crate::ensembles::host::{Host, RunAtStop};
 use crate::ensembles::occupants::Occupants;
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::{Clock, Map, Step};
 use crate::observers::observe::View;
 use crate::runs::failed::Failed;
@@ -171,5 +171,5 @@ pub(in crate::ensembles) fn explain<T: Real, S: System, M: Scheme<S>>(
         p: p.into(),
         energy,
     };
-    failed.because(cause)
+    failed.because(cause).into()
 }

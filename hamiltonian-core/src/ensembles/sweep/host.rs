@@ -11,7 +11,7 @@ use crate::ensembles::guard::guard;
 use crate::ensembles::host::{Host, MemberRun, RunAtStop};
 use crate::ensembles::record::{Batch, End, MemberOutcome, Record, Status};
 use crate::ensembles::rounding::Rounding;
-use crate::error::Error;
+use crate::errors::{Error, SweepError};
 use crate::flows::map::Clock;
 use crate::observers::observe::{FollowVisitor, FollowedQuantities, Observer, View};
 use crate::runs::integrator::{check_start, check_step, duration};
@@ -19,7 +19,6 @@ use crate::schemes::scheme::Scheme;
 use crate::systems::hash::hash_of;
 use crate::systems::state::State;
 use crate::systems::system::{Description, Dynamics, System, VectorOf};
-use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
@@ -129,9 +128,10 @@ where
         if let Some(run) = slot
             && !S::fits(&run.prepared, &prepared)
         {
-            return Err(Error::OtherSizes {
+            return Err(SweepError::OtherSizes {
                 system: (&*system.description().name).into(),
-            });
+            }
+            .into());
         }
         self.words.clear();
         (sweep.erased()).begin(&prepared, &start, step, &mut self.words)?;
@@ -434,10 +434,7 @@ where
         let begin = self.values.len();
         self.values.extend_from_slice(values);
         let index = self.indices.start + key;
-        let error = error.map(|error| Error::Member {
-            index,
-            error: Box::new(error),
-        });
+        let error = error.map(|error| SweepError::member(index, error));
         self.outcomes[key] = Some(MemberOutcome {
             status,
             time,

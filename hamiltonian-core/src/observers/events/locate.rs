@@ -4,7 +4,7 @@
 //! order, and the sign before the end. Invariant: the function tends to 0 from both sides of a root. A root at the end
 //! of a step belongs to the next step, in which it is known whether the sign changes.
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::observers::root::{Sample, dip, root, side};
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Mask, Real};

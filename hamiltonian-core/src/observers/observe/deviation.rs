@@ -3,7 +3,7 @@
 //! Input: values of the function. Output: the largest and the mean change. Invariant: only sums and the maximum are
 //! stored.
 
-use crate::error::Error;
+use crate::errors::Error;
 use crate::results::checkpoint::Memory;
 use hamiltonian_lanes::Real;
 

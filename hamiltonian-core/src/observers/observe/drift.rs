@@ -7,7 +7,7 @@ use super::deviation::Deviation;
 use super::follow::FollowVisitor;
 use super::quantity::Quantity;
 use super::{Observer, View, one_trajectory};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::results::checkpoint::Memory;
 use crate::systems::system::{Dynamics, ObservableKind, System, Text};
 use alloc::vec::Vec;

@@ -3,8 +3,8 @@
 //! A file is written under a temporary name and then renamed. Files that killed processes left unfinished stay in the
 //! directory `status/parts`, which readers of Zarr ignore, until the store is complete.
 
-use crate::error::Error;
-use crate::error::StoreError;
+use crate::errors::Error;
+use crate::errors::StoreError;
 use std::collections::hash_map::RandomState;
 use std::fs::{self, File};
 use std::hash::{BuildHasher, Hasher};
@@ -79,11 +79,11 @@ pub(super) fn failed(root: &Path, path: &Path, error: &io::Error) -> Error {
     let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
     match full.contains(&error.kind()) {
         true => StoreError::Full {
-            path: root.display().to_string(),
+            path: root.display().to_string().into(),
         },
         false => StoreError::File {
-            path: path.display().to_string(),
-            message: error.to_string(),
+            path: path.display().to_string().into(),
+            message: error.to_string().into(),
         },
     }
     .into()

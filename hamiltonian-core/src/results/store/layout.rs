@@ -4,7 +4,7 @@
 //! al., "Zarr core specification", version 3.0 (2023).
 
 use super::json::Json;
-use crate::error::StoreError;
+use crate::errors::StoreError;
 
 /// The contents of a store.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,7 +119,7 @@ impl Layout {
     /// Checks the sizes and the names.
     #[inline]
     pub(super) fn check(&self) -> Result<(), StoreError> {
-        let layout = |fact: String, remedy| Err(StoreError::Layout { fact, remedy });
+        let layout = |fact: String, remedy: &str| Err(StoreError::layout(fact, remedy));
         if self.members == 0 || self.chunk == 0 {
             let fact = format!(
                 "a store of {} members in chunks of {}",

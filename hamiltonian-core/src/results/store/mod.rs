@@ -15,7 +15,7 @@ mod layout;
 
 pub use layout::{Attribute, Layout, Rows};
 
-use crate::error::{Error, StoreError};
+use crate::errors::{Error, StoreError};
 use crate::results::checkpoint::differing;
 use core::fmt;
 use core::ops::Range;
@@ -319,7 +319,7 @@ impl Store {
         match integers(&saved).first() {
             Some(first) if *first == hash => Ok(()),
             _ => Err(StoreError::Members {
-                path: self.root.display().to_string(),
+                path: self.root.display().to_string().into(),
                 chunk,
             }
             .into()),
@@ -393,8 +393,8 @@ impl Store {
             let ours = name == ROWS || self.arrays.iter().any(|array| array.name == *name);
             if !ours {
                 return Err(StoreError::Foreign {
-                    path: self.root.display().to_string(),
-                    found: name.into_owned(),
+                    path: self.root.display().to_string().into(),
+                    entry: name.into(),
                 }
                 .into());
             }
@@ -408,9 +408,9 @@ impl Store {
         let Some((saved, given)) = differing(&saved, given) else {
             return Ok(());
         };
-        let line = |text: &str| text.trim().trim_end_matches(',').to_owned();
+        let line = |text: &str| text.trim().trim_end_matches(',').into();
         Err(StoreError::Other {
-            path: path.display().to_string(),
+            path: path.display().to_string().into(),
             saved: line(saved),
             given: line(given),
         }
@@ -429,9 +429,9 @@ impl Store {
         match bytes.len() == expected {
             true => Ok(bytes),
             false => Err(StoreError::Damaged {
-                path: path.display().to_string(),
-                found: bytes.len() as u64,
-                expected: expected as u64,
+                path: path.display().to_string().into(),
+                found: bytes.len(),
+                expected,
             }
             .into()),
         }
@@ -443,21 +443,20 @@ impl Store {
             true => Ok(()),
             false => Err(StoreError::Shape {
                 chunk,
-                array: array.to_owned(),
-                found: found as u64,
-                expected: expected as u64,
+                array: array.into(),
+                found,
+                expected,
             }),
         };
         let range = self.layout.members_of(chunk);
         let members = (range.end - range.start) as usize;
         if members == 0 {
-            let (found, expected) = (chunk, self.layout.chunks());
-            let array = "chunk".to_owned();
+            let number = |chunk: u64| usize::try_from(chunk).unwrap_or(usize::MAX);
             let error = StoreError::Shape {
                 chunk,
-                array,
-                found,
-                expected,
+                array: "chunk".into(),
+                found: number(chunk),
+                expected: number(self.layout.chunks()),
             };
             return Err(error.into());
         }
@@ -482,7 +481,7 @@ impl Store {
                 false => format!("the rows of chunk {chunk} are not in the order of members"),
             };
             let remedy = "give the rows of its members, in their order";
-            return Err(StoreError::Layout { fact, remedy }.into());
+            return Err(StoreError::layout(fact, remedy).into());
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 //! Input: a [`Table`]. Output: its text. Invariant: each number reads back to the same bits.
 
 use super::Table;
-use crate::error::Error;
+use crate::errors::Error;
 use std::io::{BufWriter, Write};
 
 /// The number of bytes that are collected before the writer receives them.

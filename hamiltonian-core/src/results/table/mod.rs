@@ -9,7 +9,7 @@ mod csv;
 #[cfg(feature = "std")]
 mod npy;
 
-use crate::error::{Error, TableError};
+use crate::errors::{Error, TableError};
 use alloc::string::String;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
@@ -72,7 +72,7 @@ impl Table {
         sorted.sort_unstable();
         if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
             let name = pair[0].clone();
-            return Err(TableError::Twice { name }.into());
+            return Err(TableError::Twice { name: name.into() }.into());
         }
         Ok(Table {
             columns,
@@ -103,8 +103,8 @@ impl Table {
             // The range in which every whole number is an `f64`.
             let whole = Real::abs(found) <= 9_007_199_254_740_992.0 && found == found as i64 as f64;
             if !whole {
-                let name = name.clone();
-                return Err(TableError::Index { name, found }.into());
+                let (name, value) = (name.as_str().into(), found);
+                return Err(TableError::Index { name, value }.into());
             }
         }
         self.values.extend_from_slice(row);

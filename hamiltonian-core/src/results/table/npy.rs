@@ -5,7 +5,7 @@
 
 use super::Table;
 use super::csv::BUFFER;
-use crate::error::Error;
+use crate::errors::Error;
 use std::io::{BufWriter, Write};
 
 impl Table {

@@ -6,7 +6,7 @@
 
 use super::part::Part;
 use super::{Integrator, MapOf, numbers};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::{Clock, Map, ScalarOf};
 use crate::observers::observe::{Observer, View};
 use crate::runs::failed::Failed;
@@ -31,9 +31,10 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// Makes `n` steps and returns the state after them. If an observer ends the run, there are fewer steps.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::Solve`]. Then [`state`](Integrator::state) is the last finite state. H is
-    /// evaluated at the end of blocks, see [Blocks](Integrator#blocks). For a
-    /// resumed run, [`Error::Checkpoint`] if its observers are not those that were saved.
+    /// [`StepError::NotFinite`](crate::errors::StepError::NotFinite),
+    /// [`StepError::Unsolved`](crate::errors::StepError::Unsolved). Then [`state`](Integrator::state) is the last
+    /// finite state. H is evaluated at the end of blocks, see [Blocks](Integrator#blocks). For a resumed run,
+    /// [`Error::Checkpoint`] if its observers are not those that were saved.
     pub fn advance(&mut self, n: u64) -> Result<&State<VectorOf<S, T>>, Error> {
         if let Some(error) = &self.refused {
             return Err(error.clone());
@@ -167,7 +168,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             let error = failed.because(cause);
             self.carried.copy_from(&self.snapshot);
             self.arrives(self.steps);
-            return error;
+            return error.into();
         }
     }
 }

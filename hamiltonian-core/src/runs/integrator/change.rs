@@ -6,7 +6,7 @@
 use super::checks::{check_change, check_values, onto_shell};
 use super::part::Part;
 use super::{Integrator, MapOf, check_step, duration, parameters};
-use crate::error::Error;
+use crate::errors::Error;
 use crate::flows::map::{Clock, Step};
 use crate::observers::observe::Observer;
 use crate::systems::state::{Carried, IntoStart, State};
@@ -19,7 +19,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// carried values again, for example the second point of (25), (26) and (33).
     ///
     /// # Errors
-    /// [`Error::Step`] for a zero, NaN or infinite step.
+    /// [`StartError::Step`](crate::errors::StartError::Step) for a zero, NaN or infinite step.
     pub fn change_step(&mut self, step: T) -> Result<(), Error> {
         check_step(step)?;
         self.carried = self.recipe.start(&self.prepared, &self.state, step);
@@ -63,8 +63,11 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// ```
     ///
     /// # Errors
-    /// [`Error::OtherTime`] if the state has another time than the run; [`Error::Shape`], [`Error::Start`],
-    /// [`Error::Values`] as for a [new](Integrator::new) run. The run then is as before.
+    /// [`StartError::OtherTime`](crate::errors::StartError::OtherTime) if the state has another time than the run;
+    /// [`InputError::Shape`](crate::errors::InputError::Shape),
+    /// [`StartError::NotFinite`](crate::errors::StartError::NotFinite),
+    /// [`StartError::Values`](crate::errors::StartError::Values) as for a [new](Integrator::new) run. The run then is
+    /// as before.
     pub fn set_state(&mut self, state: impl IntoStart<VectorOf<S, T>>) -> Result<(), Error> {
         let mut state = state.into_start(self.prepared.description().first_names())?;
         check_change::<T, S>(&self.prepared, &self.state, &mut state)?;
@@ -95,7 +98,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// ```
     ///
     /// # Errors
-    /// [`Error::Shape`] for a system of other sizes; [`Error::Values`] as for a [new](Integrator::new) run. The run then is
+    /// [`InputError::Shape`](crate::errors::InputError::Shape) for a system of other sizes;
+    /// [`StartError::Values`](crate::errors::StartError::Values) as for a [new](Integrator::new) run. The run then is
     /// as before.
     pub fn set_system(&mut self, system: &S) -> Result<(), Error> {
         system.check_shape(&self.state)?;

@@ -4,7 +4,7 @@
 //! first derivatives are finite, and in another time on the shell H = 0.
 
 use super::{numbers, parameter_without_value, parameters};
-use crate::error::Error;
+use crate::errors::{Error, StartError};
 use crate::observers::output::names;
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
@@ -17,12 +17,12 @@ use alloc::string::String;
 use hamiltonian_lanes::{Mask, Real};
 
 /// Returns an error for a step that is zero, NaN or infinite.
-pub(crate) fn check_step<T: Real>(step: T) -> Result<(), Error> {
+pub(crate) fn check_step<T: Real>(step: T) -> Result<(), StartError> {
     if step.is_finite() && !step.equals(T::zero()).any() {
         return Ok(());
     }
-    Err(Error::Step {
-        step: step.to_f64(),
+    Err(StartError::Step {
+        value: step.to_f64(),
     })
 }
 
@@ -32,7 +32,7 @@ pub(crate) fn check_state<T: Real, S: System>(
     state: &State<VectorOf<S, T>>,
 ) -> Result<(), Error> {
     system.check_shape(state)?;
-    check_numbers(system.description(), state)
+    Ok(check_numbers(system.description(), state)?)
 }
 
 /// Returns an error for a state that cannot replace another one of a run: of another time or shape, with a NaN or an
@@ -44,17 +44,18 @@ pub(crate) fn check_change<T: Real, S: System>(
 ) -> Result<(), Error> {
     let description = prepared.description();
     if !to.t.equals(from.t).all() {
-        return Err(Error::OtherTime {
+        return Err(StartError::OtherTime {
             clock: description.clock().into(),
-            given: to.t.to_f64(),
+            time: to.t.to_f64(),
             now: from.t.to_f64(),
-        });
+        }
+        .into());
     }
     check_shape_like(description, [&from.q, &from.p], to)?;
     check_numbers(description, to)?;
     onto_shell::<T, S>(prepared, to);
     // The parameters are those of the run, which has begun with them.
-    check_values::<T, S>(prepared, to, String::new)
+    Ok(check_values::<T, S>(prepared, to, String::new)?)
 }
 
 /// In another time, sets the momentum of time to −h, so that H = g·(h + p_t) = 0. Nothing is done otherwise.
@@ -72,15 +73,15 @@ pub(super) fn onto_shell<T: Real, S: System>(
 }
 
 /// Returns an error for a state with a NaN or an infinity.
-fn check_numbers<V: Vector>(description: &Description, state: &State<V>) -> Result<(), Error> {
+fn check_numbers<V: Vector>(description: &Description, state: &State<V>) -> Result<(), StartError> {
     if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
         return Ok(());
     }
-    Err(Error::Start {
+    Err(StartError::NotFinite {
         clock: description.clock().into(),
         time: state.t.to_f64(),
-        q: numbers(&state.q),
-        p: numbers(&state.p),
+        q: numbers(&state.q).into(),
+        p: numbers(&state.p).into(),
     })
 }
 
@@ -107,10 +108,11 @@ pub(crate) fn check_scheme<T: Real, S: System, M: Scheme<S>>(
     if description.is_jumping() {
         let [first, last] = scheme.times_of_jumps(description);
         if !(first > ROUNDING && last < 1.0 - ROUNDING) {
-            return Err(Error::Jumps {
-                scheme: scheme.entry().name,
+            return Err(StartError::Jumps {
+                scheme: scheme.entry().name.into(),
                 system: (*description.name).into(),
-            });
+            }
+            .into());
         }
     }
     scheme.check(prepared, start)
@@ -122,7 +124,7 @@ pub(super) fn check_values<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     start: &State<VectorOf<S, T>>,
     parameters: impl Fn() -> String,
-) -> Result<(), Error> {
+) -> Result<(), StartError> {
     let description = prepared.description();
     let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
     let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
@@ -138,7 +140,7 @@ pub(super) fn check_values<T: Real, S: System>(
                 }
             });
         }
-        Some(Error::Values {
+        Some(StartError::Values {
             name: name.into(),
             derivative,
             value: found,
@@ -170,7 +172,7 @@ pub(super) fn check_values<T: Real, S: System>(
     if description.fictitious_time.is_none() {
         return Ok(());
     }
-    let Some(&given) = numbers(&start.p).last() else {
+    let Some(&value) = numbers(&start.p).last() else {
         return Ok(());
     };
     // H = g·(h + p_t) is compared with Σ p ∂H/∂p, in which g·p_t is one term. The bound is wide
@@ -180,11 +182,11 @@ pub(super) fn check_values<T: Real, S: System>(
     if h.to_f64().abs() <= 1e-3 * scale {
         return Ok(());
     }
-    Err(Error::Shell {
+    Err(StartError::Shell {
         momentum: (description.groups.last())
             .map_or("", |group| &group.momentum)
             .into(),
-        given,
+        value,
         due: -declared_energy::<T, S>(prepared, start).to_f64(),
     })
 }

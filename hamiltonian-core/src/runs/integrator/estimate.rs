@@ -4,7 +4,7 @@
 //! of it and a quarter. Invariant: the run itself is not changed.
 
 use super::{Integrator, MapOf, duration};
-use crate::error::Error;
+use crate::errors::{Error, TimeError};
 use crate::flows::map::{Clock, Step};
 use crate::results::checkpoint::Memory;
 use crate::systems::flow::Scratch;
@@ -70,11 +70,11 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Uneven`] for a scheme whose steps vary in time; those of
+    /// [`TimeError::Uneven`] for a scheme whose steps vary in time; those of
     /// [`advance`](Integrator::advance).
     pub fn estimate_error(&self, n: u64) -> Result<ErrorEstimate<VectorOf<S, T>>, Error> {
         if self.carried.duration(self.clock.interval).is_some() {
-            return Err(Error::Uneven);
+            return Err(TimeError::Uneven.into());
         }
         let part = |parts: u32| -> Result<(State<VectorOf<S, T>>, T), Error> {
             let step = self.step / T::constant(f64::from(parts), 0.0);

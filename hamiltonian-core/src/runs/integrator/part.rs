@@ -4,7 +4,7 @@
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
 use super::{Integrator, MapOf, check_scheme, numbers};
-use crate::error::Error;
+use crate::errors::{Error, StepError, TimeError};
 use crate::flows::map::{Clock, Map, Step};
 use crate::observers::observe::{Between, Observer, View};
 use crate::runs::failed::Failed;
@@ -86,12 +86,13 @@ impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T,
         // This is false for NaN.
         let is_near = ((t - now) / step).magnitude() <= most + self.rounding(now, t);
         if !is_near {
-            return Err(Error::Far {
+            return Err(TimeError::Far {
                 clock: self.prepared.description().clock().into(),
                 target: t.to_f64(),
                 from: (now - step).to_f64(),
                 to: (now + step).to_f64(),
-            });
+            }
+            .into());
         }
         self.at(self.state, t, (t - now) / self.clock.interval)
     }
@@ -155,7 +156,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
             map.step(from.t, t, &mut carried, &mut work);
             let reached = carried.time(t);
             if !(carried.is_finite() && reached.is_finite()) {
-                return Err(self.explain(&map, from, h, t, &carried));
+                return Err(self.explain(&map, from, h, t, &carried).into());
             }
             missed = (reached - t).magnitude();
             if missed <= rounding {
@@ -166,20 +167,21 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
                     p: point.p.clone(),
                 };
                 if !domain::is_inside::<T, S>(self.prepared, &state) {
-                    return Err(self.explain(&map, from, h, t, &carried));
+                    return Err(self.explain(&map, from, h, t, &carried).into());
                 }
                 return Ok(state);
             }
             part *= (t - from.t) / (reached - from.t);
         }
-        Err(Error::Solve {
+        Err(StepError::Unsolved {
             step: 1,
             lane: None,
             clock: self.prepared.description().clock().into(),
             time: from.t.to_f64(),
             residual: missed,
             iterations: MOST,
-        })
+        }
+        .into())
     }
 
     /// The error of the step of size `h` from `from` that led to `carried`.
@@ -191,7 +193,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
         h: T,
         t: T,
         carried: &R::Carried,
-    ) -> Error {
+    ) -> StepError {
         let mut repeated = self.recipe.start_alone(self.prepared, from, h);
         let mut work = Scratch::like(&repeated);
         let cause = map.explain(from.t, t, true, &mut repeated, &mut work);
@@ -227,7 +229,7 @@ impl<T: Real> Clock<T> {
         made: u64,
         t: T,
         clock: &str,
-    ) -> Result<(Option<u64>, u64), Error> {
+    ) -> Result<(Option<u64>, u64), TimeError> {
         /// The largest number of steps that is exact in `f64`.
         const MOST: f64 = (1_u64 << 53) as f64;
         let since = Clock::new(self.start, self.interval);
@@ -247,14 +249,14 @@ impl<T: Real> Clock<T> {
         }
         let behind = count < made as f64;
         if behind {
-            return Err(Error::Behind {
+            return Err(TimeError::Behind {
                 clock: clock.into(),
                 target: t.to_f64(),
                 now: since.at(made).to_f64(),
             });
         }
         if !counted {
-            return Err(Error::Unreachable {
+            return Err(TimeError::Unreachable {
                 clock: clock.into(),
                 target: t.to_f64(),
             });
@@ -280,8 +282,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Far`] for a time further away; [`Error::NotFinite`] and [`Error::Solve`], in which the step has the
-    /// number 1.
+    /// [`TimeError::Far`] for a time further away; [`StepError::NotFinite`] and [`StepError::Unsolved`], in which the
+    /// step has the number 1.
     pub fn state_at(&self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         self.part().state_at(t)
     }
@@ -299,7 +301,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// [`has_ended`](Integrator::has_ended).
     ///
     /// # Errors
-    /// [`Error::Behind`], [`Error::Unreachable`]; those of
+    /// [`TimeError::Behind`], [`TimeError::Unreachable`]; those of
     /// [`advance`](Integrator::advance) and of [`state_at`](Integrator::state_at).
     pub fn advance_until(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         if self.varies() {
@@ -323,10 +325,11 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// Makes steps of unknown duration until `t` is passed.
     fn past(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
         if !t.is_finite() {
-            return Err(Error::Unreachable {
+            return Err(TimeError::Unreachable {
                 clock: self.prepared.description().clock().into(),
                 target: t.to_f64(),
-            });
+            }
+            .into());
         }
         let is_forward = T::zero().lt(self.clock.interval).all();
         while !self.ended {
@@ -349,29 +352,30 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// time.
     ///
     /// # Errors
-    /// [`Error::OffGrid`] with the reachable times on both sides, [`Error::Behind`],
-    /// [`Error::Unreachable`], [`Error::Uneven`] where steps have no known duration; those of
+    /// [`TimeError::OffGrid`] with the reachable times on both sides, [`TimeError::Behind`],
+    /// [`TimeError::Unreachable`], [`TimeError::Uneven`] where steps have no known duration; those of
     /// [`advance`](Integrator::advance).
     pub fn advance_to(&mut self, t: T) -> Result<&State<VectorOf<S, T>>, Error> {
         if self.varies() {
-            return Err(Error::Uneven);
+            return Err(TimeError::Uneven.into());
         }
         match self.whole_steps(t)? {
             (None, steps) => self.advance(steps),
             (Some(before), after) => {
                 let made = self.steps - self.began;
-                Err(Error::OffGrid {
+                Err(TimeError::OffGrid {
                     clock: self.prepared.description().clock().into(),
                     target: t.to_f64(),
                     before: self.clock.at(made + before).to_f64(),
                     after: self.clock.at(made + after).to_f64(),
-                })
+                }
+                .into())
             }
         }
     }
 
     /// The number of steps to `t`, as in [`Clock::whole_steps`].
-    fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), Error> {
+    fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), TimeError> {
         let clock = self.prepared.description().clock();
         (self.clock).whole_steps(self.steps - self.began, t, clock)
     }

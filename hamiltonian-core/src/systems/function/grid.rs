@@ -5,7 +5,7 @@
 
 use super::line::{TridiagonalRow, solve, solve_around};
 use super::{Function, fingerprint, floor};
-use crate::error::KnotError;
+use crate::errors::KnotError;
 use alloc::sync::Arc;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -90,10 +90,10 @@ impl Grid {
         KnotError::check_count(needed, columns)?;
         KnotError::check_finite("origin", &origin)?;
         KnotError::check_finite("spacing", &spacing)?;
-        if let Some(at) = spacing.iter().position(|spacing| *spacing <= 0.0) {
+        if let Some(index) = spacing.iter().position(|spacing| *spacing <= 0.0) {
             return Err(KnotError::Spacing {
-                at,
-                found: spacing[at],
+                index,
+                value: spacing[index],
             });
         }
         let mut values = Vec::with_capacity(rows.len() * columns);

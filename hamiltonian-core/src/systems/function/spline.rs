@@ -5,7 +5,7 @@
 
 use super::line::{TridiagonalRow, solve, solve_around};
 use super::{Function, fingerprint, floor};
-use crate::error::KnotError;
+use crate::errors::KnotError;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
@@ -108,9 +108,9 @@ impl Spline {
         KnotError::check_finite("value", values)?;
         if let Some(at) = knots.windows(2).position(|pair| pair[1] <= pair[0]) {
             return Err(KnotError::NotIncreasing {
-                at: at + 1,
+                index: at + 1,
                 before: knots[at],
-                found: knots[at + 1],
+                value: knots[at + 1],
             });
         }
         let last = knots.len() - 1;

@@ -3,7 +3,7 @@
 //! Input: nothing. Output: [`Description`], which [`System`](super::System) and its prepared form return. Invariant: all
 //! texts and lists are borrowed for ever or owned, so a system made at run time has one as well as a compiled one.
 
-use crate::error::Error;
+use crate::errors::ObservableError;
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 
@@ -243,8 +243,8 @@ impl Description {
     }
 
     /// The error for the name of an observable that the system does not declare.
-    pub(crate) fn unknown(&self, name: &str) -> Error {
-        Error::Unknown {
+    pub(crate) fn unknown(&self, name: &str) -> ObservableError {
+        ObservableError::Unknown {
             name: name.into(),
             system: (*self.name).into(),
             known: (self.observables.iter())

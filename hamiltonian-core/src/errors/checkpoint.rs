@@ -1,50 +1,64 @@
 //! Errors of saved runs.
 
-use super::Error;
-use alloc::string::String;
+use alloc::boxed::Box;
 use core::fmt::{self, Display, Formatter};
 
 /// Why a saved run cannot be read or gone on with.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum CheckpointError {
     /// The file cannot be read or written.
+    #[non_exhaustive]
     File {
         /// Its path.
-        path: String,
+        path: Box<str>,
         /// The system's message.
-        message: String,
+        message: Box<str>,
     },
     /// These bytes are no saved run.
+    #[non_exhaustive]
     Foreign,
     /// It was saved by a newer version of this library.
+    #[non_exhaustive]
     Newer {
         /// The version of the file.
-        found: u64,
+        version: u64,
         /// The newest version that can be read.
-        known: u64,
+        readable: u64,
     },
     /// It was saved by an older version of this library, whose steps have other bits.
+    #[non_exhaustive]
     Older {
         /// The version of the file.
-        found: u64,
+        version: u64,
         /// The version that can be read.
-        known: u64,
+        readable: u64,
     },
     /// The bytes are not those that were written.
+    #[non_exhaustive]
     Damaged {
         /// The part that does not fit.
-        reason: &'static str,
+        reason: Box<str>,
     },
     /// It is the run of something else.
+    #[non_exhaustive]
     Other {
         /// `system`, `parameter`, `scheme`, `scalar`, `observer`.
-        what: &'static str,
+        what: Box<str>,
         /// That of the file.
-        saved: String,
+        saved: Box<str>,
         /// That of the program.
-        given: String,
+        given: Box<str>,
     },
+}
+
+impl CheckpointError {
+    /// Returns the error of bytes that are not those that were written.
+    pub(crate) fn damaged(reason: &str) -> Self {
+        CheckpointError::Damaged {
+            reason: reason.into(),
+        }
+    }
 }
 
 impl Display for CheckpointError {
@@ -52,13 +66,13 @@ impl Display for CheckpointError {
         match self {
             Self::File { path, message } => write!(f, "`{path}`: {message}"),
             Self::Foreign => f.write_str("this is no saved run: it does not begin as one"),
-            Self::Newer { found, known } => write!(
+            Self::Newer { version, readable } => write!(
                 f,
-                "the run was saved in format {found}, this version reads up to {known}: update it"
+                "the run was saved in format {version}, this version reads up to {readable}: update it"
             ),
-            Self::Older { found, known } => write!(
+            Self::Older { version, readable } => write!(
                 f,
-                "the run was saved in format {found}, this version reads format {known} alone, \
+                "the run was saved in format {version}, this version reads format {readable} alone, \
                  since its steps have other bits: go on with the version that saved it, or begin a \
                  new run from its last state"
             ),
@@ -72,9 +86,3 @@ impl Display for CheckpointError {
 }
 
 impl core::error::Error for CheckpointError {}
-
-impl From<CheckpointError> for Error {
-    fn from(error: CheckpointError) -> Self {
-        Error::Checkpoint(error)
-    }
-}

@@ -1,13 +1,14 @@
 //! Errors of knots and of the values at them.
 
-use super::Error;
+use alloc::boxed::Box;
 use core::fmt::{self, Display, Formatter};
 
 /// Data that a [`Spline`](crate::systems::function::Spline) or a [`Grid`](crate::systems::function::Grid) cannot pass through.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum KnotError {
     /// There are too few knots.
+    #[non_exhaustive]
     TooFew {
         /// The least number of knots, in each direction of a grid.
         needed: usize,
@@ -15,6 +16,7 @@ pub enum KnotError {
         found: usize,
     },
     /// The numbers of knots and of values differ.
+    #[non_exhaustive]
     Lengths {
         /// The number of knots.
         knots: usize,
@@ -22,31 +24,35 @@ pub enum KnotError {
         values: usize,
     },
     /// A knot, a value, a slope, an origin or a spacing is infinite or NaN.
+    #[non_exhaustive]
     NotFinite {
         /// The quantity: "knot", "value", "slope", "origin" or "spacing".
-        what: &'static str,
+        what: Box<str>,
         /// Its number, from 0 on.
-        at: usize,
+        index: usize,
         /// The number given.
-        found: f64,
+        value: f64,
     },
     /// A knot is not above the knot before it.
+    #[non_exhaustive]
     NotIncreasing {
         /// The number of the knot, from 1 on.
-        at: usize,
+        index: usize,
         /// The knot before it.
         before: f64,
         /// The knot.
-        found: f64,
+        value: f64,
     },
     /// A spacing is not positive.
+    #[non_exhaustive]
     Spacing {
         /// The direction, 0 or 1.
-        at: usize,
+        index: usize,
         /// The spacing given.
-        found: f64,
+        value: f64,
     },
     /// The first and the last value of a periodic function differ.
+    #[non_exhaustive]
     NotPeriodic {
         /// The first value.
         first: f64,
@@ -62,16 +68,20 @@ impl Display for KnotError {
                 write!(f, "{found} knots are too few: at least {needed} are needed")
             }
             Self::Lengths { knots, values } => write!(f, "{knots} knots have {values} values"),
-            Self::NotFinite { what, at, found } => {
-                write!(f, "{what} {at} is {found}, and must be finite")
+            Self::NotFinite { what, index, value } => {
+                write!(f, "{what} {index} is {value}, and must be finite")
             }
-            Self::NotIncreasing { at, before, found } => write!(
+            Self::NotIncreasing {
+                index,
+                before,
+                value,
+            } => write!(
                 f,
-                "knot {at} is {found}, and must be above knot {}, which is {before}",
-                at - 1
+                "knot {index} is {value}, and must be above knot {}, which is {before}",
+                index - 1
             ),
-            Self::Spacing { at, found } => {
-                write!(f, "spacing {at} is {found}, and must be positive")
+            Self::Spacing { index, value } => {
+                write!(f, "spacing {index} is {value}, and must be positive")
             }
             Self::NotPeriodic { first, last } => write!(
                 f,
@@ -84,21 +94,15 @@ impl Display for KnotError {
 
 impl core::error::Error for KnotError {}
 
-impl From<KnotError> for Error {
-    fn from(error: KnotError) -> Self {
-        Error::Knots(error)
-    }
-}
-
 impl KnotError {
     /// Returns an error if one of the numbers is not finite.
-    pub(crate) fn check_finite(what: &'static str, numbers: &[f64]) -> Result<(), KnotError> {
+    pub(crate) fn check_finite(what: &str, numbers: &[f64]) -> Result<(), KnotError> {
         match numbers.iter().position(|number| !number.is_finite()) {
             None => Ok(()),
-            Some(at) => Err(KnotError::NotFinite {
-                what,
-                at,
-                found: numbers[at],
+            Some(index) => Err(KnotError::NotFinite {
+                what: what.into(),
+                index,
+                value: numbers[index],
             }),
         }
     }

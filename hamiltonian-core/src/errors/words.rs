@@ -4,9 +4,9 @@ use alloc::boxed::Box;
 use core::fmt::{Display, Formatter, Result};
 
 /// ` in the flow of …`, if there is a piece.
-pub(super) struct Within(pub(super) Option<&'static str>);
+pub(super) struct Within<'a>(pub(super) &'a Option<Box<str>>);
 
-impl Display for Within {
+impl Display for Within<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self.0 {
             Some(piece) => write!(f, " in the flow of `{piece}`"),

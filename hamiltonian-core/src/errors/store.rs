@@ -1,83 +1,101 @@
 //! Errors of stores.
 
-use super::Error;
+use alloc::boxed::Box;
 use core::fmt::{self, Display, Formatter};
 
 /// An error of a store.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StoreError {
     /// A layout that no store can have.
+    #[non_exhaustive]
     Layout {
         /// The part that does not fit.
-        fact: String,
+        fact: Box<str>,
         /// The remedy.
-        remedy: &'static str,
+        remedy: Box<str>,
     },
     /// The directory holds something else.
+    #[non_exhaustive]
     Foreign {
         /// The directory.
-        path: String,
+        path: Box<str>,
         /// A name in the directory that no store has.
-        found: String,
+        entry: Box<str>,
     },
     /// The store belongs to another sweep.
+    #[non_exhaustive]
     Other {
         /// The file that differs.
-        path: String,
+        path: Box<str>,
         /// The first line of it that differs.
-        saved: String,
+        saved: Box<str>,
         /// That line for this sweep.
-        given: String,
+        given: Box<str>,
     },
     /// The chunk was written with other members.
+    #[non_exhaustive]
     Members {
         /// The store.
-        path: String,
+        path: Box<str>,
         /// The number of the chunk.
         chunk: u64,
     },
     /// A file of the store differs from what was written.
+    #[non_exhaustive]
     Damaged {
         /// The file.
-        path: String,
-        /// Its length.
-        found: u64,
+        path: Box<str>,
+        /// Its length in bytes.
+        found: usize,
         /// Its length as it was written.
-        expected: u64,
+        expected: usize,
     },
     /// A chunk does not have the shape of the layout.
+    #[non_exhaustive]
     Shape {
         /// The number of the chunk.
         chunk: u64,
         /// The array, or `chunk` for a number beyond the last chunk.
-        array: String,
+        array: Box<str>,
         /// The number of values given.
-        found: u64,
+        found: usize,
         /// The number the layout has.
-        expected: u64,
+        expected: usize,
     },
     /// The disk is full, or a quota is used up. Chunks written before are intact.
+    #[non_exhaustive]
     Full {
         /// The store.
-        path: String,
+        path: Box<str>,
     },
     /// A file cannot be read or written.
+    #[non_exhaustive]
     File {
         /// Its path.
-        path: String,
+        path: Box<str>,
         /// The system's message.
-        message: String,
+        message: Box<str>,
     },
+}
+
+impl StoreError {
+    /// Returns the error of a layout that no store can have.
+    pub(crate) fn layout(fact: String, remedy: &str) -> Self {
+        StoreError::Layout {
+            fact: fact.into(),
+            remedy: remedy.into(),
+        }
+    }
 }
 
 impl Display for StoreError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Layout { fact, remedy } => write!(f, "{fact}\nhelp: {remedy}"),
-            Self::Foreign { path, found } => write!(
+            Self::Foreign { path, entry } => write!(
                 f,
-                "`{path}` is no store: it has `{found}` in it\nhelp: give a path of its own"
+                "`{path}` is no store: it has `{entry}` in it\nhelp: give a path of its own"
             ),
             Self::Other { path, saved, given } => write!(
                 f,
@@ -120,9 +138,3 @@ impl Display for StoreError {
 }
 
 impl core::error::Error for StoreError {}
-
-impl From<StoreError> for Error {
-    fn from(error: StoreError) -> Self {
-        Error::Store(error)
-    }
-}

@@ -1,32 +1,33 @@
 //! Errors of tables.
 
-use super::Error;
 use super::nearest::nearest;
 use super::words::Known;
-use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
 use alloc::string::String;
-use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
 /// An error of a table.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum TableError {
     /// There is no column of that name.
+    #[non_exhaustive]
     Unknown {
         /// The name given.
-        name: String,
+        name: Box<str>,
         /// The known name nearest to it, if one is near.
-        nearest: Option<String>,
+        nearest: Option<Box<str>>,
         /// All known names.
-        known: Vec<String>,
+        known: Box<[Box<str>]>,
     },
     /// Two columns have the same name.
+    #[non_exhaustive]
     Twice {
         /// The name.
-        name: String,
+        name: Box<str>,
     },
     /// A row has too few or too many values.
+    #[non_exhaustive]
     Width {
         /// The number of columns.
         columns: usize,
@@ -34,11 +35,12 @@ pub enum TableError {
         found: usize,
     },
     /// A value of the index column is not a whole number.
+    #[non_exhaustive]
     Index {
         /// The name of the index column.
-        name: String,
+        name: Box<str>,
         /// The value.
-        found: f64,
+        value: f64,
     },
 }
 
@@ -62,9 +64,9 @@ impl Display for TableError {
                 f,
                 "a row has {found} values, and the table {columns} columns"
             ),
-            Self::Index { name, found } => write!(
+            Self::Index { name, value } => write!(
                 f,
-                "the index `{name}` is {found:?}, and must be a whole number of at most 2^53"
+                "the index `{name}` is {value:?}, and must be a whole number of at most 2^53"
             ),
         }
     }
@@ -72,26 +74,20 @@ impl Display for TableError {
 
 impl core::error::Error for TableError {}
 
-impl From<TableError> for Error {
-    fn from(error: TableError) -> Self {
-        Error::Table(error)
-    }
-}
-
 impl TableError {
     /// The error for a name that is not among `known`.
     #[inline]
     pub(crate) fn unknown(name: &str, known: &[String]) -> Self {
         TableError::Unknown {
-            name: name.to_owned(),
-            nearest: nearest(name, known.iter().map(String::as_str)).map(ToOwned::to_owned),
-            known: known.to_vec(),
+            name: name.into(),
+            nearest: nearest(name, known.iter().map(String::as_str)).map(Into::into),
+            known: known.iter().map(|known| known.as_str().into()).collect(),
         }
     }
 }
 
 /// The remedy for an unknown column: the nearest name, or all names.
-struct ColumnRemedy<'a>(&'a Option<String>, &'a [String]);
+struct ColumnRemedy<'a>(&'a Option<Box<str>>, &'a [Box<str>]);
 
 impl Display for ColumnRemedy<'_> {
     #[inline]

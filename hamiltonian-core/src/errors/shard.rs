@@ -1,48 +1,51 @@
 //! Errors of shards.
 
-use super::Error;
-use alloc::string::String;
+use alloc::boxed::Box;
 use core::fmt::{self, Display, Formatter};
 
 /// A part of a sweep that does not exist, or that the environment does not determine.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ShardError {
     /// There is no part of that number.
+    #[non_exhaustive]
     Range {
         /// The number of the part, counted from 0.
-        index: u64,
+        shard: u64,
         /// The number of parts.
-        count: u64,
+        shards: u64,
         /// The variable that holds the number of the part, if the environment gives it.
-        variable: Option<&'static str>,
+        variable: Option<Box<str>>,
     },
     /// A text or a variable does not have the required form.
+    #[non_exhaustive]
     Form {
         /// The variable, if the environment gives it.
-        variable: Option<&'static str>,
+        variable: Option<Box<str>>,
         /// Its text.
-        text: String,
+        text: Box<str>,
         /// The form it must have.
-        expected: &'static str,
+        form: Box<str>,
     },
     /// A variable is set without another one that belongs to it.
+    #[non_exhaustive]
     Missing {
         /// The variable that is set.
-        variable: &'static str,
+        present: Box<str>,
         /// The variable that is missing.
-        missing: &'static str,
+        missing: Box<str>,
         /// The remedy.
-        remedy: &'static str,
+        remedy: Box<str>,
     },
     /// Two variables contradict each other.
+    #[non_exhaustive]
     Contradiction {
         /// A variable with its value.
-        one: String,
+        one: Box<str>,
         /// Another one with its value.
-        other: String,
+        other: Box<str>,
         /// The reason why the two do not fit.
-        reason: &'static str,
+        reason: Box<str>,
     },
 }
 
@@ -50,27 +53,27 @@ impl Display for ShardError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Range {
-                index,
-                count,
+                shard,
+                shards,
                 variable,
             } => write!(
                 f,
-                "shard {index}/{count}{} does not exist\nhelp: {}",
+                "shard {shard}/{shards}{} does not exist\nhelp: {}",
                 FromVariable(variable),
-                ValidShards(*count)
+                ValidShards(*shards)
             ),
             Self::Form {
                 variable,
                 text,
-                expected,
-            } => write!(f, "{}`{text}`, and must be {expected}", Named(variable)),
+                form,
+            } => write!(f, "{}`{text}`, and must be {form}", Named(variable)),
             Self::Missing {
-                variable,
+                present,
                 missing,
                 remedy,
             } => write!(
                 f,
-                "`{variable}` is set, but `{missing}` is not\nhelp: {remedy}"
+                "`{present}` is set, but `{missing}` is not\nhelp: {remedy}"
             ),
             Self::Contradiction { one, other, reason } => write!(
                 f,
@@ -83,14 +86,8 @@ impl Display for ShardError {
 
 impl core::error::Error for ShardError {}
 
-impl From<ShardError> for Error {
-    fn from(error: ShardError) -> Self {
-        Error::Shard(error)
-    }
-}
-
 /// ` (from …)` for a variable.
-struct FromVariable<'a>(&'a Option<&'static str>);
+struct FromVariable<'a>(&'a Option<Box<str>>);
 
 impl Display for FromVariable<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -102,7 +99,7 @@ impl Display for FromVariable<'_> {
 }
 
 /// `… is ` for a variable.
-struct Named<'a>(&'a Option<&'static str>);
+struct Named<'a>(&'a Option<Box<str>>);
 
 impl Display for Named<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

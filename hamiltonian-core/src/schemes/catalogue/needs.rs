@@ -3,14 +3,13 @@
 //! Input: the catalogue. Output: none. Invariant: a system without a trait is no system for exactly the schemes that
 //! require this trait, so a set with a trait too many or too few is found.
 
-use crate::private::Never;
 use crate::schemes::GaussNystrom;
 use crate::schemes::scheme::{Entry, Listed, Needs, Scheme};
-use crate::systems::flow::VectorField;
+use crate::systems::flow::{Nothing, Piece, VectorField};
 use crate::systems::state::Point;
 use crate::systems::system::{
     Autonomous, Description, Dynamics, Exact, Nystrom, QuadraticKinetic, Separable, Split, System,
-    Unforced, VectorOf,
+    Unforced,
 };
 use crate::systems::transformed::TimeTransformed;
 use alloc::string::String;
@@ -86,28 +85,38 @@ impl<T: Real, const TRAIT: usize> VectorField<V<T>> for Without<TRAIT> {
     fn add(&self, _: T, _: &V<T>, _: &V<T>, _: &mut V<T>, _: &mut V<T>) {}
 }
 
-type NoPiece<T, const TRAIT: usize> = Never<Point<VectorOf<Without<TRAIT>, T>>>;
+/// A piece that does not move.
+#[derive(Debug, Clone, Copy)]
+pub struct Still;
 
-/// Implements a trait with pieces, which are never made, for all systems but one.
+impl<T: Real, const TRAIT: usize> Piece<T, Without<TRAIT>> for Still {
+    type Point = Point<V<T>>;
+    type Flow = Nothing;
+    fn flow(&self, _: &Without<TRAIT>, _: T) -> Nothing {
+        Nothing
+    }
+}
+
+/// Implements a trait with pieces for all systems but one.
 macro_rules! with_pieces {
     ($trait:ident $pieces:tt: $($number:literal)*) => {
         $(with_pieces!(@one $trait $pieces $number);)*
     };
-    (@one $trait:ident ($($piece:ident $method:ident),*) $number:literal) => {
+    (@one $trait:ident ($($piece:ident $method:ident $value:tt),*) $number:literal) => {
         impl $trait for Without<$number> {
-            $(type $piece<T: Real> = NoPiece<T, $number>;
-            fn $method<T: Real>() -> NoPiece<T, $number> {
-                unreachable!("no step is made")
+            $(type $piece<T: Real> = $value;
+            fn $method<T: Real>() -> $value {
+                $value
             })*
         }
     };
 }
 
 with_pieces!(Unforced(): 1 2 3 4 5 6 7);
-with_pieces!(Split(Pieces pieces): 0 2 3 4 5 6 7);
+with_pieces!(Split(Pieces pieces (Still,)): 0 2 3 4 5 6 7);
 with_pieces!(Exact(): 0 1 3 4 5 6 7);
-with_pieces!(Separable(Kick kick, Drift drift): 0 1 2 4 5 6 7);
-with_pieces!(Nystrom(Kick kick, Quadratic quadratic): 0 1 2 3 5 6 7);
+with_pieces!(Separable(Kick kick Still, Drift drift Still): 0 1 2 4 5 6 7);
+with_pieces!(Nystrom(Kick kick Still, Quadratic quadratic Still): 0 1 2 3 5 6 7);
 with_pieces!(QuadraticKinetic(): 0 1 2 3 4 6 7);
 with_pieces!(Autonomous(): 0 1 2 3 4 5 7);
 

@@ -225,3 +225,42 @@ fn saved_runs_belong_to_one_description() -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// Pieces in another order make other steps: saved runs, ensembles and stores refuse them, and show both.
+#[test]
+fn other_pieces_are_refused() -> Result<(), Error> {
+    let system = read("Pair: x y; 4.0");
+    let mut other = system.clone();
+    Arc::make_mut(&mut other.description)
+        .pieces
+        .to_mut()
+        .reverse();
+    let shows_both = |refused: Error| {
+        let text = refused.to_string();
+        let [kinetic, potential] = ["p_x^2/2 + p_y^2/2", "4.0*x^2/2 + 4.0*y^2/2"];
+        assert!(text.contains("piece"), "{text}");
+        assert!(text.contains(kinetic) && text.contains(potential), "{text}");
+    };
+    let saved = Integrator::new(&system, Strang, start(), 0.01)?.checkpoint();
+    assert!(Integrator::resume(&system, Strang, saved.clone()).is_ok());
+    let resumed = Integrator::resume(&other, Strang, saved);
+    shows_both(resumed.map(|_| ()).expect_err("other pieces"));
+    let make = |system: &Springs| {
+        let system = system.clone();
+        move |_: Member| (system.clone(), start())
+    };
+    let saved = Ensemble::new(3, make(&system), Strang, 0.01)?.checkpoint();
+    let resumed = Ensemble::resume(3, make(&other), Strang, saved);
+    shows_both(resumed.map(|_| ()).expect_err("other pieces"));
+    let path = std::env::temp_dir().join(format!("pieces-{}.zarr", std::process::id()));
+    let sweep = |system: &Springs| {
+        let sweep = Sweep::new(3, make(system), Strang, 0.01).steps(5);
+        sweep.record(["x"], |end| [end.state.q[0]]).store(&path)
+    };
+    sweep(&system)?;
+    let (again, refused) = (sweep(&system), sweep(&other));
+    std::fs::remove_dir_all(&path)?;
+    again?;
+    shows_both(refused.map(|_| ()).expect_err("other pieces"));
+    Ok(())
+}

@@ -34,6 +34,12 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         format!("{name}: {formula} ({} members)", self.len())
     }
 
+    /// Returns the formulas of the pieces.
+    fn pieces(&self) -> String {
+        let described = self.description();
+        described.map_or(String::new(), |system| system.piece_formulas("\n"))
+    }
+
     /// Returns the description of the first member that could start, which is that of all.
     pub(super) fn description(&self) -> Option<&Description> {
         let mut prepared = self
@@ -90,6 +96,7 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O
         }
         Checkpoint {
             system: self.formula(),
+            pieces: self.pieces(),
             parameters: self.members_hash(),
             scheme: self.erased().describe(),
             scalar: core::any::type_name::<f64>().to_owned(),
@@ -162,6 +169,7 @@ impl<S: System, M: Scheme<S>, A: Rounding> Ensemble<S, M, (), A> {
         let name = |fuses| if fuses { "fused" } else { "unfused" };
         let saved = name(numbers.read_count()? != 0);
         Checkpoint::same("system", &checkpoint.system, &swarm.formula())?;
+        Checkpoint::same("piece", &checkpoint.pieces, &swarm.pieces())?;
         Checkpoint::same("parameter", &checkpoint.parameters, &swarm.members_hash())?;
         Checkpoint::same("scheme", &checkpoint.scheme, &swarm.erased().describe())?;
         Checkpoint::same("arithmetic", saved, name(A::FUSES))?;

@@ -164,6 +164,7 @@ where
         let mut attributes = vec![
             ("system".to_string(), (*system.name).into()),
             ("hamiltonian".to_string(), (*system.formula).into()),
+            ("pieces".to_string(), system.piece_formulas("; ").into()),
             ("scheme".to_string(), described.join(": ").into()),
             ("step".to_string(), step),
             ("end".to_string(), end),

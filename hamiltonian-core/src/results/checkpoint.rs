@@ -42,6 +42,8 @@ use hamiltonian_lanes::Real;
 pub struct Checkpoint {
     /// The text of H and the shape of its coordinates.
     pub(crate) system: String,
+    /// The formulas of the pieces in their order, each on a line.
+    pub(crate) pieces: String,
     /// Names and values of the parameters.
     pub(crate) parameters: String,
     /// The scheme with its choices.
@@ -61,8 +63,8 @@ const MAGIC: &[u8; 8] = b"HAMILTON";
 /// Version 2: implicit schemes add their stages in another order, sums of 32 terms or more are
 /// trees, sums over the pairs of 4096 points or more are computed in tiles, a run has flags for its
 /// arithmetic, and matrices among the parameters are written row after row. Version 3: the state of a run may have been
-/// changed.
-const VERSION: u64 = 3;
+/// changed. Version 4: the formulas of the pieces are apart from that of H, in their order.
+const VERSION: u64 = 4;
 
 impl Checkpoint {
     /// The number of steps made.
@@ -73,7 +75,15 @@ impl Checkpoint {
     /// Returns the bytes of the file.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut memory = Memory::default();
-        for text in [&self.system, &self.parameters, &self.scheme, &self.scalar] {
+        let Checkpoint {
+            system,
+            pieces,
+            parameters,
+            scheme,
+            scalar,
+            ..
+        } = self;
+        for text in [system, pieces, parameters, scheme, scalar] {
             memory.text(text);
         }
         for count in self.counts {
@@ -139,6 +149,7 @@ impl Checkpoint {
         let from = &mut memory;
         let checkpoint = Checkpoint {
             system: from.read_text()?,
+            pieces: from.read_text()?,
             parameters: from.read_text()?,
             scheme: from.read_text()?,
             scalar: from.read_text()?,

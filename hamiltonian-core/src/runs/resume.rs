@@ -42,6 +42,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         self.observer.save(&mut observers);
         Checkpoint {
             system: formula(self.prepared.description(), &self.state.q),
+            pieces: self.prepared.description().piece_formulas("\n"),
             parameters: self.parameters.clone(),
             scheme: self.recipe.describe(),
             scalar: core::any::type_name::<T>().to_owned(),
@@ -139,6 +140,8 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
             &checkpoint.system,
             &formula(system.description(), &zeros),
         )?;
+        let pieces = system.description().piece_formulas("\n");
+        Checkpoint::same("piece", &checkpoint.pieces, &pieces)?;
         Checkpoint::same("parameter", &checkpoint.parameters, &parameters(system))?;
         let described = Recipe::<T, S, R>::describe(&scheme);
         Checkpoint::same("scheme", &checkpoint.scheme, &described)?;

@@ -5,6 +5,7 @@
 
 use crate::errors::ObservableError;
 use alloc::borrow::Cow;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 /// A text that is a constant of the program or owned.
@@ -251,6 +252,12 @@ impl Description {
                 .map(|known| (*known.name).into())
                 .collect(),
         }
+    }
+
+    /// The formulas of the pieces, by which saved runs and stores recognise them.
+    pub(crate) fn piece_formulas(&self, between: &str) -> String {
+        let formulas: Vec<&str> = self.pieces.iter().map(|piece| &*piece.formula).collect();
+        formulas.join(between)
     }
 
     /// Returns true if H or the force [jumps](Description::jumps) in time.

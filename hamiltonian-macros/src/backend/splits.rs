@@ -123,6 +123,11 @@ pub fn decide(
                 splitting.pieces[..=first].rotate_right(1);
             }
             let mut facts = facts(&splitting);
+            // In another time H has other terms than the definition.
+            let is_found = declared.is_empty() && part.piece.is_none();
+            if is_found && checked.time_factor.is_none() && splitting.pieces.len() > 1 {
+                facts.push(declaration(model, &splitting.pieces));
+            }
             if is_forced {
                 facts.push("The force is a piece of its own, the innermost.".to_owned());
             }
@@ -200,6 +205,19 @@ fn refused(model: &Model, why: &str) -> Found {
         }),
         facts: vec![format!("H is not split into exact flows: {why}.")],
     }
+}
+
+/// The statement that declares pieces which were found.
+fn declaration(model: &Model, pieces: &[Piece]) -> String {
+    const NAMES: [&str; PIECES] = [
+        "First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth",
+    ];
+    let mut text = "Another version may find better pieces. This statement of the definition keeps these:\n\n```text\nsplit {\n".to_owned();
+    for (name, piece) in NAMES.iter().zip(pieces) {
+        let h = hamiltonian_symbolic::print::text(model, piece.h);
+        text += &format!("    {name} = {h};\n");
+    }
+    text + "}\n```"
 }
 
 /// A splitting, and the reason for it.

@@ -22,7 +22,7 @@ const TODA: &str = "
     invariant total_momentum = sum(i in 0..N) { p[i] }";
 
 /// All definitions of the design, and one of each further construct.
-const DEFINITIONS: &[&str] = &[
+pub(super) const DEFINITIONS: &[&str] = &[
     "H = 0.5*(q^2 + 1)*(p^2 + 1)",
     "H(x; p_x) = p_x^2/(2*m) + k*x^2/2",
     // Empty ranges, and some that are so for some sizes only.

@@ -10,7 +10,7 @@ use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 /// The emitted code, or the errors, each with the source it stands at.
-fn built(source: &str) -> Result<String, Vec<(String, String)>> {
+pub(super) fn built(source: &str) -> Result<String, Vec<(String, String)>> {
     let stream = TokenStream::from_str(source).expect("the source has balanced brackets");
     let mut report = Report::default();
     let (_, checked) = read(stream, &mut report);

@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use std::str::FromStr;
 
 /// The documentation of the type a definition declares.
-fn docs(source: &str) -> String {
+pub(super) fn docs(source: &str) -> String {
     let source = format!("(::hamiltonian) {}", unmarked(source).0);
     let code = expand(TokenStream::from_str(&source).unwrap());
     let file: syn::File = syn::parse2(code).unwrap();
@@ -140,9 +140,10 @@ fn structure() {
     let facts = |source: &str| -> Vec<String> {
         let docs = docs(source);
         let section = section(&docs, "Hamiltonian");
-        let after = section.rsplit("```").next().unwrap();
+        let after = section.splitn(3, "```").nth(2).unwrap();
         let lines = after.lines().filter(|line| !line.is_empty());
-        lines.map(str::to_owned).collect()
+        let facts = lines.take_while(|line| !line.starts_with("Another version"));
+        facts.map(str::to_owned).collect()
     };
     assert_eq!(
         facts(PENDULUM),

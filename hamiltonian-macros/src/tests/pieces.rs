@@ -4,7 +4,11 @@
 //! Input: definitions. Output: a panic with those that are judged otherwise. Invariant: a refusal is one of the proof or
 //! of the search for flows, with its words.
 
+use super::accepted::DEFINITIONS;
+use super::builds::built;
+use super::docs::docs;
 use super::{Stage, refuse};
+use std::path::Path;
 
 const ACCEPTED: &[&str] = &[
     // Three to eight pieces.
@@ -119,4 +123,122 @@ fn pieces_are_accepted_or_refused_for_a_reason() {
             "{source}: {errors:#?}"
         );
     }
+}
+
+/// The formulas of the pieces of the type that a definition declares, in their order.
+fn formulas(source: &str) -> Vec<String> {
+    formulas_in(&built(source).unwrap_or_else(|errors| panic!("{source}: {errors:?}")))
+}
+
+/// The same from emitted code.
+fn formulas_in(code: &str) -> Vec<String> {
+    // Pieces as systems of their own stand before it.
+    let described = code.split("described !").last().expect("a description");
+    let pieces = described.split(":: piece (").skip(1);
+    let formula = |piece: &str| piece.split('"').nth(3).expect("a formula").to_owned();
+    pieces.map(formula).collect()
+}
+
+/// The definitions of item form in the files of a folder of the workspace.
+fn definitions_in(folder: &str) -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .join(folder);
+    let mut found = Vec::new();
+    let files = std::fs::read_dir(folder).expect("a folder").flatten();
+    let mut files: Vec<_> = files.map(|file| file.path()).collect();
+    files.sort();
+    for file in files
+        .iter()
+        .filter(|file| file.extension().is_some_and(|end| end == "rs"))
+    {
+        let text = std::fs::read_to_string(file).expect("a text");
+        for after in text.split("hamiltonian! {").skip(1) {
+            let mut depth = 1;
+            let end = after.find(|c: char| {
+                depth += i32::from(c == '{') - i32::from(c == '}');
+                depth == 0
+            });
+            let definition = &after[..end.unwrap_or(0)];
+            if definition.contains("struct ") && !definition.contains('$') {
+                found.push(definition.to_owned());
+            }
+        }
+    }
+    found
+}
+
+/// A definition with the statement that its documentation shows, or nothing if it shows none.
+fn pasted(source: &str) -> Option<String> {
+    let docs = docs(source);
+    let (_, statement) = docs.split_once("```text\nsplit {")?;
+    let statement = statement.split("```").next().unwrap_or_default();
+    let source = source.trim_end().trim_end_matches(';');
+    Some(format!("{source};\nsplit {{{statement}"))
+}
+
+/// Definitions whose statement is right, and beyond a limit of the proofs or of the search among declared pieces.
+const LIMITS: [(&str, &str); 2] = [
+    ("struct Columns<", "is of no known closed form"),
+    ("struct Held ", "it is neither proven nor disproven"),
+];
+
+/// The documentation of a definition whose pieces were found shows them as a statement. With it the definition is
+/// accepted, and has the same pieces in the same order.
+#[test]
+fn the_pieces_of_the_documentation_can_be_pasted() {
+    let mut sources: Vec<String> = DEFINITIONS.iter().map(|one| (*one).to_owned()).collect();
+    sources.extend(
+        ["examples", "benches", "tests", "tests/flows"]
+            .iter()
+            .flat_map(|folder| definitions_in(folder)),
+    );
+    let (mut count, mut wrong, mut limited) = (0, Vec::new(), Vec::new());
+    for source in sources.iter().filter(|source| source.contains("struct ")) {
+        let Ok(code) = built(source) else { continue };
+        let shown = code.contains("Another version may find");
+        let Some(pasted) = shown.then(|| pasted(source)).flatten() else {
+            continue;
+        };
+        count += 1;
+        let found = formulas_in(&code);
+        match built(&pasted).map(|code| formulas_in(&code)) {
+            Err(errors) => match LIMITS.iter().find(|(name, _)| source.contains(name)) {
+                Some((name, why)) if errors[0].0.contains(why) => limited.push(*name),
+                _ => wrong.push(format!("{pasted}: {errors:?}")),
+            },
+            Ok(other) if other != found => {
+                wrong.push(format!("{pasted}: {other:?}, not {found:?}"))
+            }
+            Ok(_) => {}
+        }
+    }
+    assert!(count > 50, "{count} definitions");
+    assert!(
+        wrong.is_empty(),
+        "{} of {count}:\n{}",
+        wrong.len(),
+        wrong.join("\n\n")
+    );
+    assert_eq!(
+        limited,
+        LIMITS.map(|(name, _)| name),
+        "an exception that is none"
+    );
+}
+
+/// Pieces in another order, and a statement that is none of H, are found.
+#[test]
+fn other_pieces_are_found() {
+    let source = "struct A {} H(q; p) = (q^2 + 1)*(p^2 + 1)/2";
+    let pasted = pasted(source).expect("pieces");
+    assert_eq!(formulas(&pasted), formulas(source));
+    let turned = pasted.replace("First", "Last").replace("Second", "First");
+    assert_eq!(formulas(&turned), formulas(source), "names are free");
+    let (first, second) = ("First = p^2/2 + 0.5;", "Second = 0.5*q^2*p^2 + q^2/2;");
+    let swapped = pasted
+        .replace(first, "")
+        .replace(second, &format!("{second} {first}"));
+    assert_ne!(formulas(&swapped), formulas(source));
+    assert!(built(&pasted.replace("0.5*q^2*p^2", "q^2*p^2")).is_err());
 }

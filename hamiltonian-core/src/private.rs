@@ -7,6 +7,11 @@
 //! be used by code in a crate that has neither this crate nor its dependencies in scope; if one is removed or renamed,
 //! the macro is changed with it.
 
+#[cfg(feature = "serde")]
+mod record;
+#[cfg(feature = "serde")]
+mod tables;
+
 use core::convert::Infallible;
 use core::marker::PhantomData;
 
@@ -25,6 +30,7 @@ pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
 
+pub use crate::__record as record;
 pub use crate::errors::Error;
 pub use crate::flows::exponential::Exponential;
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
@@ -60,6 +66,10 @@ pub use crate::{
     __computed_as_chosen as computed_as_chosen, __described as described, __each as each,
     __gathers as gathers, __halves as halves, __known as known, __prepared as prepared,
 };
+#[cfg(feature = "serde")]
+pub use record::{Fielded, Saved, Written, read_axes, read_record};
+#[cfg(feature = "serde")]
+pub use serde_core as serde;
 
 /// A group of coordinates with its rank, part, offset and columns.
 #[must_use]
@@ -321,6 +331,14 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
 }
 
 // A constant of the user's may have the name of a variable, which would then be a pattern: variables begin with `_`.
+
+/// `Serialize` and `Deserialize` of a struct: nothing without the feature `serde`.
+#[cfg(not(feature = "serde"))]
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __record {
+    ($($tokens:tt)*) => {};
+}
 
 /// Declares a prepared system, a struct around the held values.
 #[macro_export]

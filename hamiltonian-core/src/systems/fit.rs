@@ -81,18 +81,24 @@ trait Rectangle: Vector {
     fn of(extents: [usize; 2], at: impl Fn(usize, usize) -> Self::Scalar) -> Self;
 }
 
+/// Checks that the rows of the lists that an array was made of have one length.
+pub(crate) fn even<W: Vector>(name: &str, from: &W) -> Result<(), InputError> {
+    match from.uneven(0) {
+        Some(Uneven([(_, expected), (at, found)])) => Err(InputError::Row {
+            name: named(name, at).into(),
+            expected: *expected,
+            found: *found,
+        }),
+        None => Ok(()),
+    }
+}
+
 /// The elements of an array in storage of another type, if its extents are those of the type.
 fn fitted<W: Vector, V: Rectangle<Scalar = W::Scalar>>(
     name: &str,
     from: &W,
 ) -> Result<V, InputError> {
-    if let Some(Uneven([(_, expected), (at, found)])) = from.uneven(0) {
-        return Err(InputError::Row {
-            name: named(name, at).into(),
-            expected: *expected,
-            found: *found,
-        });
-    }
+    even(name, from)?;
     let elements = from.part(0);
     let by_rows = !from.extents(0).is_empty();
     let found = match *from.extents(0) {
@@ -192,9 +198,26 @@ fit! {
     [] Lattice<T, 2> => OMatrix<T, Dyn, Dyn>;
 }
 
-/// The fields of parameters with three and four extents in the type: lists of lists.
+/// A list of lists with `R` extents in its type, the field of a parameter.
+pub trait Axes<const R: usize>: Sized {
+    /// The type of its numbers.
+    type Number: Real;
+    /// The same numbers, if their extents are those of the type.
+    ///
+    /// # Errors
+    /// [`InputError::Row`] or [`InputError::Extent`] for other lengths.
+    fn of_lattice(name: &str, given: &Lattice<Self::Number, R>) -> Result<Self, Error>;
+}
+
 macro_rules! lists {
     ($rank:literal: $list:ty, [$($extent:ident)*], [$($index:ident)*]) => {
+        impl<T: Real, $(const $extent: usize),*> Axes<$rank> for $list {
+            type Number = T;
+            fn of_lattice(name: &str, given: &Lattice<T, $rank>) -> Result<Self, Error> {
+                check_axes(name, [$($extent),*], given)?;
+                Ok(lists!(@ given [] $($index)*))
+            }
+        }
         #[diagnostic::do_not_recommend]
         impl<T: Real, $(const $extent: usize),*> ListOf<[shape::Array; $rank], $list> for $list {
             type Outcome<X> = X;
@@ -212,9 +235,7 @@ macro_rules! lists {
         {
             type Outcome<X> = Result<X, Error>;
             fn fit(self, name: &str) -> Result<$list, Error> {
-                let given = self.into_vector();
-                check_axes(name, [$($extent),*], &given)?;
-                Ok(lists!(@ given [] $($index)*))
+                Axes::of_lattice(name, &self.into_vector())
             }
             fn set<X>(self, name: &str, set: impl FnOnce($list) -> X) -> Result<X, Error> {
                 ListOf::fit(self, name).map(set)

@@ -76,6 +76,18 @@ impl<T: Real, const R: usize> Lattice<T, R> {
     }
 }
 
+#[cfg(feature = "serde")]
+impl<T> Lattice<T, 2> {
+    /// Rows of one element each.
+    pub(crate) fn column(elements: Vec<T>) -> Self {
+        Lattice {
+            extents: [elements.len(), 1],
+            elements,
+            uneven: None,
+        }
+    }
+}
+
 impl<T, const R: usize> Lattice<T, R> {
     /// The extent of each axis.
     #[must_use]

@@ -79,6 +79,11 @@ pub fn set_by_new(value: &str) -> String {
     format!("__h::SetByNew::new({value})")
 }
 
+/// The type of a field that only `new` sets.
+pub fn set_by_new_type(ty: &str) -> String {
+    format!("__h::SetByNew<{ty}>")
+}
+
 /// `new`: sizes, then functions, then the parameters without a default, each in the order of the fields; the
 /// rest gets its default. The scalar of the parameters is f64 if no argument determines it, as in `Default`.
 pub fn new(context: Context, item: &Header) -> TokenStream {

@@ -148,8 +148,16 @@ impl Generics {
 
     /// `impl<const N0: usize, P: Real> Name<N0, P>`, for what makes a value.
     pub fn header_of_values(&self) -> String {
-        let declaration = self.declared_with_functions(self.bounded(self.bound));
-        format!("impl{declaration} {}", self.system_type())
+        format!(
+            "impl{} {}",
+            self.declaration_of_values(),
+            self.system_type()
+        )
+    }
+
+    /// `<const N0: usize, P: Real>`
+    pub fn declaration_of_values(&self) -> String {
+        self.declared_with_functions(self.bounded(self.bound))
     }
 
     /// `Name<N0, T>`: item form over another scalar.

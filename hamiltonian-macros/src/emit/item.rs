@@ -8,7 +8,7 @@ use super::context::Context;
 use super::index::Indices;
 use super::{
     allowances, construct, declared, documented, dynamics, externals, is_doc, lex, located,
-    markers, mixed, observables, piece_method, piece_type, reach, vectors,
+    markers, mixed, observables, piece_method, piece_type, reach, record, vectors,
 };
 use hamiltonian_language::ast::Header;
 use hamiltonian_language::checked::{Field, SizeDeclaration};
@@ -29,6 +29,13 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     text.push_str(&markers::implementations(context));
     for context in declared::mixed(context) {
         text.push_str(&mixed::implementations(context));
+        if record::IS_ON {
+            text.push_str(&record::vector(context));
+        }
+    }
+    // Pieces come from the whole system.
+    if record::IS_ON && context.definition.piece.is_none() {
+        text.push_str(&record::system(context));
     }
     let implementations = located(lex(&text), name.span(), SIGNATURES);
     let functions = lex(&functions);

@@ -46,6 +46,7 @@ mod pairs;
 mod parts;
 mod pieces;
 mod reach;
+mod record;
 mod scan;
 mod slabs;
 mod storage;

@@ -67,7 +67,7 @@ impl Table {
     }
 
     #[inline]
-    fn over(columns: Vec<String>, indexed: bool) -> Result<Self, Error> {
+    pub(crate) fn over(columns: Vec<String>, indexed: bool) -> Result<Self, Error> {
         let mut sorted: Vec<&String> = columns.iter().collect();
         sorted.sort_unstable();
         if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {

@@ -105,11 +105,11 @@ fn start(spheres: [Vec<[[f64; 3]; 2]>; 2], n: usize) -> StateOf<Stars> {
 
 /// The stars seen from above, at most some thousands of each sphere.
 fn picture(state: &StateOf<Stars>, n: usize) -> Figure {
-    const MOST: usize = 3000;
+    const MAX_DRAWN: usize = 3000;
     let curves = [("one cluster", 0..n / 2), ("the other", n / 2..n)].map(|(name, stars)| Curve {
         name: name.into(),
         points: stars
-            .step_by(n.div_ceil(2 * MOST))
+            .step_by(n.div_ceil(2 * MAX_DRAWN))
             .map(|i| (state.q[(i, 0)], state.q[(i, 1)]))
             .filter(|(x, y)| x.abs() < 2.5 && y.abs() < 2.5)
             .collect(),

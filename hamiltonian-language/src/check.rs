@@ -49,7 +49,7 @@ pub fn check(ast: &Ast, report: &mut Report) -> Checked {
 pub const SHARE_LOOPS: &str = "let several sums share a loop, or write a function with `let`";
 
 /// The most scalars and arrays of one sort: programs number them in 16 bits, groups in 15.
-const MOST: usize = REPLACING as usize;
+const MAX_OF_A_SORT: usize = REPLACING as usize;
 
 /// The binding of a name.
 #[derive(Debug, Clone, Copy)]
@@ -156,12 +156,12 @@ impl<'a> Checker<'a> {
     /// Returns true if programs can number `count` scalars or arrays of one sort. Otherwise reports
     /// an error at the last of them.
     fn are_numbered(&mut self, count: usize, (sort, name): (&str, &str), last: Span) -> bool {
-        if count > MOST {
-            let message = format!("there are {count} {sort}, more than {MOST}");
+        if count > MAX_OF_A_SORT {
+            let message = format!("there are {count} {sort}, more than {MAX_OF_A_SORT}");
             let help = format!("make them an array, such as `{name}[{count}]`");
             self.report.error(last, message, help);
         }
-        count <= MOST
+        count <= MAX_OF_A_SORT
     }
 
     /// The symbol of a name, if it occurs in any expression.

@@ -11,7 +11,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 use crate::real::{Mask, Pack, Parameter, Real, kepler};
 
 /// The largest number of lanes of a pack over which dual numbers are gathered.
-const MOST: usize = 128;
+const MAX_LANES: usize = 128;
 /// As many take less memory.
 const FEW: usize = 8;
 
@@ -242,17 +242,17 @@ impl<T: Real> Real for Dual<T> {
     const WIDENS: bool = T::WIDENS;
     #[inline(always)]
     fn gather<P: Pack>(values: &[Self]) -> Dual<T::Over<P>> {
-        const { assert!(P::LANES as usize <= MOST) }
+        const { assert!(P::LANES as usize <= MAX_LANES) }
         match values.len() <= FEW {
             true => gathered::<T, P, FEW>(values),
-            false => gathered::<T, P, MOST>(values),
+            false => gathered::<T, P, MAX_LANES>(values),
         }
     }
     #[inline(always)]
     fn scatter<P: Pack>(from: Dual<T::Over<P>>, into: &mut [Self]) {
         match into.len() <= FEW {
             true => scattered::<T, P, FEW>(from, into),
-            false => scattered::<T, P, MOST>(from, into),
+            false => scattered::<T, P, MAX_LANES>(from, into),
         }
     }
     #[inline(always)]

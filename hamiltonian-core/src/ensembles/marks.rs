@@ -3,13 +3,25 @@
 //! Input: the carried values of the lanes, step by step. Output: the marked steps, with the carried values
 //! after them and after the two steps before. Invariant: the lanes continue past a marked step. Observers
 //! receive its state at the end of the block, and may then end their member at the marked step.
+//!
+//! # Example: a block with a marked step
+//! Four pendulums in four lanes, each with an event at the angle 0, make a block of 1024 steps. In step 310 the angle of
+//! lane 2 changes its sign.
+//!
+//! 1. The block writes the carried values of each step into the ring. After step 310, `to_mark` is {2}: `mark(310)` stores
+//!    (310, {2}) and the values after the steps 308, 309 and 310. No lane stops.
+//! 2. The block ends after step 1024, or earlier at its sixteenth mark.
+//! 3. Lane 2 is closed at the three marked values, over `f64`. Its observer passes the states 308 and 309, in whose steps no
+//!    sign changed, and then 310. It locates the event between the last two.
+//! 4. If the event ends the member, the run of lane 2 ends in step 310. Its steps 311 to 1024 are dropped, and the lane is
+//!    refilled. The other lanes go on from step 1024.
 
 use crate::systems::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Mask;
 
 /// The number of marked steps after which a block ends.
-const MOST: usize = 16;
+const MAX_MARKED: usize = 16;
 
 /// The carried values after three consecutive steps, the last one last.
 pub(crate) type LastThree<C> = [C; 3];
@@ -79,7 +91,7 @@ impl<C: Vector, M: Mask> Marks<C, M> {
             to.copy_from(&self.ring[(self.newest + ahead) % 3]);
         }
         self.steps.push((step, lanes));
-        self.steps.len() >= MOST
+        self.steps.len() >= MAX_MARKED
     }
 
     /// Returns the carried values at a mark.

@@ -47,7 +47,7 @@ fn in_rounds<B: Send>(
 
 #[cfg(feature = "std")]
 mod parallel {
-    use super::super::threads::beside;
+    use super::super::threads::with_workers;
     use alloc::collections::BTreeMap;
     use core::ops::ControlFlow;
     use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -122,7 +122,7 @@ mod parallel {
                 shared.changed.notify_all();
             }
         };
-        beside(threads, worker, |started| {
+        with_workers(threads, worker, |started| {
             if started == 0 {
                 return super::in_rounds(count, 1, &work, &mut take);
             }

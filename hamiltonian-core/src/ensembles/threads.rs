@@ -44,7 +44,7 @@ const STACK: usize = 64 << 20;
 #[cfg(feature = "std")]
 fn on_large_stack(worker: &(impl Fn() + Sync)) {
     if cfg!(debug_assertions) {
-        beside(1, worker, |started| {
+        with_workers(1, worker, |started| {
             if started == 0 {
                 worker();
             }
@@ -62,7 +62,7 @@ fn on_large_stack(worker: &(impl Fn() + Sync)) {
 ///
 /// With the panic of a worker or of the caller's part.
 #[cfg(feature = "std")]
-pub(crate) fn beside<A>(
+pub(crate) fn with_workers<A>(
     threads: usize,
     worker: impl Fn() + Sync,
     caller: impl FnOnce(usize) -> A,
@@ -113,7 +113,7 @@ pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&
                 on_large_stack(&worker);
             });
         }
-        beside(threads - 1, worker, |_| on_large_stack(&worker));
+        with_workers(threads - 1, worker, |_| on_large_stack(&worker));
     }
     #[cfg(not(feature = "std"))]
     {

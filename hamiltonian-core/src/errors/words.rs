@@ -34,12 +34,12 @@ pub(super) struct Numbers<'a>(pub(super) &'a [f64]);
 
 impl Display for Numbers<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        const MOST: usize = 12;
+        const MAX_NUMBERS: usize = 12;
         let all = self.0;
         let [a, b, c, ..] = all else {
             return write!(f, "{all:?}");
         };
-        if all.len() <= MOST {
+        if all.len() <= MAX_NUMBERS {
             return write!(f, "{all:?}");
         }
         write!(f, "[{a:?}, {b:?}, {c:?}, … {} numbers", all.len())?;
@@ -100,16 +100,16 @@ pub(crate) struct Known<'a, S>(pub(crate) &'static str, pub(crate) &'a [S]);
 impl<S: AsRef<str>> Display for Known<'_, S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         /// More names than this are not listed.
-        const MOST: usize = 24;
+        const MAX_NAMES: usize = 24;
         let Known(what, names) = self;
-        for (at, name) in names.iter().take(MOST).enumerate() {
+        for (at, name) in names.iter().take(MAX_NAMES).enumerate() {
             match at {
                 0 => write!(f, "\nhelp: {what} `{}`", name.as_ref())?,
                 _ => write!(f, ", `{}`", name.as_ref())?,
             }
         }
         match names.len() {
-            count if count > MOST => write!(f, " and {} more", count - MOST),
+            count if count > MAX_NAMES => write!(f, " and {} more", count - MAX_NAMES),
             _ => Ok(()),
         }
     }

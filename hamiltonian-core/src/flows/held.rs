@@ -5,7 +5,7 @@
 
 use crate::systems::function::Function;
 use crate::systems::system::Arithmetic;
-use crate::systems::system::gather::{MOST, masks, numbers, vectors};
+use crate::systems::system::gather::{MAX_MEMBERS, masks, numbers, vectors};
 use crate::systems::vector::{Over, Vector};
 use alloc::sync::Arc;
 use core::fmt::Debug;
@@ -75,8 +75,8 @@ pub fn gathered<'a, T: Real, P: Pack, W, D: LaneValue<T>>(
     members: &[&'a W],
     of: impl Fn(&'a W) -> &'a D,
 ) -> D::Over<T::Over<P>> {
-    let mut parts = [of(members[0]); MOST];
-    let count = members.len().min(MOST);
+    let mut parts = [of(members[0]); MAX_MEMBERS];
+    let count = members.len().min(MAX_MEMBERS);
     for (part, member) in parts.iter_mut().zip(members) {
         *part = of(member);
     }

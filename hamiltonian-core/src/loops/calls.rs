@@ -6,7 +6,7 @@
 use hamiltonian_lanes::{AtHand, Cpu, Level, Nf, Pack, Real};
 
 /// The most calls that are computed together.
-const MOST: usize = 8;
+const MAX_CALLS: usize = 8;
 
 /// A function of one number.
 pub trait Call {
@@ -17,7 +17,7 @@ pub trait Call {
     /// Computes it.
     fn of<T: Real>(x: T) -> Self::Value<T>;
     /// The values in the lanes of a pack, up to eight.
-    fn lanes<T: Real, P: Pack>(values: Self::Value<T::Over<P>>) -> [Self::Value<T>; MOST];
+    fn lanes<T: Real, P: Pack>(values: Self::Value<T::Over<P>>) -> [Self::Value<T>; MAX_CALLS];
 }
 
 /// Functions with one value, and from how many calls on these are faster together.
@@ -36,7 +36,7 @@ macro_rules! calls {
                     x.$method()
                 }
                 #[inline(always)]
-                fn lanes<T: Real, P: Pack>(values: T::Over<P>) -> [T; MOST] {
+                fn lanes<T: Real, P: Pack>(values: T::Over<P>) -> [T; MAX_CALLS] {
                     scattered::<T, P>(values)
                 }
             }
@@ -58,11 +58,11 @@ impl Call for SinCos {
         x.sin_cos()
     }
     #[inline(always)]
-    fn lanes<T: Real, P: Pack>((sines, cosines): (T::Over<P>, T::Over<P>)) -> [(T, T); MOST] {
+    fn lanes<T: Real, P: Pack>((sines, cosines): (T::Over<P>, T::Over<P>)) -> [(T, T); MAX_CALLS] {
         let (sines, cosines) = (scattered::<T, P>(sines), scattered::<T, P>(cosines));
-        let mut out = [(sines[0], cosines[0]); MOST];
+        let mut out = [(sines[0], cosines[0]); MAX_CALLS];
         let mut k = 1;
-        while k < MOST {
+        while k < MAX_CALLS {
             out[k] = (sines[k], cosines[k]);
             k += 1;
         }
@@ -71,8 +71,8 @@ impl Call for SinCos {
 }
 
 #[inline(always)]
-fn scattered<T: Real, P: Pack>(from: T::Over<P>) -> [T; MOST] {
-    let mut out = [T::default(); MOST];
+fn scattered<T: Real, P: Pack>(from: T::Over<P>) -> [T; MAX_CALLS] {
+    let mut out = [T::default(); MAX_CALLS];
     T::scatter::<P>(from, &mut out[..P::LANES as usize]);
     out
 }
@@ -83,7 +83,7 @@ fn scattered<T: Real, P: Pack>(from: T::Over<P>) -> [T; MOST] {
 pub const fn are_together<T: Real, C: Call>(count: usize) -> bool {
     // Plain code for two lanes gains nothing.
     let has_registers = !matches!(AtHand::CPU, Cpu::Portable);
-    T::WIDENS && has_registers && count >= C::LEAST && count <= MOST
+    T::WIDENS && has_registers && count >= C::LEAST && count <= MAX_CALLS
 }
 
 /// The values of a function at `N` points. Written out where it is called, a function in four registers takes rustc a
@@ -93,7 +93,7 @@ pub const fn are_together<T: Real, C: Call>(count: usize) -> bool {
 pub fn together<T: Real, C: Call, const N: usize, const WRITTEN_OUT: bool>(
     x: [T; N],
 ) -> [C::Value<T>; N] {
-    let mut padded = [x[0]; MOST];
+    let mut padded = [x[0]; MAX_CALLS];
     let mut k = 1;
     while k < N {
         padded[k] = x[k];
@@ -115,8 +115,8 @@ pub fn together<T: Real, C: Call, const N: usize, const WRITTEN_OUT: bool>(
 
 #[inline(always)]
 fn in_pack<T: Real, C: Call, P: Pack, const WRITTEN_OUT: bool>(
-    x: &[T; MOST],
-) -> [C::Value<T>; MOST] {
+    x: &[T; MAX_CALLS],
+) -> [C::Value<T>; MAX_CALLS] {
     let x = T::gather::<P>(&x[..P::LANES as usize]);
     C::lanes::<T, P>(match WRITTEN_OUT {
         true => C::of(x),

@@ -5,7 +5,7 @@
 //! takes rows of tiles in order. Several threads take antidiagonals in order; they share the tiles of each, no two of
 //! which reach the same element.
 
-use crate::loops::slabs::both;
+use crate::loops::slabs::on_two_threads;
 use crate::systems::system::Arithmetic;
 use core::ops::Range;
 use hamiltonian_lanes::Real;
@@ -168,7 +168,7 @@ impl Tiles {
         let [own, highs] = split(rest, size);
         let mut diagonal = Some(split(own, 0));
         let mut others = Some((lows, highs));
-        both(
+        on_two_threads(
             &mut || {
                 if let Some((lows, highs)) = others.take() {
                     self.several([first, last], count, lows, highs, work);
@@ -202,7 +202,7 @@ impl Tiles {
         let [highs, high_ends] = split(highs, (count - half) * TILE);
         let mut ends = Some((low_ends, high_ends));
         let mut middle = Some((lows, highs));
-        both(
+        on_two_threads(
             &mut || {
                 if let Some((lows, highs)) = ends.take() {
                     self.several([first, last], half, lows, highs, work);

@@ -12,7 +12,7 @@ use hamiltonian_lanes::Real;
 pub(crate) const SLAB: usize = 8192;
 
 /// Calls both functions, on two threads if another thread of the pool is idle.
-pub(crate) fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
+pub(crate) fn on_two_threads(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
     #[cfg(feature = "rayon")]
     rayon_core::join(a, b);
     #[cfg(not(feature = "rayon"))]
@@ -94,7 +94,7 @@ fn cut<T: Real, const C: usize>(
         Some(taken)
     };
     let (mut first, mut second) = (half_of(0), half_of(1));
-    both(
+    on_two_threads(
         &mut || {
             if let Some(columns) = first.take() {
                 cut(range.start..middle, half, columns, work);

@@ -11,7 +11,7 @@ mod nest;
 mod packs;
 mod waiting;
 
-use crate::loops::slabs::{both, slabs};
+use crate::loops::slabs::{on_two_threads, slabs};
 use crate::systems::system::Arithmetic;
 use hamiltonian_lanes::{Kernel, Level, Nf, Real, dispatch};
 pub use nest::{Mode, Nest, nest};
@@ -181,7 +181,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     fn in_lanes<B: Body<G, R, W>, const W: usize>(mut self) {
         let before = self.before::<B, W>();
         if before > 0 {
-            self.again().some::<B, W>(before);
+            self.reborrow().first_ones::<B, W>(before);
             self.skip(before);
         }
         if self.length == 0 {
@@ -271,7 +271,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         let middle = self.length * half / slabs / STRIDE * STRIDE;
         // Of the elements that both slabs reach, the iterations of the first one come first.
         if has_shared(B::STORES) {
-            self.ahead::<B, W>(ends, middle);
+            self.add_before::<B, W>(ends, middle);
         }
         let mut columns = self.columns;
         let mut after = columns.each_mut().map(|_| &mut [][..]);
@@ -303,7 +303,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             ..self
         });
         let from_0 = ends.map(|[least, most]| [0, most.saturating_sub(least)]);
-        both(
+        on_two_threads(
             &mut || {
                 if let Some(first) = first.take() {
                     first.cut::<B, W>(ends, half, true);
@@ -319,7 +319,11 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
 
     /// Adds the terms of the iterations before the middle to elements that the iterations after it reach too.
     #[inline(never)]
-    fn ahead<B: Body<G, R, W>, const W: usize>(&mut self, ends: &[[usize; 2]; C], middle: usize) {
+    fn add_before<B: Body<G, R, W>, const W: usize>(
+        &mut self,
+        ends: &[[usize; 2]; C],
+        middle: usize,
+    ) {
         for k in middle - REACH..middle {
             let number = match B::COUNTS {
                 true => T::constant((self.number + k) as f64, 0.0),
@@ -337,7 +341,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
 
     /// The same stretch, for a part of its iterations.
     #[inline(always)]
-    fn again(&mut self) -> Stretch<'_, T, G, R, C, S, A> {
+    fn reborrow(&mut self) -> Stretch<'_, T, G, R, C, S, A> {
         Stretch {
             columns: self.columns.each_mut().map(|column| &mut **column),
             sums: &mut *self.sums,
@@ -347,7 +351,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
 
     /// The first iterations one by one: the one copy of them beside those in lanes.
     #[inline(never)]
-    fn some<B: Body<G, R, W>, const W: usize>(self, count: usize) {
+    fn first_ones<B: Body<G, R, W>, const W: usize>(self, count: usize) {
         self.one_by_one::<B, W>(count);
     }
 

@@ -173,7 +173,7 @@ impl Verdict for ControlFlow<()> {
 }
 
 /// Returns `Break` if either is.
-fn both(a: ControlFlow<()>, b: ControlFlow<()>) -> ControlFlow<()> {
+fn first_break(a: ControlFlow<()>, b: ControlFlow<()>) -> ControlFlow<()> {
     match a {
         ControlFlow::Continue(()) => b,
         ControlFlow::Break(()) => a,
@@ -343,13 +343,13 @@ macro_rules! tuple {
             }
             fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
                 let mut control = ControlFlow::Continue(());
-                $(control = both(control, self.$index.attach(view));)+
+                $(control = first_break(control, self.$index.attach(view));)+
                 control
             }
             fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
                 let mut control = ControlFlow::Continue(());
                 $(if view.step % self.$index.interval().max(1) == 0 {
-                    control = both(control, self.$index.observe(view));
+                    control = first_break(control, self.$index.observe(view));
                 })+
                 control
             }
@@ -378,7 +378,7 @@ macro_rules! tuple {
             }
             fn pass(&mut self, view: &View<'_, T, S>, signs_kept: bool) -> ControlFlow<()> {
                 let mut control = ControlFlow::Continue(());
-                $(control = both(control, self.$index.pass(view, signs_kept));)+
+                $(control = first_break(control, self.$index.pass(view, signs_kept));)+
                 control
             }
         }

@@ -32,9 +32,9 @@ pub(crate) fn root<T: Real>(
     mut f: impl FnMut(T) -> Result<T, Error>,
 ) -> Result<Sample<T>, Error> {
     /// The largest number of steps: bisection alone needs one for each bit.
-    const MOST: u32 = 240;
+    const MAX_BISECTIONS: u32 = 240;
     let mut part = 0.5;
-    for _ in 0..MOST {
+    for _ in 0..MAX_BISECTIONS {
         let at = a.at + (b.at - a.at) * T::constant(part, 0.0);
         let here = Sample { at, value: f(at)? };
         let before = if side(here.value) == side(a.value) {
@@ -89,14 +89,14 @@ pub(crate) fn dip<T: Real>(
     /// (√5 − 1)/2.
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     /// A minimum is flat: beyond half the digits its position does not matter.
-    const MOST: u32 = 36;
+    const MAX_SECTIONS: u32 = 36;
     let (mut low, mut high) = (0.0, 1.0);
     let mut probe = |at: f64| {
         let at = T::constant(at, 0.0);
         f(at).map(|value| Sample { at, value })
     };
     let (mut left, mut right) = (probe(1.0 - GOLDEN)?, probe(GOLDEN)?);
-    for _ in 0..MOST {
+    for _ in 0..MAX_SECTIONS {
         for sample in [left, right] {
             if side(sample.value) == -sign {
                 return Ok(Some(sample));

@@ -86,12 +86,12 @@ mod projection;
 mod tao;
 mod trajectories;
 
-mod beside;
 pub mod collocation;
 mod gauss;
 mod midpoint;
 mod rows;
 mod second_order;
+mod staged;
 mod stages;
 mod variational;
 

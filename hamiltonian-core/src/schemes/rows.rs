@@ -13,7 +13,7 @@ use hamiltonian_lanes::{Base, Cpu, Level, Mask, Pack, Real};
 pub(super) const LEAST: usize = 4;
 
 /// The most stages of a row.
-const MOST: usize = 8;
+const MAX_STAGES: usize = 8;
 
 /// Rows of `WIDTH` stages beside each other.
 pub(super) struct Abreast<const WIDTH: usize>;
@@ -107,7 +107,7 @@ impl<T: Real, P: Pack, const WIDTH: usize> RowLayout<T> for Beside<P, WIDTH> {
     const WIDTH: usize = WIDTH;
     #[inline(always)]
     fn gather(values: &[T]) -> Self::Row {
-        const { assert!(P::LANES as usize == WIDTH && WIDTH <= MOST) }
+        const { assert!(P::LANES as usize == WIDTH && WIDTH <= MAX_STAGES) }
         T::gather::<P>(values)
     }
     #[inline(always)]
@@ -170,7 +170,7 @@ pub(super) fn matrix_in_rows<T: Real, L: RowLayout<T>, const S: usize>(
     for (row, to) in all.iter_mut().enumerate().take(rows::<T, L, S>()) {
         let first = row * L::WIDTH;
         for (j, to) in to.iter_mut().enumerate() {
-            let mut few = [matrix[first][j]; MOST];
+            let mut few = [matrix[first][j]; MAX_STAGES];
             for (k, number) in few.iter_mut().enumerate() {
                 *number = matrix[(first + k).min(S - 1)][j];
             }
@@ -296,7 +296,7 @@ where
     for row in 0..rows::<T, L, S>() {
         for k in 0..Y::PARTS {
             for i in 0..from[0].part(k).len() {
-                let mut few = [T::zero(); MOST];
+                let mut few = [T::zero(); MAX_STAGES];
                 for (lane, number) in few.iter_mut().enumerate() {
                     *number = from[(row * L::WIDTH + lane).min(S - 1)].part(k)[i];
                 }

@@ -3,13 +3,13 @@
 //! Input: H = ½ pᵀM⁻¹p + V(q, t). Output: [`GaussNystrom`]. Invariant: the steps are those of
 //! [`Gauss`](super::Gauss), to rounding.
 
-use super::beside::StagedMap;
 use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
 use super::rows::{
     Abreast, Apart, Beside, Equations, LEVELS, RowLayout, Width, in_rows, load, matrix_in_rows,
     of_the_guess, product, rows, solve, spread, store, sum,
 };
+use super::staged::StagedMap;
 use super::stages::{Stages, extrapolation};
 use crate::flows::iterate::Outcome;
 use crate::flows::map::{Cause, Clock, Map, Step};

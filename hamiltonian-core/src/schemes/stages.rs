@@ -15,9 +15,9 @@ mod guess;
 mod newton;
 mod slopes;
 
-use super::beside::StagedMap;
 use super::compensated::carry;
 use super::rows::{Abreast, Apart, LEAST, Width};
+use super::staged::StagedMap;
 use crate::flows::iterate::{Contraction, Outcome, iterate};
 use crate::flows::map::{Cause, Clock, Map};
 use crate::systems::flow::{Scratch, VectorField};

@@ -323,7 +323,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
 
 impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Splitting> Map for Zigzag<X, O, I, W> {
     type Carried = X;
-    /// The clock of the outermost flow, and that of the inner ones.
+    /// The scratch of the outermost flow, and that of the inner ones.
     type Work = (O::Work, I::Work);
 
     #[inline(always)]

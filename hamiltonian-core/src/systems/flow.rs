@@ -53,7 +53,7 @@ pub trait Flow<X: Vector>: Clone + Debug {
     const MERGES: bool = true;
     /// True if the map moves coordinates, and the same for momenta.
     const MOVES: [bool; 2] = [true; 2];
-    /// The scalar it computes in.
+    /// The scratch of the flow.
     type Work: Scratch<X>;
 
     /// Moves the point, by the terms of a loop in order.

@@ -159,7 +159,7 @@ pub trait System {
     fn zeros<T: Real>(&self) -> VectorOf<Self, T>;
 
     /// One prepared system with member k in lane k of the pack, and the last in the lanes that are left. There are at
-    /// least one and at most [`MOST`](gather::MOST) members, and all of them [fit](System::fits) the first.
+    /// least one and at most [`MAX_MEMBERS`](gather::MAX_MEMBERS) members, and all of them [fit](System::fits) the first.
     fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>>;
     /// Returns true if both may be in one pack: sizes set at run time are equal.
     fn fits<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool;

@@ -52,8 +52,8 @@ impl Register for __m256d {
         fn flags(flag: bool) -> __m256d {
             _mm256_castsi256_pd(_mm256_set1_epi64x(if flag { -1 } else { 0 }))
         }
-        fn both(a: __m256d, b: __m256d) -> __m256d { _mm256_and_pd(a, b) }
-        fn either(a: __m256d, b: __m256d) -> __m256d { _mm256_or_pd(a, b) }
+        fn both_flags(a: __m256d, b: __m256d) -> __m256d { _mm256_and_pd(a, b) }
+        fn either_flag(a: __m256d, b: __m256d) -> __m256d { _mm256_or_pd(a, b) }
         fn not(a: __m256d) -> __m256d {
             _mm256_xor_pd(a, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))
         }

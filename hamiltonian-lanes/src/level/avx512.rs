@@ -58,8 +58,8 @@ impl Register for __m512d {
             _mm512_mask_blend_pd(flags, no, yes)
         }
         fn flags(flag: bool) -> __mmask8 { if flag { !0 } else { 0 } }
-        fn both(a: __mmask8, b: __mmask8) -> __mmask8 { a & b }
-        fn either(a: __mmask8, b: __mmask8) -> __mmask8 { a | b }
+        fn both_flags(a: __mmask8, b: __mmask8) -> __mmask8 { a & b }
+        fn either_flag(a: __mmask8, b: __mmask8) -> __mmask8 { a | b }
         fn not(a: __mmask8) -> __mmask8 { !a }
         fn bits(a: __mmask8) -> u32 { u32::from(a) }
         fn rows(bits: Self, table: &[[f64; 4]; 1024]) -> [Self; 4] {

@@ -56,8 +56,8 @@ impl Register for float64x2_t {
         fn equals(a: Self, b: Self) -> uint64x2_t { vceqq_f64(a, b) }
         fn select(flags: uint64x2_t, yes: Self, no: Self) -> Self { vbslq_f64(flags, yes, no) }
         fn flags(flag: bool) -> uint64x2_t { vdupq_n_u64(if flag { u64::MAX } else { 0 }) }
-        fn both(a: uint64x2_t, b: uint64x2_t) -> uint64x2_t { vandq_u64(a, b) }
-        fn either(a: uint64x2_t, b: uint64x2_t) -> uint64x2_t { vorrq_u64(a, b) }
+        fn both_flags(a: uint64x2_t, b: uint64x2_t) -> uint64x2_t { vandq_u64(a, b) }
+        fn either_flag(a: uint64x2_t, b: uint64x2_t) -> uint64x2_t { vorrq_u64(a, b) }
         fn not(a: uint64x2_t) -> uint64x2_t { veorq_u64(a, vdupq_n_u64(u64::MAX)) }
         fn bits(a: uint64x2_t) -> u32 {
             let (first, second) = (vgetq_lane_u64::<0>(a), vgetq_lane_u64::<1>(a));

@@ -114,11 +114,11 @@ macro_rules! plain {
                 [flag; $n]
             }
             #[inline(always)]
-            fn both(a: [bool; $n], b: [bool; $n]) -> [bool; $n] {
+            fn both_flags(a: [bool; $n], b: [bool; $n]) -> [bool; $n] {
                 [$(a[$k] & b[$k]),*]
             }
             #[inline(always)]
-            fn either(a: [bool; $n], b: [bool; $n]) -> [bool; $n] {
+            fn either_flag(a: [bool; $n], b: [bool; $n]) -> [bool; $n] {
                 [$(a[$k] | b[$k]),*]
             }
             #[inline(always)]

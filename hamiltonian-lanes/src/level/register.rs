@@ -65,8 +65,8 @@ pub trait Register: Copy + Send + Sync + 'static {
     fn select(flags: Self::Flags, yes: Self, no: Self) -> Self;
 
     fn flags(flag: bool) -> Self::Flags;
-    fn both(a: Self::Flags, b: Self::Flags) -> Self::Flags;
-    fn either(a: Self::Flags, b: Self::Flags) -> Self::Flags;
+    fn both_flags(a: Self::Flags, b: Self::Flags) -> Self::Flags;
+    fn either_flag(a: Self::Flags, b: Self::Flags) -> Self::Flags;
     fn not(a: Self::Flags) -> Self::Flags;
     /// Bit k is the flag of lane k; the bits above the last lane are 0.
     fn bits(a: Self::Flags) -> u32;

@@ -58,8 +58,8 @@ impl Register for __m128d {
         fn flags(flag: bool) -> __m128d {
             _mm_castsi128_pd(_mm_set1_epi64x(if flag { -1 } else { 0 }))
         }
-        fn both(a: __m128d, b: __m128d) -> __m128d { _mm_and_pd(a, b) }
-        fn either(a: __m128d, b: __m128d) -> __m128d { _mm_or_pd(a, b) }
+        fn both_flags(a: __m128d, b: __m128d) -> __m128d { _mm_and_pd(a, b) }
+        fn either_flag(a: __m128d, b: __m128d) -> __m128d { _mm_or_pd(a, b) }
         fn not(a: __m128d) -> __m128d { _mm_xor_pd(a, _mm_castsi128_pd(_mm_set1_epi64x(-1))) }
         fn bits(a: __m128d) -> u32 { _mm_movemask_pd(a) as u32 }
     }

@@ -286,7 +286,7 @@ impl<'a> Emission<'a> {
     pub(super) fn held_by(&self, purpose: Purpose, name: String) -> Option<(&'a Function, Holder)> {
         let function = self.context.program.function(purpose)?;
         let scan = scan(self.context, &function.evaluation, &function.results);
-        let holder = self.prepared.beside(self.context, name, &scan.reads);
+        let holder = self.prepared.with_values(self.context, name, &scan.reads);
         Some((function, holder))
     }
 

@@ -8,7 +8,7 @@ use hamiltonian_symbolic::dag::Map;
 use hamiltonian_symbolic::program::{Function, Instruction, Program, Purpose, Step, Update, Value};
 
 /// The limit of steps to be compared.
-const MOST: usize = 400;
+const MAX_STEPS: usize = 400;
 
 /// Returns true if the function `whole` is that of one half followed by that of the other, without shared work.
 pub fn are_apart(program: &Program, whole: Purpose, halves: [Purpose; 2]) -> bool {
@@ -23,7 +23,7 @@ pub fn are_apart(program: &Program, whole: Purpose, halves: [Purpose; 2]) -> boo
         _ => false,
     };
     let [all, first, second] = evaluations.map(|steps| steps.iter().filter(is_let).count());
-    evaluations[0].len() <= MOST
+    evaluations[0].len() <= MAX_STEPS
         && all == first + second
         && evaluations.into_iter().flatten().all(is_plain)
         && [a, b].iter().all(|half| has_stores(program, whole, half))

@@ -65,7 +65,7 @@ impl Holder {
     }
 
     /// A holder of these values beside the data of the prepared system.
-    pub fn beside(&self, context: Context, name: String, values: &[Value]) -> Holder {
+    pub fn with_values(&self, context: Context, name: String, values: &[Value]) -> Holder {
         Holder {
             name,
             values: Values::of(context.program, values.iter().copied()),

@@ -40,7 +40,7 @@ impl Writer<'_> {
         }
         let all: Vec<&Loop> = innermost(&loops[..count]);
         let values: usize = all.iter().map(|inner| inner.body.len()).sum();
-        if count < 2 || values > super::stretch::MOST {
+        if count < 2 || values > super::stretch::MAX_VALUES {
             return 0;
         }
         count

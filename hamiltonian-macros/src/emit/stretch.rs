@@ -13,7 +13,7 @@ use hamiltonian_symbolic::program::{Instruction, Loop, Step, Update, Value};
 use std::fmt::Write;
 
 /// The most values that an iteration in lanes computes.
-pub(super) const MOST: usize = 300;
+pub(super) const MAX_VALUES: usize = 300;
 
 /// A loop whose iterations core runs.
 #[derive(Default)]
@@ -128,7 +128,7 @@ impl Writer<'_> {
                 made.name = format!("__Body{}", value.0);
             }
         }
-        if made.reads.is_empty() || made.computed.len() > MOST {
+        if made.reads.is_empty() || made.computed.len() > MAX_VALUES {
             return None;
         }
         // The values from outside the loop that the arithmetic reads.

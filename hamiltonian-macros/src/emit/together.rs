@@ -10,7 +10,7 @@ use hamiltonian_symbolic::op::{Op, TOGETHER};
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 
 /// The most calls that core computes together.
-const MOST: usize = 8;
+const MAX_CALLS: usize = 8;
 
 /// Calls of one function that are neighbours.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub fn first(program: &Program, steps: &[Step]) -> Option<Calls> {
     let mut own = Vec::new();
     while let Some((of, value, argument)) = call(program, &steps[calls.steps..])
         && of == function
-        && calls.values.len() < MOST
+        && calls.values.len() < MAX_CALLS
         && !own.contains(&argument)
     {
         calls.arguments.push(argument);

@@ -276,7 +276,7 @@ impl<W: Word> Turned<W> {
 
     /// Sine and cosine, the bits of [`Turned::sine`].
     #[inline(always)]
-    fn both(self) -> (W, W) {
+    fn sine_and_cosine(self) -> (W, W) {
         let Turned { bits, r, tail } = self;
         let (z, minus, cut) = self.square();
         let is_sine = W::odd(bits);
@@ -398,7 +398,7 @@ pub fn sin_cos<W: Word>(x: W) -> (W, W) {
         return turn(n, r, tail, sign_bit(x));
     }
     let usual = if W::FUSED {
-        Turned::of(x, 0.0).both()
+        Turned::of(x, 0.0).sine_and_cosine()
     } else {
         let tiny = is_tiny(angle);
         let (n, r, tail) = reduce(unless(tiny, angle));
@@ -418,7 +418,7 @@ impl Rare<1, 2> for SineAndCosine {
     #[inline(always)]
     fn of<W: Word>([x]: [W; 1]) -> [W; 2] {
         if W::FUSED {
-            let (sine, cosine) = Turned::of_any(x, 0.0).both();
+            let (sine, cosine) = Turned::of_any(x, 0.0).sine_and_cosine();
             return [sine, cosine];
         }
         let angle = x.abs();

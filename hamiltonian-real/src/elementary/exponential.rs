@@ -235,7 +235,7 @@ fn exp_m1_of_large(x: f64) -> f64 {
 /// `(2·sinh, 2·cosh)` of `0 ≤ x ≤ LARGE`, each of two words: with `a = 2^k + 2^−k` and
 /// `b = 2^k − 2^−k`, 2·sinh x = b·cosh r + a·sinh r and 2·cosh x = a·cosh r + b·sinh r.
 #[inline(always)]
-fn both<W: Word>(x: W) -> ((W, W), (W, W)) {
+fn sinh_and_cosh<W: Word>(x: W) -> ((W, W), (W, W)) {
     let reduced = reduce_alone(x);
     let (half, c, s) = reduced.hyperbolic();
     let (up, down) = (reduced.scale(), reduced.inverse_scale());
@@ -263,7 +263,7 @@ pub fn sinh<W: Word>(x: W) -> W {
     if W::LANES == 1 && tiny.all() {
         return x;
     }
-    let (high, low) = both(unless(tiny, size)).0;
+    let (high, low) = sinh_and_cosh(unless(tiny, size)).0;
     let y = flip(W::splat(0.5) * (high + low), sign_bit(x));
     let y = W::select(tiny, x, y);
     let plain = size.le(W::splat(LARGE));
@@ -292,7 +292,7 @@ pub fn cosh<W: Word>(x: W) -> W {
     if W::LANES == 1 && tiny.all() {
         return W::one();
     }
-    let (high, low) = both(unless(tiny, size)).1;
+    let (high, low) = sinh_and_cosh(unless(tiny, size)).1;
     let y = W::splat(0.5) * (high + low);
     let plain = size.le(W::splat(LARGE));
     if plain.all() {
@@ -311,7 +311,7 @@ pub fn tanh<W: Word>(x: W) -> W {
         return x;
     }
     let end = W::splat(22.0);
-    let (sinh, cosh) = both(unless(tiny, W::select(end.lt(size), end, size)));
+    let (sinh, cosh) = sinh_and_cosh(unless(tiny, W::select(end.lt(size), end, size)));
     let (high, low) = quotient(fast_two_sum(sinh.0, sinh.1), fast_two_sum(cosh.0, cosh.1));
     W::select(tiny, x, flip(high + low, sign_bit(x)))
 }

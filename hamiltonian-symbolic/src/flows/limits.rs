@@ -3,6 +3,17 @@
 //! Input: an expression. Output: whether it is large. Invariant: each limit says what it counts in. A *question* is the
 //! flow of one sum of terms, or whether one expression is zero (`Space::question`). A *cover* is a choice of sums that
 //! hold all terms of a group (`cover::candidates`); a group shares no degree of freedom with the others (`split::join`).
+//!
+//! # Example: a question of the search
+//! H = (q² + 1)(p² + 1)/2 + x²y² + u²/2 has two groups: {q, p}, and {x, y, u, …}. For the first one, `cover` asks whether
+//! the sum of all its terms has a flow. This is one question. It may take [`COMPARISONS`] comparisons of expressions,
+//! [`PRODUCTS`] products of terms and [`EXPRESSIONS`] new nodes.
+//!
+//! 1. A row finds that the sum is a product of two squares and asks whether `(q² + 1)(p² + 1)/2` equals it: one comparison,
+//!    which may take [`COMPARISON`] products. It takes four.
+//! 2. The answer is a flow: the question ends, and what it spent counts against [`ALL_PRODUCTS`] of the group.
+//! 3. If a limit had been met, the answer would be unknown, which is neither returned nor remembered: a later question about
+//!    the same sum starts with a budget of its own.
 
 use crate::dag::{Dag, Node};
 use std::fmt;

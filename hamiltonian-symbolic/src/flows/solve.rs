@@ -107,7 +107,7 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         .or_else(|| separated(space, u, time))
         .or_else(|| commuting(space, u, time))?;
     // The factor beside u is a constant of the motion only where u's flow leaves it alone.
-    let beside = beside(space, h, u);
+    let beside = variables_outside(space, h, u);
     if space.moved(&inner.motion).meets(beside) {
         return None;
     }
@@ -146,7 +146,7 @@ fn partial(space: &mut Space, h: Node, u: Node, variable: Node) -> Node {
 }
 
 /// The variables of h outside u.
-fn beside(space: &mut Space, h: Node, u: Node) -> Variables {
+fn variables_outside(space: &mut Space, h: Node, u: Node) -> Variables {
     let mut set = Variables::default();
     let mut seen: Map<Node, ()> = Map::default();
     let mut left = vec![h];
@@ -176,7 +176,7 @@ fn dominator(space: &mut Space, h: Node, set: Variables) -> Option<Node> {
         if node == h || is_condition || !set.is_within(space.set(node)) {
             continue;
         }
-        let over = beside(space, h, node);
+        let over = variables_outside(space, h, node);
         if !over.meets(set) {
             return Some(node);
         }
@@ -226,7 +226,7 @@ fn row_of(space: &mut Space, k: Node, (q, p): (Node, Node), time: Node) -> Optio
     for row in ROWS {
         match row.solve {
             Solve::Pair(solve) => {
-                for axes in Axes::both(q, p) {
+                for axes in Axes::both_ways(q, p) {
                     if let Some(moved) = solve(space, axes, k, time) {
                         return Some(Flow::of(of_pair(space, axes, &moved), row.name));
                     }

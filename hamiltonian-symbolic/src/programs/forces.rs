@@ -163,7 +163,7 @@ fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<KickFlow, ()> {
 
 /// ∂H/∂q where the kick is of H and the force: a force beside pieces of H is a piece of its own.
 #[must_use]
-pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
+pub fn gradient_of_pieces(model: &mut Model) -> Vec<VectorEntry> {
     if !model.pieces.is_empty() {
         return Vec::new();
     }
@@ -178,6 +178,6 @@ pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
 /// # Errors
 /// As for [`kick`].
 pub fn kick_of(model: &mut Model) -> Result<KickFlow, Box<VectorEntry>> {
-    let gradient = beside(model);
+    let gradient = gradient_of_pieces(model);
     kick(model, &gradient)
 }

@@ -101,7 +101,7 @@ pub(crate) fn request(
             request.stores.extend(entries.into_iter().map(added));
         }
         Purpose::Rates if !model.force.is_empty() => {
-            let gradient = forces::beside(model);
+            let gradient = forces::gradient_of_pieces(model);
             request.stores.extend(driven(model, &gradient));
         }
         Purpose::Push | Purpose::Linear | Purpose::Rates => {

@@ -15,7 +15,7 @@ use crate::ranges::Ranges;
 use crate::schedule::Store;
 
 /// The most operations of a term that is computed twice: fewer than a function takes.
-const MOST: u32 = 12;
+const MAX_OPERATIONS_TWICE: u32 = 12;
 
 /// The stores with those to shifted sites moved, where that is cheap.
 pub(crate) fn at_sites(dag: &mut Dag, stores: Vec<Store>) -> Vec<Store> {
@@ -146,5 +146,5 @@ fn is_cheap(dag: &Dag, value: Node) -> bool {
         .iter()
         .filter(|node| varies(node))
         .all(is_polynomial)
-        && work(dag, &[value]) <= MOST
+        && work(dag, &[value]) <= MAX_OPERATIONS_TWICE
 }

@@ -23,7 +23,7 @@ use hamiltonian_lanes::{Dual, Real};
 use nalgebra::DMatrix;
 
 /// The largest number of corrections.
-const MOST: u32 = 40;
+const MAX_CORRECTIONS: u32 = 40;
 
 /// The largest number of halvings of a correction.
 const HALVINGS: u32 = 12;
@@ -155,7 +155,7 @@ where
         let guessed = nodes.period;
         let mut shot = self.shoot(&nodes)?;
         let mut is_last = false;
-        for _ in 0..MOST {
+        for _ in 0..MAX_CORRECTIONS {
             let corrections = self.corrections(&shot);
             let halvings = if is_last { 1 } else { HALVINGS };
             let mut scale = 1.0;

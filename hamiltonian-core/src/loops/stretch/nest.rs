@@ -81,7 +81,7 @@ impl<P: Pack> Mode for In<P> {
     ) {
         let before = stretch.before::<B, W>();
         if before > 0 {
-            stretch.again().some::<B, W>(before);
+            stretch.reborrow().first_ones::<B, W>(before);
             stretch.skip(before);
         }
         if stretch.length >= STRIDE {

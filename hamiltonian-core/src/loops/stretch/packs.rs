@@ -149,7 +149,7 @@ pub(super) fn packs<
             }
         }
         if does_wait {
-            waiting.settle::<P, C>(B::STORES, &mut columns, at, end, end == length);
+            waiting.store_due::<P, C>(B::STORES, &mut columns, at, end, end == length);
         }
         at = end;
     }

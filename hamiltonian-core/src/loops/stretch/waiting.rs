@@ -1,7 +1,21 @@
-//! Results that wait until no earlier store of their elements is to come.
+//! Results that wait until all earlier stores of their elements are done.
 //!
 //! Input: the results of a block of iterations. Output: the columns they are stored in. Invariant: each
 //! element is changed in the order of the iterations.
+//!
+//! # Example: a stretch with two stores
+//! The force of a chain of springs, with the tension `d[i]` between the sites i and i + 1:
+//!
+//! ```text
+//! for i in 0..n { f[i] -= d[i]; f[i + 1] += d[i] }
+//! ```
+//!
+//! Iteration k − 1 adds `d[k−1]` to `f[k]`, and iteration k then subtracts `d[k]`. One after the other gives
+//! (f\[k\] + d\[k−1\]) − d\[k\], and lanes must give the same bits. Four lanes compute d\[4\], …, d\[7\] at once. If they
+//! subtracted these from f\[4\], …, f\[7\] at once, only f\[4\] would have received its d\[3\] before. So the results wait for
+//! a block. The stores have the starts 0 and 1. In descending order of starts, the block first adds d\[3\], …, d\[6\] to
+//! f\[4\], …, f\[7\], where d\[3\] is kept from the block before, and then subtracts d\[4\], …, d\[7\]. Each f\[k\] has met its two
+//! changes in the order of the iterations. f\[8\] still lacks d\[7\], which is kept for the next block.
 
 use super::{BLOCK, CARRY, ColumnStore, REACH, STRIDE, changed, is_first_of_column};
 use hamiltonian_lanes::{Pack, Real};
@@ -114,7 +128,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
 
     /// Stores the results of iterations `at..end`.
     #[inline(always)]
-    pub(super) fn settle<P: Pack, const C: usize>(
+    pub(super) fn store_due<P: Pack, const C: usize>(
         &mut self,
         stores: &[ColumnStore],
         columns: &mut [&mut [T]; C],

@@ -520,7 +520,7 @@ impl fmt::Display for Completeness {
     #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         /// The largest number of ranges that are listed.
-        const MOST: usize = 8;
+        const MAX_RANGES: usize = 8;
         if self.is_complete() {
             return write!(f, "complete ({} chunks)", self.chunks);
         }
@@ -530,14 +530,14 @@ impl fmt::Display for Completeness {
             .map(|range| range.end - range.start)
             .sum();
         write!(f, "{count} of {} chunks are missing: ", self.chunks)?;
-        for (index, range) in self.missing.iter().take(MOST).enumerate() {
+        for (index, range) in self.missing.iter().take(MAX_RANGES).enumerate() {
             let comma = if index == 0 { "" } else { ", " };
             match range.end - range.start {
                 1 => write!(f, "{comma}{}", range.start)?,
                 _ => write!(f, "{comma}{} to {}", range.start, range.end - 1)?,
             }
         }
-        match self.missing.len() > MOST {
+        match self.missing.len() > MAX_RANGES {
             true => write!(f, ", …"),
             false => Ok(()),
         }

@@ -142,13 +142,13 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
         mut part: T,
     ) -> Result<State<VectorOf<S, T>>, Error> {
         /// The time is nearly proportional to the step.
-        const MOST: u32 = 60;
+        const MAX_ITERATIONS: u32 = 60;
         if part.equals(T::zero()).all() {
             return Ok(from.clone());
         }
         let rounding = self.rounding(from.t, t) * self.clock.interval.magnitude();
         let mut missed = 0.0;
-        for _ in 0..MOST {
+        for _ in 0..MAX_ITERATIONS {
             let h = part * self.step;
             let mut carried = self.recipe.start_alone(self.prepared, from, h);
             let map = self.recipe.prepare(self.prepared, Step::of(h));
@@ -179,7 +179,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
             clock: self.prepared.description().clock().into(),
             time: from.t.to_f64(),
             residual: missed,
-            iterations: MOST,
+            iterations: MAX_ITERATIONS,
         }
         .into())
     }
@@ -231,18 +231,18 @@ impl<T: Real> Clock<T> {
         clock: &str,
     ) -> Result<(Option<u64>, u64), TimeError> {
         /// The largest number of steps that is exact in `f64`.
-        const MOST: f64 = (1_u64 << 53) as f64;
+        const LARGEST_EXACT: f64 = (1_u64 << 53) as f64;
         let since = Clock::new(self.start, self.interval);
         let made = self.first + made;
         let count = ((t - self.start) / self.interval).to_f64();
-        let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
+        let nearest = (count.clamp(0.0, LARGEST_EXACT) + 0.5) as u64;
         let reached = since.at(nearest);
         // t, the start and the interval are each off by half an ulp at most, and so are the
         // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
         // user, whatever the scalar.
         let size = t.magnitude() + self.start.magnitude() + (reached - self.start).magnitude();
         let rounding = T::epsilon().max(f64::EPSILON) * size;
-        let counted = t.is_finite() && count < MOST;
+        let counted = t.is_finite() && count < LARGEST_EXACT;
         let meets = counted && (reached - t).magnitude() <= rounding;
         if meets && nearest >= made {
             return Ok((None, nearest - made));

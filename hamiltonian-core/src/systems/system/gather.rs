@@ -23,7 +23,7 @@ pub type ScalarOver<V, P> = <<V as Vector>::Scalar as Real>::Over<P>;
 pub type VectorOver<V, P> = Over<V, ScalarOver<V, P>>;
 
 /// The largest number of members that are gathered into one pack.
-pub const MOST: usize = 128;
+pub const MAX_MEMBERS: usize = 128;
 
 /// Work of a single run over the scalar `T` that is faster in packs: stages, loops.
 ///
@@ -209,8 +209,8 @@ where
 /// A number of each member, in its lane.
 #[inline(always)]
 pub fn number<T: Real, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> T) -> T::Over<P> {
-    let mut values = [T::default(); MOST];
-    let count = members.len().min(MOST);
+    let mut values = [T::default(); MAX_MEMBERS];
+    let count = members.len().min(MAX_MEMBERS);
     for (value, member) in values.iter_mut().zip(members) {
         *value = of(member);
     }
@@ -261,8 +261,8 @@ pub fn vectors<V: Vector, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> &V) -> 
 /// Writes lane k of a vector to member k, for as many members as there are. All have its shape.
 #[inline(always)]
 pub fn scatter<V: Vector, P: Pack>(from: &VectorOver<V, P>, members: &mut [&mut V]) {
-    let mut values = [V::Scalar::default(); MOST];
-    let count = members.len().min(MOST);
+    let mut values = [V::Scalar::default(); MAX_MEMBERS];
+    let count = members.len().min(MAX_MEMBERS);
     for k in 0..V::PARTS {
         for (i, from) in from.part(k).iter().enumerate() {
             V::Scalar::scatter::<P>(*from, &mut values[..count]);

@@ -100,8 +100,8 @@ operator! { V:
     Div div div;
 }
 operator! { Flags:
-    BitAnd bitand both;
-    BitOr bitor either;
+    BitAnd bitand both_flags;
+    BitOr bitor either_flag;
 }
 operator! { Words:
     BitAnd bitand and;

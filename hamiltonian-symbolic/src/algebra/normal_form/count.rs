@@ -12,7 +12,7 @@ use crate::ranges::Ranges;
 use crate::rational::Rational;
 
 /// The largest power of a loop variable that is summed.
-const MOST: i32 = 6;
+const MAX_SUMMED_POWER: i32 = 6;
 
 impl Algebra {
     /// Takes note of how often the loops of an expression run.
@@ -71,7 +71,7 @@ impl Algebra {
                     Key::Leaf(node) => *dag.kind(node) == Kind::Variable(domain),
                     _ => false,
                 };
-                if !is_variable || !(1..=MOST).contains(power) {
+                if !is_variable || !(1..=MAX_SUMMED_POWER).contains(power) {
                     return Ok(None);
                 }
                 *power

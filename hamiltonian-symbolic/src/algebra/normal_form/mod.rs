@@ -36,7 +36,7 @@ use crate::ranges::Ranges;
 use angles::{LARGEST_MULTIPLE, LONGEST_ANGLE};
 use functions::MOST_ARGUMENTS;
 use reduce::PASSES;
-use symmetry::MOST as REINDEXINGS;
+use symmetry::MAX_REINDEXINGS as REINDEXINGS;
 
 /// The budget of one expansion.
 pub(crate) const BUDGET: Budget = Budget {

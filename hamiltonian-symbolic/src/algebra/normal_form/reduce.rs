@@ -245,7 +245,7 @@ impl Algebra {
     /// begins with n·(leading term of r)ⁿ⁻¹ times the next term of r.
     pub(super) fn root_of_power(&mut self, poly: &Poly, n: u32) -> Result<Option<Poly>, Undecided> {
         /// The most terms of a root.
-        const MOST: usize = 8;
+        const MAX_TERMS_OF_ROOT: usize = 8;
         let newest = |poly: &Poly| {
             let terms = poly.terms().iter();
             terms.max_by(|a, b| a.0.newest_first(&b.0)).cloned()
@@ -274,7 +274,10 @@ impl Algebra {
             let Some((next, k)) = newest(&poly.sub(&power)) else {
                 return Ok(Some(root));
             };
-            let Some(next) = next.over(&below).filter(|_| root.terms().len() < MOST) else {
+            let Some(next) = next
+                .over(&below)
+                .filter(|_| root.terms().len() < MAX_TERMS_OF_ROOT)
+            else {
                 return Ok(None);
             };
             let longer = root.add(&Poly::term(k.mul(&by), next));

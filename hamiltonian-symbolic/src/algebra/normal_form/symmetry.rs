@@ -14,7 +14,7 @@ use crate::ranges::Ranges;
 use crate::rational::Rational;
 
 /// The most re-indexings of one sum that are looked at.
-pub(super) const MOST: usize = 64;
+pub(super) const MAX_REINDEXINGS: usize = 64;
 
 /// A sum: its loops, outermost first, and its body.
 #[derive(Clone, PartialEq, Debug)]
@@ -157,7 +157,7 @@ fn images(dag: &mut Dag, nest: LoopSum) -> (Vec<LoopSum>, bool) {
     let nest = from_zero(dag, nest);
     let mut found = vec![nest];
     let mut at = 0;
-    while at < found.len() && found.len() < MOST {
+    while at < found.len() && found.len() < MAX_REINDEXINGS {
         let nest = found[at].clone();
         at += 1;
         let mut images = shifts(dag, &nest);

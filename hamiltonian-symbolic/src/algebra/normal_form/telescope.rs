@@ -11,7 +11,7 @@ use crate::ranges::Ranges;
 use crate::rational::Rational;
 
 /// The most terms that are split off.
-const MOST: i64 = 4;
+const MAX_SPLIT_OFF: i64 = 4;
 
 /// The expression with sums over whole ranges; `None` if it has them already.
 pub(super) fn telescoped(dag: &mut Dag, root: Node) -> Option<Node> {
@@ -53,7 +53,8 @@ fn once(dag: &mut Dag, root: Node) -> Node {
 fn whole(dag: &mut Dag, domain: Domain, body: Node) -> Option<Node> {
     let range = dag.range(domain).clone();
     let length = range.end.checked_plus(-1, &range.start)?;
-    if let (Some(count @ ..=MOST), Some(first)) = (length.as_constant(), range.start.as_constant())
+    if let (Some(count @ ..=MAX_SPLIT_OFF), Some(first)) =
+        (length.as_constant(), range.start.as_constant())
     {
         let mut terms = Vec::new();
         for index in first..first + count.max(0) {
@@ -71,7 +72,7 @@ fn whole(dag: &mut Dag, domain: Domain, body: Node) -> Option<Node> {
     });
     let (start, end) = (start?, end?);
     let is_whole = start.0.as_constant().is_some() && start.1 == 0 && end.1 == 0 && by == 0;
-    let is_long = start.1.abs().max(end.1.abs()) > MOST;
+    let is_long = start.1.abs().max(end.1.abs()) > MAX_SPLIT_OFF;
     let is_nested = !start.0.loops.is_empty();
     if is_whole || is_long || is_nested || end.0.as_constant().is_some() {
         return None;

@@ -157,7 +157,7 @@ pub(super) fn one(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>
         let next = looped(&model.dag, site, part, is_alone);
         flow = Some(match flow {
             None => next,
-            Some(flow) => beside(flow, next).ok_or(None)?,
+            Some(flow) => joined(flow, next).ok_or(None)?,
         });
     }
     flow.ok_or(None)
@@ -193,7 +193,7 @@ fn are_apart(dag: &Dag, a: &Site, b: &Site) -> bool {
 }
 
 /// Two flows of sites without common elements, as one.
-fn beside(a: ExactFlow, b: ExactFlow) -> Option<ExactFlow> {
+fn joined(a: ExactFlow, b: ExactFlow) -> Option<ExactFlow> {
     let parts = |flow: ExactFlow| match flow {
         ExactFlow::Loop {
             motions,

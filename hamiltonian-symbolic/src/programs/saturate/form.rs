@@ -12,7 +12,7 @@ use crate::rational::Rational;
 const LONGEST: usize = 24;
 
 /// The most terms that are collected.
-const MOST: usize = 256;
+const MAX_TERMS: usize = 256;
 
 /// Exponentials that go to ∞ as t, with 1, and to 0 as 1/t, with −1.
 pub(super) type Direction = Vec<(usize, i32)>;
@@ -298,7 +298,7 @@ impl Form {
                 }
             }
             numerator.extend(product.0);
-            if numerator.len() > MOST {
+            if numerator.len() > MAX_TERMS {
                 return None;
             }
         }

@@ -15,7 +15,7 @@ use crate::rational::Rational;
 use crate::sort::Arrange;
 
 /// Determinants of at most this many velocities are expanded.
-const MOST: usize = 6;
+const MAX_VELOCITIES: usize = 6;
 
 /// Returns true if an expression, in which velocities stand for themselves, does not
 /// change along the motion. Not where loops are left.
@@ -28,8 +28,8 @@ pub(super) fn vanishes(model: &Model, legendre: &Legendre, expression: Node) -> 
 /// The limit that forbids the proof in velocities, if that is what does: a clause.
 pub(super) fn limit(legendre: &Legendre) -> Option<String> {
     let velocities = legendre.masses.iter().map(|mass| mass.elements.len());
-    (velocities.sum::<usize>() > MOST)
-        .then(|| format!("a proof in velocities is tried with at most {MOST} of them"))
+    (velocities.sum::<usize>() > MAX_VELOCITIES)
+        .then(|| format!("a proof in velocities is tried with at most {MAX_VELOCITIES} of them"))
 }
 
 /// dI/dt times the determinant of the mass matrix.
@@ -37,7 +37,8 @@ fn derivative(dag: &mut Dag, legendre: &Legendre, expression: Node) -> Option<No
     let masses = || legendre.masses.iter();
     let velocities: Vec<Node> = masses().flat_map(|mass| mass.elements.clone()).collect();
     let has_loops = dag.has_loops(&[expression, legendre.lagrangian]);
-    if velocities.len() > MOST || has_loops || masses().any(|mass| mass.domain.is_some()) {
+    if velocities.len() > MAX_VELOCITIES || has_loops || masses().any(|mass| mass.domain.is_some())
+    {
         return None;
     }
     let expression = in_velocities(dag, legendre, expression);

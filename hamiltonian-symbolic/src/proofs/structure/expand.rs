@@ -11,12 +11,12 @@ use crate::sort::Arrange;
 use std::rc::Rc;
 
 /// The most terms an expansion may have.
-pub(super) const MOST: usize = 4096;
+pub(super) const MAX_TERMS: usize = 4096;
 
 /// The terms of a node multiplied out; `None` where there are more than 4096 of them.
 #[must_use]
 pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Product>> {
-    expand_within(dag, root, MOST)
+    expand_within(dag, root, MAX_TERMS)
 }
 
 /// The terms of a node multiplied out; `None` where it, or a part of it, has more of them.

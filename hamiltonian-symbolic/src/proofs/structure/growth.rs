@@ -9,9 +9,9 @@ use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::op::Op;
 
 /// The largest power: values of numbers below 2^75 are then below 2^600.
-const MOST: u32 = 8;
+const MAX_POWER: u32 = 8;
 
-/// The largest size of a number in the definition, 2^50: its powers up to `MOST` are below 2^400.
+/// The largest size of a number in the definition, 2^50: its powers up to `MAX_POWER` are below 2^400.
 const LARGEST: f64 = (1_u64 << 50) as f64;
 
 /// The growth of an expression; `None` if it may not be finite, or grows too fast.
@@ -27,7 +27,7 @@ pub fn growth(dag: &Dag, root: Node) -> Option<u32> {
     let mut most = 0;
     for node in dag.reachable(&[root]) {
         let power = match matters(node) {
-            true => of(dag, node, &known, &matters).filter(|power| *power <= MOST)?,
+            true => of(dag, node, &known, &matters).filter(|power| *power <= MAX_POWER)?,
             false => 0,
         };
         known.insert(node, power);
@@ -77,7 +77,7 @@ fn of(
             let each = match u32::try_from(*n) {
                 Ok(n) => power(base)?.checked_mul(n)?,
                 Err(_) if matters(*base) => {
-                    let is_bounded = n.unsigned_abs() <= MOST && is_away_from_zero(dag, *base);
+                    let is_bounded = n.unsigned_abs() <= MAX_POWER && is_away_from_zero(dag, *base);
                     is_bounded.then_some(0)?
                 }
                 // H at the start has shown that a divisor of parameters is not 0.

@@ -3,7 +3,7 @@
 //! Input: parts of H. Output: nothing, or the first term of another degree. Invariant: degrees are read
 //! off the expression as it stands, or multiplied out; no number decides.
 
-use super::expand::MOST;
+use super::expand::MAX_TERMS;
 use super::{expand, term_with};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::model::Model;
@@ -81,7 +81,7 @@ enum Outside {
 fn too_long(model: &Model, term: Node) -> String {
     let term = print::text(model, term);
     format!(
-        "the degree of the term `{term}` in the momenta is not known: multiplied out, it has more than {MOST} terms"
+        "the degree of the term `{term}` in the momenta is not known: multiplied out, it has more than {MAX_TERMS} terms"
     )
 }
 

@@ -36,7 +36,7 @@ pub(crate) struct Axes {
 
 impl Axes {
     /// A pair both ways round.
-    pub(crate) fn both(q: Node, p: Node) -> [Axes; 2] {
+    pub(crate) fn both_ways(q: Node, p: Node) -> [Axes; 2] {
         [(q, p, false), (p, q, true)].map(|(x, leaf, exchanged)| Axes { x, leaf, exchanged })
     }
     /// y

@@ -21,7 +21,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         return None;
     };
     let (q, p) = space.pairs[*pair];
-    Axes::both(q, p)
+    Axes::both_ways(q, p)
         .into_iter()
         .find_map(|axes| along(space, axes, h, s))
 }

@@ -23,7 +23,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     // A factor that does not move is one of the time: it may be 0.
     let (h, factor) = bare(space, h);
     let s = space.dag().mul(&[factor, s]);
-    for axes in Axes::both(q, p) {
+    for axes in Axes::both_ways(q, p) {
         if let Some(motion) = component(space, axes, h, s, false) {
             return Some(motion);
         }

@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::ranges::Ranges;
 
 /// The most ways to choose iterations of the loops around an expression.
-const MOST: usize = 64;
+const MAX_CHOICES: usize = 64;
 
 /// Returns true if |H| → ∞ wherever an expression outside loops tends to 0, as it does in each iteration of a loop.
 pub(super) fn is_infinite(model: &mut Model, h: Node, node: Node, given: &Given) -> bool {
@@ -56,7 +56,7 @@ fn rows(model: &Model, node: Node) -> Vec<Affine> {
 fn has_instance(model: &mut Model, of_loop: Node, zeros: &[Node; 2], rows: &[Affine]) -> bool {
     let loops = model.dag.path(model.dag.home(of_loop));
     let ways = rows.len().checked_pow(loops.len() as u32);
-    if loops.is_empty() || !ways.is_some_and(|ways| (1..=MOST).contains(&ways)) {
+    if loops.is_empty() || !ways.is_some_and(|ways| (1..=MAX_CHOICES).contains(&ways)) {
         return false;
     }
     (0..ways.unwrap_or(0)).any(|way| {

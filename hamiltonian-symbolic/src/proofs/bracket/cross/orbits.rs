@@ -17,7 +17,7 @@ use crate::op::SingularSet;
 use crate::rational::Rational;
 
 /// The most expressions that are looked at.
-const MOST: usize = 64;
+const MAX_EXPRESSIONS: usize = 64;
 
 /// The findings of [`learn`].
 #[derive(Default)]
@@ -32,7 +32,7 @@ impl Learnt {
     /// The limit, as the end of a sentence.
     pub(super) fn limit(&self) -> Option<String> {
         self.is_cut.then(|| {
-            format!("; of the expressions that may be constant along orbits only {MOST} are tried")
+            format!("; of the expressions that may be constant along orbits only {MAX_EXPRESSIONS} are tried")
         })
     }
 }
@@ -47,8 +47,8 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Lear
         if tried.contains_key(&node) {
             return false;
         }
-        *is_cut |= tried.len() == MOST;
-        tried.len() < MOST && tried.insert(node, ()).is_none()
+        *is_cut |= tried.len() == MAX_EXPRESSIONS;
+        tried.len() < MAX_EXPRESSIONS && tried.insert(node, ()).is_none()
     };
     if below.binary_search(&claim.h).is_ok() && is_constant(model, claim, claim.h, given) {
         let energy = Place::named(model, "H", claim.h, Reason::Constant);

@@ -227,6 +227,7 @@ pub trait System {
         name: &str,
         state: &State<VectorOf<Self, T>>,
     ) -> Option<Gradient<VectorOf<Self, T>>> {
+        derivatives_are_free::<T, Self>();
         let index = self.description().observable_index(name)?;
         let prepared = self.prepare::<Dual<T>>();
         let dual = |from: &VectorOf<Self, T>| {

@@ -144,7 +144,7 @@ impl NamedPiece {
 /// assert_eq!(described.name, "Falling");
 /// assert_eq!(described.groups[1].momentum, "pz");
 /// assert_eq!(described.observables[0].name, "ground");
-/// assert_eq!(described.cyclic, ["x"]); // So px is conserved.
+/// assert_eq!(described.cyclic[0], "x"); // So px is conserved.
 /// assert_eq!(described.pieces.len(), 2);
 /// assert!(!described.is_forced);
 /// ```

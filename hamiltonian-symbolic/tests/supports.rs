@@ -165,3 +165,28 @@ fn a_factor_without_a_value_is_none() {
     let program = program("px^2/2 + max(sqrt(x) - 1, 0)*ln(x)");
     assert!(computed(&program, [-1.0, 0.0, 0.0])[0].is_nan());
 }
+
+/// Where one of two sums is 0, the product is, whatever the other sum is.
+#[test]
+fn each_of_two_vanishing_sums_takes_the_product_with_it() {
+    let there = "sum(i in 0..3) { if y > i - 9 { 1 + i } else { 0 } }";
+    let gone = "sum(i in 0..3) { if x > 1 + i { x + i*y } else { 0 } }";
+    let kinetic = program("(px^2 + py^2 + pz^2)/2");
+    for product in [
+        format!("ln(x)*({there})*({gone})"),
+        format!("ln(x)*({gone})*({there})"),
+        format!("ln(x)*({there})^2*({gone})"),
+        format!("ln(x)*({gone})*({there})^2"),
+        format!("sum(i in 1..3) {{ ln(i*x)*i }}*({there})*({gone})"),
+        format!("sum(i in 1..3) {{ ln(i*x)*i }}*({gone})*({there})"),
+    ] {
+        let h = format!("(px^2 + py^2 + pz^2)/2 + {product}");
+        for q in [[0.0, 0.75, 1.0], [-2.0, 0.75, 1.0]] {
+            assert_eq!(
+                computed(&program(&h), q),
+                computed(&kinetic, q),
+                "{h} at {q:?}"
+            );
+        }
+    }
+}

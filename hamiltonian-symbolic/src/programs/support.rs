@@ -196,13 +196,17 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
         return dag.scale(&coefficient, image);
     }
     // Terms of a sum over a loop that vanish take singular factors into the sum.
+    let mut sums: Vec<(usize, Domain, Node)> = Vec::new();
     for (at, &(factor, n)) in factors.iter().enumerate() {
-        let Kind::Reduce(domain, body) = *dag.kind(factor) else {
-            continue;
-        };
-        if n < 1 || facts(dag, body, known).support.is_none() || !is_other_singular(at) {
-            continue;
+        if let Kind::Reduce(domain, body) = *dag.kind(factor)
+            && n > 0
+            && is_other_singular(at)
+            && facts(dag, body, known).support.is_some()
+        {
+            sums.push((at, domain, body));
         }
+    }
+    if let Some(&(at, domain, body)) = sums.first() {
         let singular = |k: usize| k != at && is_singular[k];
         let (mut inside, mut outside) = (vec![(body, 1)], Factors::new());
         for (k, power) in factors.iter().enumerate().filter(|(k, _)| *k != at) {
@@ -212,8 +216,8 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
             }
         }
         let nodes: Vec<Node> = inside.iter().skip(1).map(|(node, _)| *node).collect();
-        if n > 1 || dag.has_loops(&nodes) {
-            return where_terms_count(dag, (domain, body), node, known);
+        if sums.len() > 1 || factors[at].1 > 1 || dag.has_loops(&nodes) {
+            return where_terms_count(dag, &sums, node, known);
         }
         let product = dag.product(&Rational::ONE, &inside);
         let product = within_support(dag, product, known);
@@ -223,21 +227,27 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
     node
 }
 
-/// The product with a sum over a loop, where one of its terms does not vanish: for factors with loops of their own, and powers.
+/// The product with sums over loops, where of each sum a term does not vanish: for several sums, factors with loops of
+/// their own, and powers.
 fn where_terms_count(
     dag: &mut Dag,
-    (domain, body): (Domain, Node),
+    sums: &[(usize, Domain, Node)],
     product: Node,
     known: &mut Map<Node, Vanishing>,
 ) -> Node {
-    let Some(support) = facts(dag, body, known).support else {
-        return product;
-    };
     let (zero, one) = (dag.integer(0), dag.integer(1));
-    let counted = dag.select(support, one, zero);
-    let count = dag.reduce(domain, counted);
-    let condition = dag.less(zero, count);
-    dag.select(condition, product, zero)
+    let mut conditions = Vec::new();
+    for &(_, domain, body) in sums {
+        if let Some(support) = facts(dag, body, known).support {
+            let counted = dag.select(support, one, zero);
+            let count = dag.reduce(domain, counted);
+            conditions.push(dag.less(zero, count));
+        }
+    }
+    let condition = conditions
+        .into_iter()
+        .reduce(|all, next| dag.and(all, next));
+    condition.map_or(product, |condition| dag.select(condition, product, zero))
 }
 
 /// The branch of a choice between an expression and 0: where the product counts it is taken.

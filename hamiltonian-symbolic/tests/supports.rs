@@ -190,3 +190,29 @@ fn each_of_two_vanishing_sums_takes_the_product_with_it() {
         }
     }
 }
+
+/// At 0, x/(eˣ − 1) has the derivatives of 1 − x/2 + x²/12, also twice in a product and inside of another such quotient.
+#[test]
+fn quotients_of_exponentials_are_continued() {
+    for (quotients, series) in [
+        (
+            "x/exp_m1(x)*y/exp_m1(y)",
+            "(1 - x/2 + x^2/12)*(1 - y/2 + y^2/12)",
+        ),
+        (
+            "(y*x/exp_m1(x))/exp_m1(y*x/exp_m1(x))",
+            "1 - y*(1 - x/2)/2 + y^2/12",
+        ),
+    ] {
+        let of = |v: &str| {
+            let program = program(&format!("(px^2 + py^2 + pz^2)/2 + {v}"));
+            computed(&program, [0.0, 0.0, 0.0])
+        };
+        let (found, expected) = (of(quotients), of(series));
+        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-14;
+        assert!(
+            found.iter().zip(&expected).all(is_near),
+            "{quotients}: {found:?} instead of {expected:?}"
+        );
+    }
+}

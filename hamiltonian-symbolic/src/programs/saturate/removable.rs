@@ -1,8 +1,8 @@
 //! w/(eʷ − 1) near w = 0, where the terms of its derivatives cancel.
 //!
-//! Input: roots, before differentiation. Output: the same functions. Where w² < 1 the quotient is its series
-//! Σ Bₙ·wⁿ/n! with the numbers of Bernoulli, so that derivatives are those of a polynomial. For example, the derivative of
-//! x/exp_m1(x) as a quotient has an error of 2ε/x. Invariant: what has no such quotient is left as it is.
+//! Input: roots, before differentiation. Output: the same functions, continued to w = 0. Where w² < 1 the quotient is its
+//! series Σ Bₙ·wⁿ/n! with the numbers of Bernoulli, so that derivatives are those of a polynomial. For example, the
+//! derivative of x/exp_m1(x) as a quotient has an error of 2ε/x. Invariant: what has no such quotient is left as it is.
 
 use crate::dag::{Dag, Kind, Node};
 use crate::op::Op;
@@ -17,17 +17,22 @@ pub(super) fn series_near_zero(dag: &mut Dag, roots: &mut [Node]) {
     if !dag.has(roots, |kind| matches!(kind, Kind::Call(Op::ExpM1, _))) {
         return;
     }
+    let nodes = dag.reachable(roots);
+    let new = dag.map(nodes, |dag, node, new| {
+        let node = dag.rebuild(node, &|child| new[&child]);
+        let divisors: Vec<Node> = match dag.kind(node) {
+            Kind::Product(_, factors) => {
+                let below = factors.iter().filter(|(_, n)| *n < 0);
+                below.map(|(x, _)| *x).collect()
+            }
+            _ => return node,
+        };
+        divisors.into_iter().fold(node, |node, divisor| {
+            quotient(dag, node, divisor).unwrap_or(node)
+        })
+    });
     for root in roots {
-        *root = dag.substitute(*root, |dag, node| {
-            let divisors = match dag.kind(node) {
-                Kind::Product(_, factors) => factors.iter().filter(|(_, n)| *n < 0),
-                _ => return None,
-            };
-            let divisors: Vec<Node> = divisors.map(|(x, _)| *x).collect();
-            divisors
-                .into_iter()
-                .find_map(|divisor| quotient(dag, node, divisor))
-        });
+        *root = new[root];
     }
 }
 

@@ -31,10 +31,13 @@ pub(crate) use lines::are_along_other_lines;
 use products::is_between;
 pub(crate) use products::stem;
 
-/// The function that stands for the step of a sign, smooth and else arbitrary. No function of a definition has this
-/// number, nor one of the three below it, which stand for those of comparisons: their values are between 0 and 1. They
-/// differ, as signs and comparisons do at the step itself. Those from [`ROUNDED`] down stand for functions that round.
+/// The number of the function in the place of a sign, smooth and otherwise arbitrary.
+///
+/// Eight numbers are reserved, and no function of a definition has one of them. The three below this one are functions in
+/// the place of comparisons, with values between 0 and 1. They are distinct because signs and comparisons differ at the
+/// step itself. The four from [`ROUNDED`] down are in the place of functions that round.
 pub(crate) const STEP: u16 = u16::MAX;
+/// The highest number of a function in the place of one that rounds.
 pub(crate) const ROUNDED: u16 = STEP - 4;
 
 /// The regularity of a node.
@@ -201,6 +204,7 @@ impl Facts {
                 dag.for_children(node, |child| is_still &= facts.get(child).is_still);
             }
             let mut regular = facts.regular(dag, node, given);
+            regular.has_no_zero |= regular.is_continuous && is_between(dag, node);
             if is_still {
                 regular = Regular {
                     has_no_zero: regular.has_no_zero,
@@ -246,7 +250,6 @@ impl Facts {
                     is_analytic: all.is_analytic,
                     is_continuous: all.is_continuous,
                     is_lipschitz: all.is_lipschitz,
-                    has_no_zero: all.is_continuous && is_between(dag, node),
                     ..Regular::UNKNOWN
                 }
             }
@@ -352,8 +355,7 @@ impl Facts {
         let has_still_zeros = each().all(|term| term.has_no_moving_zero);
         Regular {
             is_projective,
-            has_no_zero: is_nonnegative && (!c.is_zero() || self.have_no_common_zero(dag, &nodes))
-                || all.is_continuous && is_between(dag, node),
+            has_no_zero: is_nonnegative && (!c.is_zero() || self.have_no_common_zero(dag, &nodes)),
             has_no_moving_zero: is_nonnegative && has_still_zeros,
             ..all
         }

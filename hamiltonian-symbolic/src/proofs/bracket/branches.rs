@@ -134,7 +134,7 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
             Kind::Select(..) => may_jump,
             Kind::Call(op, x) => {
                 let is_smooth = x.iter().all(|x| facts.get(*x).is_projective);
-                may_jump && is_smooth && (*op == Op::Sign || rounding(*op).is_some())
+                may_jump && is_smooth && stand_in(*op).is_some()
             }
             _ => false,
         }
@@ -152,15 +152,12 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
             let no = dag.mul(&[other, new[&no]]);
             dag.add(&[yes, no])
         }
-        Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
-            steps.push(x[0]);
-            let x = new[&x[0]];
-            dag.external(STEP, Partial::Value, &[x])
-        }
-        Kind::Call(op, ref x) if is_step(dag, node) => {
+        Kind::Call(op, ref x) => {
+            let Some(function) = stand_in(op).filter(|_| is_step(dag, node)) else {
+                return dag.rebuild(node, &|child| new[&child]);
+            };
             let (x, images) = (x.clone(), x.iter().map(|x| new[x]).collect::<Vec<_>>());
             steps.push(edge(dag, op, &x));
-            let function = ROUNDED - rounding(op).unwrap_or(0);
             dag.external(function, Partial::Value, &images)
         }
         _ => dag.rebuild(node, &|child| new[&child]),
@@ -168,14 +165,23 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
     (!steps.is_empty()).then(|| (new[&root], steps))
 }
 
-/// The number of a function that rounds among these.
-fn rounding(op: Op) -> Option<u16> {
-    let all = [Op::Floor, Op::Round, Op::Modulo, Op::Remainder];
-    all.iter().position(|of| *of == op).map(|at| at as u16)
+/// The reserved number of the smooth function in the place of one that jumps; `None` for other functions.
+fn stand_in(op: Op) -> Option<u16> {
+    match op {
+        Op::Sign => Some(STEP),
+        Op::Floor => Some(ROUNDED),
+        Op::Round => Some(ROUNDED - 1),
+        Op::Modulo => Some(ROUNDED - 2),
+        Op::Remainder => Some(ROUNDED - 3),
+        _ => None,
+    }
 }
 
-/// An expression that is 0 exactly where a function that rounds jumps.
+/// An expression that is 0 exactly where a sign or a function that rounds jumps.
 fn edge(dag: &mut Dag, op: Op, x: &[Node]) -> Node {
+    if op == Op::Sign {
+        return x[0];
+    }
     let turns = match *x {
         [x, y] => dag.div(x, y),
         _ => x[0],

@@ -3,8 +3,8 @@
 //!
 //! Input: expressions of a statement. Output: its rooms. A room is the number of rows before or after an element at a
 //! fixed index, a form over sizes that is not negative at all sizes the statement is about. For example, q\[2\] in an
-//! array of N rows has the room N − 3 behind it. Invariant: only elements that are read whatever the conditions and sizes
-//! are.
+//! array of N rows has the room N − 3 behind it. Invariant: only elements that are read for
+//! all conditions and sizes count.
 
 use crate::dag::{Array, Kind, Node};
 use crate::index::Affine;

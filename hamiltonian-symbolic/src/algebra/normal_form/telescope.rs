@@ -1,9 +1,9 @@
 //! Sums over parts of a range as differences of sums from 0 on: Σ over 1..n of f(i) is Σ over 0..n less f(0).
 //!
-//! Input: an expression. Output: one with the same values in which the range of each sum is `0..form`, with a form
-//! without a number, and the first element of its body has the index i; loops of a few iterations are written out. Invariant: an identity of sums over all
-//! sequences f, so that values at indices outside an array, which cancel, do not matter. Assumes that a range has its
-//! first value below its end or at it, for all sizes.
+//! Input: an expression. Output: one with the same values, in which each sum has the range `0..form`, with a form without
+//! a constant, and the first element of its body has the index i. Loops of a few iterations are written out. Invariant: an
+//! identity of sums over all sequences f. Values at indices outside an array cancel, so they do not matter. Assumes that
+//! no range ends before its first value, for all sizes.
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index};

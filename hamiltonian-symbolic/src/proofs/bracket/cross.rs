@@ -342,8 +342,10 @@ impl Claim {
         Some(tidy.certificate(model, vec![Rule::NormalForm, rule], &given, &[]))
     }
 
-    /// Returns true if a rule applies for every H that has smooth functions in the place of its steps: an
-    /// orbit of H with steps is a limit of such orbits. Assumes a statement without steps.
+    /// The certificate of a rule that applies to every H with smooth functions in the place of its steps; `None` if H has
+    /// no steps or no rule applies.
+    ///
+    /// Orbits of H with steps are limits of orbits of such H. Assumes a statement without steps.
     fn passes_without_steps(&self, model: &mut Model) -> Option<Certificate> {
         let given = branches::known(&mut model.dag, &[self.h]);
         let (h, steps) = branches::smoothed(model, self.h, &given)?;

@@ -1,6 +1,6 @@
 //! Expressions of linear forms, such as 1/(x − y)² and 1/(x + y)², which move other degrees of freedom.
 //!
-//! Input: terms of H. Output: whether all but the first have no part in the motion of the form of the first. Invariant:
+//! Input: terms of H. Output: true if only the first one moves the linear form of the first. Invariant:
 //! as for terms of different coordinates, after a linear change of the coordinates.
 
 use crate::dag::{Array, Dag, Kind, Node, Side};

@@ -1,8 +1,8 @@
 //! Walls at fixed indices, such as q[0] = 0 under a sum of 1/q[i]² over all i.
 //!
-//! Input: H, and an expression of elements at fixed indices. Output: whether it is that of an iteration of a loop of
-//! H in which each iteration has its wall. Invariant: the iteration takes place for all sizes for which the elements
-//! are there.
+//! Input: H, and an expression of elements at fixed indices. Output: true if it is the wall of one iteration
+//! of a loop of H in which each iteration has a wall. Invariant: the iteration takes place for all sizes for which the
+//! elements exist.
 
 use super::walls::{self, At};
 use crate::dag::{Dag, Dependence, Node};

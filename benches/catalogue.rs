@@ -105,7 +105,7 @@ impl Bench {
             let (system, start) = make(Member::new(index, 0));
             Integrator::new(&system, scheme.clone(), start, h)
                 .expect("a good start")
-                .lanes(false)
+                .with_lanes(false)
         };
         let mut singles: Vec<_> = (0..16).map(alone).collect();
         let ends: Vec<_> = (0..MEMBERS)
@@ -120,7 +120,7 @@ impl Bench {
             let swarm = || {
                 Ensemble::new(MEMBERS, make, scheme.clone(), h)
                     .expect("members")
-                    .threads(1)
+                    .with_threads(1)
             };
             let (mut fast, mut exact) = (swarm(), swarm().reproducible());
             fast.advance(STEPS);
@@ -189,12 +189,12 @@ fn main() {
         CheapProcessed4::default(),
         WisdomHolman3::default(), WisdomHolman5::default(), WisdomHolman7::default(), WisdomHolman11::default(),
         WisdomHolman17::default(), Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst,
-        TwoStepMidpoint { start: Start::Equal }, TwoStepMidpoint { start: Start::HalfEuler },
-        TwoStepMidpoint { start: Start::SecondOrder }, ConsecutiveSubTrajectories { start: Start::Equal },
-        ConsecutiveSubTrajectories { start: Start::HalfEuler },
-        ConsecutiveSubTrajectories { start: Start::SecondOrder },
-        IntersectingSubTrajectories { start: Start::Equal }, IntersectingSubTrajectories { start: Start::HalfEuler },
-        IntersectingSubTrajectories { start: Start::SecondOrder }, ImplicitMidpoint::default(),
+        TwoStepMidpoint::default().with_start(Start::Equal), TwoStepMidpoint::default().with_start(Start::HalfEuler),
+        TwoStepMidpoint::default().with_start(Start::SecondOrder), ConsecutiveSubTrajectories::default().with_start(Start::Equal),
+        ConsecutiveSubTrajectories::default().with_start(Start::HalfEuler),
+        ConsecutiveSubTrajectories::default().with_start(Start::SecondOrder),
+        IntersectingSubTrajectories::default().with_start(Start::Equal), IntersectingSubTrajectories::default().with_start(Start::HalfEuler),
+        IntersectingSubTrajectories::default().with_start(Start::SecondOrder), ImplicitMidpoint::default(),
         Tao::default(), Mixed::<Strang>::default(), MidpointProjected::<Strang>::default(),
         Semiexplicit::<Strang>::default(),
     }

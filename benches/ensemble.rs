@@ -248,10 +248,7 @@ fn main() {
         members(Gauss::<4>::default());
         members(GaussNystrom::<4>::default());
         members(BlanesMoan6);
-        members(Paced {
-            scheme: BlanesMoan6,
-            density: Swing,
-        });
+        members(Paced::new(BlanesMoan6, Swing));
     }
     std::process::exit(i32::from(failed));
 }
@@ -284,14 +281,17 @@ fn members<M: Scheme<Pendulum>>(scheme: M) {
     let (mut alone, mut together) = (Duration::MAX, Duration::MAX);
     for _ in 0..5 {
         let run = Integrator::new(&Pendulum::default(), scheme.clone(), start(0), STEP);
-        let mut run = run.expect("a run begins").lanes(false);
+        let mut run = run.expect("a run begins").with_lanes(false);
         let began = Instant::now();
         run.advance(STEPS * COUNT as u64)
             .expect("every step is solved");
         alone = alone.min(began.elapsed());
         let member = |member: Member| (Pendulum::default(), start(member.index));
         let swarm = Ensemble::new(COUNT, member, scheme.clone(), STEP);
-        let mut swarm = swarm.expect("an ensemble begins").threads(1).reproducible();
+        let mut swarm = swarm
+            .expect("an ensemble begins")
+            .with_threads(1)
+            .reproducible();
         let began = Instant::now();
         swarm.advance(STEPS);
         together = together.min(began.elapsed());

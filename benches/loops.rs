@@ -358,7 +358,7 @@ where
     }
     let mut runs = [1, 2].map(|threads| {
         let run = Integrator::new(system, StormerVerlet::default(), start.clone(), harness::H);
-        run.unwrap().threads(threads)
+        run.unwrap().with_threads(threads)
     });
     threads::compare(name, 20, |k| _ = runs[k].advance(steps).unwrap());
     let [one, two] = runs;

@@ -139,7 +139,7 @@ fn seconds(work: impl FnOnce()) -> f64 {
 
 /// Prints how many times as fast two threads are as one, and how much CPU time they take.
 fn compare_threads(swarm: impl Fn() -> Ensemble<Pendulum, StormerVerlet>) {
-    let mut swarms = [swarm().threads(1), swarm().threads(2)];
+    let mut swarms = [swarm().with_threads(1), swarm().with_threads(2)];
     threads::compare("pendulums", 20, |k| {
         swarms[k].advance(4 * STEPS);
     });
@@ -183,7 +183,7 @@ fn main() {
         let swarm = |make: &dyn Fn(Member) -> (Pendulum, StateOf<Pendulum>)| {
             Ensemble::new(COUNT, make, scheme(), STEP)
                 .expect("there are members")
-                .threads(1)
+                .with_threads(1)
         };
         let mut all = [
             ("set-up", swarm(&plain)),
@@ -194,7 +194,7 @@ fn main() {
         let mut exact = swarm(&plain).reproducible();
         let mut timed = Ensemble::new(COUNT, pushed, scheme(), STEP)
             .expect("there are members")
-            .threads(1);
+            .with_threads(1);
         let (mut q, mut p): (Vec<f64>, Vec<f64>) = (0..COUNT).map(|k| start(k).into()).unzip();
         let mut most = vec![0.0; COUNT];
         let mut least = [f64::INFINITY; 11];
@@ -236,8 +236,8 @@ fn main() {
             });
             times[9] = seconds(|| {
                 let rates = Lyapunov::new(COUNT, plain, scheme(), STEP)
-                    .steps(STEPS)
-                    .threads(1)
+                    .with_steps(STEPS)
+                    .with_threads(1)
                     .collect();
                 black_box(rates.expect("there are members"));
             });

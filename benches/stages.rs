@@ -125,7 +125,7 @@ fn compare<Y, M>(
     for _ in 0..ROUNDS {
         let measured = [
             timed(|| former(system, start, h, n)),
-            run(|run| run.lanes(false)),
+            run(|run| run.with_lanes(false)),
             run(|run| run),
             run(|run| run.fused()),
         ];

@@ -74,9 +74,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         BlanesMoan4,
         step,
     )
-    .steps(STEPS * PERIODS)
+    .with_steps(STEPS * PERIODS)
     .reproducible()
-    .progress(|done, of| eprint!("\r{done} of {of} starts"))
+    .with_progress(|done, of| eprint!("\r{done} of {of} starts"))
     .record(["theta", "p"], |end| {
         [wrapped(end.state.q[0]), end.state.p[0]]
     });

@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let step = d / 4.0;
     let cores = std::thread::available_parallelism()?.get();
     let mut run = Integrator::new(&field, StormerVerlet::default(), start, step)?
-        .threads(cores)
+        .with_threads(cores)
         .observe(every(10, EnergyDrift::new()));
     let mut checks = Checks::default();
     let mut frames = Vec::new();

@@ -40,11 +40,11 @@ fn start(y: f64, p_y: f64) -> Option<StateOf<HenonHeiles>> {
 fn map(starts: &[StateOf<HenonHeiles>], stop: &AtomicBool) -> Result<Vec<f64>, Error> {
     let member = |member: Member| (HenonHeiles {}, starts[member.index].clone());
     let all = Lyapunov::new(starts.len(), member, BlanesMoan4, STEP)
-        .steps(STEPS)
-        .every(16)
+        .with_steps(STEPS)
+        .with_interval(16)
         .reproducible()
-        .cancel(stop)
-        .progress(|done, of| eprint!("\r{done} of {of} starts"))
+        .with_cancel(stop)
+        .with_progress(|done, of| eprint!("\r{done} of {of} starts"))
         .megno()?;
     eprintln!();
     all.into_iter().collect()

@@ -215,8 +215,14 @@ fn far<S: Split + Exact + Unforced + Display>(
     let mut contest = Contest::new(system, start, FAR_STEP, FAR_END);
     let start = Start::Equal;
     contest.every = 7;
-    contest.enter("scheme 1, (26)", ConsecutiveSubTrajectories { start })?;
-    let crossing = contest.enter("scheme 2, (33)", IntersectingSubTrajectories { start })?;
+    contest.enter(
+        "scheme 1, (26)",
+        ConsecutiveSubTrajectories::default().with_start(start),
+    )?;
+    let crossing = contest.enter(
+        "scheme 2, (33)",
+        IntersectingSubTrajectories::default().with_start(start),
+    )?;
     let [doubled, midpoint] = contest.enter_others()?;
     let strang = contest.enter("exact flows, Strang", Strang)?;
     let fourth = contest.enter("exact flows, Yoshida 4", Yoshida4)?;

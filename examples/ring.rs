@@ -137,7 +137,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         BlanesMoan6,
         1.0 / STEPS as f64,
     )
-    .steps(TURNS * STEPS)
+    .with_steps(TURNS * STEPS)
     .each(STEPS, |_, state| {
         let [x, p] = kick([state.q[0], state.p[0]]);
         (state.q[0], state.p[0]) = (x, p);

@@ -142,7 +142,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         every(40, (EnergyDrift::new(), Recorder::new())),
     );
     let mut run = Integrator::new(&stars, StormerVerlet::default(), start, STEP)?
-        .threads(cores)
+        .with_threads(cores)
         .observe(observers);
     run.advance(PICTURE)?;
     picture(run.state(), n).write("target/stars/merger.svg")?;

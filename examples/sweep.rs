@@ -39,10 +39,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         BlanesMoan4,
         0.05,
     )
-    .until(100.0)
-    .shard(Shard::from_env()?)
-    .cancel(&stop)
-    .progress(|done, of| eprint!("\r{done} of {of} members"))
+    .with_end(100.0)
+    .with_shard(Shard::from_env()?)
+    .with_cancel(&stop)
+    .with_progress(|done, of| eprint!("\r{done} of {of} members"))
     .record(["theta", "p"], |end| [end.state.q[0], end.state.p[0]]);
     let stored = sweep.store("target/sweep.zarr")?;
     eprintln!();
@@ -64,7 +64,7 @@ fn draw(members: usize) -> Result<(), Error> {
         BlanesMoan4,
         0.05,
     )
-    .until(100.0)
+    .with_end(100.0)
     .record(["theta", "p"], |end| [end.state.q[0], end.state.p[0]]);
     let points = sweep.fold(Vec::new(), |mut points, row| {
         let (_, begin) = start(row.index, members);

@@ -319,7 +319,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         entries: Vec::new(),
     };
     race.enter_all();
-    race.enter("Tao, ω = 20", Tao { omega: 20.0 }, 1);
+    race.enter("Tao, ω = 20", Tao::default().with_omega(20.0), 1);
     race.finish(&mut checks, "paper34")?;
 
     let system = Schwarzschild::default();
@@ -338,7 +338,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         entries: Vec::new(),
     };
     race.enter_all();
-    race.enter("Tao, ω = 0.1", Tao { omega: 0.1 }, 1);
+    race.enter("Tao, ω = 0.1", Tao::default().with_omega(0.1), 1);
     race.finish(&mut checks, "schwarzschild")?;
 
     println!("\nStrang in declared pieces, and in those that the macro finds:");

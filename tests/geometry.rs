@@ -47,7 +47,7 @@ fn on_systems_that_are_not_separable() {
     let mut geometry = Geometry::new(DoublePendulum::default(), &q, &p, 0.05);
     visit_any(&mut geometry);
     visit_unforced(&mut geometry);
-    geometry.visit(Tao { omega: 10.0 });
+    geometry.visit(Tao::default().with_omega(10.0));
 }
 
 /// The wrong forms are not preserved: the checks can fail.
@@ -64,7 +64,7 @@ fn negative_controls() {
     let (worst, size) = defect(&columns, crossed(1));
     assert!(worst > 1e-10 * size, "(29), crossed: {worst:e} of {size:e}");
     // The visible state of bound copies is no symplectic map either.
-    let columns = visible_tangent(&system, &Tao { omega: 10.0 }, &start, 0.05, 3);
+    let columns = visible_tangent(&system, &Tao::default().with_omega(10.0), &start, 0.05, 3);
     let (worst, size) = defect(&columns, one_point(1));
     assert!(worst > 1e-10 * size, "bound: {worst:e} of {size:e}");
     // Two points, each with its own momentum.

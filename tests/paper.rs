@@ -87,9 +87,7 @@ fn copies_of_29_part_on_34() {
 fn scheme_33_with_half_euler_start_is_29() {
     book_says("equals the copy (q̃, p) of (29) to 1e-12 over 2000 steps");
     let system = Paper34::default();
-    let scheme = IntersectingSubTrajectories {
-        start: Start::HalfEuler,
-    };
+    let scheme = IntersectingSubTrajectories::default().with_start(Start::HalfEuler);
     let mut intersecting = Integrator::new(&system, scheme, on_paper34(), 1e-3).unwrap();
     let mut pihajoki = Integrator::new(&system, Pihajoki::default(), on_paper34(), 1e-3).unwrap();
     let mut worst = [0.0_f64; 2];
@@ -147,7 +145,7 @@ fn starts_of_33_on_the_pendulum() {
     );
     let system = Pendulum::default();
     let at = |start, t| {
-        let scheme = IntersectingSubTrajectories { start };
+        let scheme = IntersectingSubTrajectories::default().with_start(start);
         drift(&system, scheme, on_pendulum(), 1e-3, t)
     };
     let equal = at(Start::Equal, 50.0);
@@ -178,7 +176,7 @@ fn scheme_26_advances_two_steps() {
     let mut consecutive = Integrator::new(&system, scheme, on_pendulum(), 5e-4).unwrap();
     let scheme = IntersectingSubTrajectories::default();
     let mut intersecting = Integrator::new(&system, scheme, on_pendulum(), 1e-3).unwrap();
-    assert_eq!(consecutive.interval(), 1e-3);
+    assert_eq!(consecutive.duration(), 1e-3);
     let ends = (consecutive.advance(1000), intersecting.advance(1000));
     assert_eq!(ends.0.unwrap(), ends.1.unwrap());
     assert_eq!(consecutive.time(), 1.0);

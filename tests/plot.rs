@@ -50,7 +50,7 @@ fn one_line_draws_each_common_picture() {
 /// A pendulum that turns over: the curve is cut where the angle jumps, and only there.
 #[test]
 fn wrapped_angles_are_not_joined_across() {
-    let recorder = recorded(300.0, Recorder::new().wrap("theta"));
+    let recorder = recorded(300.0, Recorder::new().with_wrapped("theta"));
     let portrait = Figure::phase_portrait(&recorder, "theta", "p").unwrap();
     let cuts = portrait.curves[0]
         .points

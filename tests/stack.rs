@@ -27,7 +27,7 @@ fn members_advance_on_one_thread_and_on_several() {
     for threads in [1, 2] {
         let ends = on_a_small_stack(move || -> Result<Vec<f64>, Error> {
             let swarm = Ensemble::new(100, start, StormerVerlet::default(), 0.01)?;
-            let mut swarm = swarm.threads(threads).observe(|_| {
+            let mut swarm = swarm.with_threads(threads).observe(|_| {
                 let bottom = Event::named("bottom");
                 (EnergyDrift::new(), Events::new([bottom]))
             });
@@ -46,14 +46,16 @@ fn members_advance_on_one_thread_and_on_several() {
 #[test]
 fn sweeps_and_exponents_are_computed() -> Result<(), Error> {
     let rows = on_a_small_stack(|| {
-        let sweep = Sweep::new(100, start, StormerVerlet::default(), 0.01).steps(200);
-        let sweep = sweep.threads(1).record(["theta"], |end| [end.state.q[0]]);
+        let sweep = Sweep::new(100, start, StormerVerlet::default(), 0.01).with_steps(200);
+        let sweep = sweep
+            .with_threads(1)
+            .record(["theta"], |end| [end.state.q[0]]);
         sweep.fold(0, |rows, _| rows + 1)
     })?;
     assert_eq!(rows, 100);
     let exponents = on_a_small_stack(|| {
         let all = Lyapunov::new(20, start, StormerVerlet::default(), 0.01);
-        all.steps(200).threads(1).collect()
+        all.with_steps(200).with_threads(1).collect()
     })?;
     assert_eq!(exponents.len(), 20);
     Ok(())

@@ -60,7 +60,7 @@ where
     let name = scheme.entry();
     let run = |lanes| {
         let run = Integrator::new(system, scheme.clone(), start.clone(), h).unwrap();
-        let mut run = run.lanes(lanes);
+        let mut run = run.with_lanes(lanes);
         run.advance(40).unwrap();
         let between = run.state_at(run.time() + 0.3 * h).unwrap();
         run.advance(3).unwrap();
@@ -144,7 +144,7 @@ fn lanes_change_no_bits_in_another_time() {
         let end = |fused, lanes| {
             let start = system.start(&declared).unwrap();
             let run = Integrator::new(&system, Gauss::<8>::default(), start, 0.1).unwrap();
-            let mut run = if fused { run.fused() } else { run }.lanes(lanes);
+            let mut run = if fused { run.fused() } else { run }.with_lanes(lanes);
             run.advance(200).unwrap();
             run.state().q.x[0]
         };
@@ -163,7 +163,7 @@ fn lanes_change_no_bits_in_another_time() {
         );
         let start = system.start(&start).unwrap();
         let run = Integrator::new(&system, Gauss::<8>::default(), start, Dual::fixed(0.1));
-        let mut run = run.unwrap().lanes(lanes);
+        let mut run = run.unwrap().with_lanes(lanes);
         run.advance(30).unwrap();
         run.state().q.x[0]
     };
@@ -174,7 +174,7 @@ fn lanes_change_no_bits_in_another_time() {
     whole.advance(20).unwrap();
     let saved = Checkpoint::from_bytes(&whole.checkpoint().to_bytes()).unwrap();
     let again = Integrator::resume(&system, Gauss::<8>::default(), saved).unwrap();
-    let mut again = again.lanes(false);
+    let mut again = again.with_lanes(false);
     again.advance(20).unwrap();
     whole.advance(20).unwrap();
     assert_eq!(again.state(), whole.state());
@@ -192,7 +192,7 @@ fn steps_that_need_newtons_method_have_the_same_bits() {
     let fails = |lanes| {
         let scheme = GaussNystrom::<8>::default();
         let run = Integrator::new(&stiff, scheme, start.clone(), 0.2).unwrap();
-        run.lanes(lanes).advance(100).unwrap_err()
+        run.with_lanes(lanes).advance(100).unwrap_err()
     };
     assert!(matches!(
         fails(true),
@@ -209,7 +209,7 @@ fn tangents_have_the_same_bits() {
         let start = State::over([Dual::variable(-1.2)], [Dual::fixed(0.4)]);
         let (scheme, h) = (Gauss::<8>::default(), Dual::fixed(0.2));
         let run = Integrator::new(&NonSeparable {}, scheme, start, h).unwrap();
-        let mut run = run.lanes(lanes);
+        let mut run = run.with_lanes(lanes);
         run.advance(30).unwrap();
         let State { q, p, .. } = run.state().clone();
         [q[0].re, q[0].eps, p[0].re, p[0].eps]
@@ -246,7 +246,7 @@ fn fused_runs_differ_by_rounding_and_are_saved_as_such() {
     fused.advance(200).unwrap();
     assert_eq!(again.state(), fused.state());
     // Without lanes nothing fuses.
-    let (mut alone, mut plain) = (new().fused().lanes(false), new());
+    let (mut alone, mut plain) = (new().fused().with_lanes(false), new());
     alone.advance(200).unwrap();
     plain.advance(200).unwrap();
     assert_eq!(alone.state(), plain.state());

@@ -32,7 +32,7 @@ where
     }
     let mut run = Integrator::new(system, scheme, start, 0.01)
         .unwrap()
-        .lanes(lanes);
+        .with_lanes(lanes);
     if fused {
         run = run.fused();
     }

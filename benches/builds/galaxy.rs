@@ -19,7 +19,7 @@ fn main() -> Result<(), Error> {
         )
     };
     for step in [0.02, 0.01] {
-        let sweep = Sweep::new(1_000, star, BlanesMoan4, step).until(20.0);
+        let sweep = Sweep::new(1_000, star, BlanesMoan4, step).with_end(20.0);
         let table = sweep
             .record(["x", "y"], |end| [end.state.q[0], end.state.q[1]])
             .collect()?;
@@ -30,7 +30,7 @@ fn main() -> Result<(), Error> {
         start.p[1] *= 0.5;
         (system, start)
     };
-    let sweep = Sweep::new(1_000, slow, BlanesMoan4, 0.01).until(20.0);
+    let sweep = Sweep::new(1_000, slow, BlanesMoan4, 0.01).with_end(20.0);
     let table = sweep.record(["z"], |end| [end.state.q[2]]).collect()?;
     println!("{} slow stars", table.rows());
     Ok(())

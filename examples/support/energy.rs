@@ -61,7 +61,7 @@ impl<'a, S: System> Contest<'a, S> {
             }
         });
         let mut run = run.observe(every(self.every, look));
-        let steps = (self.end / run.interval()).round() as u64;
+        let steps = (self.end / run.duration()).round() as u64;
         let begin = Instant::now();
         let broken = match run.advance(steps) {
             Ok(_) => false,

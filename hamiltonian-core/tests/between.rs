@@ -84,7 +84,7 @@ fn roots_of_events_by_parts_of_steps() {
 /// A part that fails says so; the run stands where it stood.
 #[test]
 fn parts_fail_like_steps() {
-    let scheme = ImplicitMidpoint { max_iterations: 3 };
+    let scheme = ImplicitMidpoint::default().with_max_iterations(3);
     let start = State::new([1.0], [0.3]);
     let run = Integrator::new(&Hand(Paper34), scheme, start.clone(), 0.5).unwrap();
     match run.state_at(0.3).unwrap_err() {
@@ -166,7 +166,7 @@ fn a_changed_step_makes_a_new_copy() {
 fn observers_end_runs() {
     let new = || {
         let run = Integrator::new(&Hand(HenonHeiles), Strang, begin(), 0.01).unwrap();
-        run.watch(5, |view: &View<'_, f64, Heiles>| match view.step {
+        run.watch(5, |view: &View<'_, f64, Heiles>| match view.steps {
             40 => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
         })

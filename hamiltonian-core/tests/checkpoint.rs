@@ -136,7 +136,7 @@ fn another_run_is_refused() {
     let found = Integrator::<f32, _, _>::resume_over(&system, Strang, saved());
     assert_eq!(other(found).as_deref(), Some("scalar"));
     // Choices of a scheme are part of it.
-    let [few, many] = [20, 30].map(|max_iterations| ImplicitMidpoint { max_iterations });
+    let [few, many] = [20, 30].map(|most| ImplicitMidpoint::default().with_max_iterations(most));
     let run = Integrator::new(&system, few, State::new([0.3], [0.1]), 0.01).unwrap();
     let found = Integrator::resume(&system, many, run.checkpoint());
     assert_eq!(other(found).as_deref(), Some("scheme"));
@@ -175,7 +175,7 @@ fn another_run_is_refused() {
         Recorder::new(),
         Recorder::new().with_energy(),
         Recorder::of(["t", "theta"]),
-        Recorder::new().wrap("theta"),
+        Recorder::new().with_wrapped("theta"),
     ];
     let what = "list of columns";
     for other in 1..4 {
@@ -333,7 +333,7 @@ fn a_run_saves_itself_and_is_not_changed_by_it() {
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("run.saved");
     let mut plain = new().observe(observers());
-    let mut saving = new().checkpoint_every(7, &path).observe(observers());
+    let mut saving = new().with_checkpoints(7, &path).observe(observers());
     let mut seen = Vec::new();
     for _ in 0..10 {
         plain.advance(5).unwrap();
@@ -353,7 +353,7 @@ fn a_run_saves_itself_and_is_not_changed_by_it() {
     assert_eq!(Checkpoint::load(&path).unwrap().steps(), 49);
     // A file that cannot be written: the run stands after the step and goes on.
     let nowhere = folder.join("missing").join("run.saved");
-    let mut failing = new().checkpoint_every(4, &nowhere).observe(observers());
+    let mut failing = new().with_checkpoints(4, &nowhere).observe(observers());
     let error = failing.advance(6).unwrap_err();
     assert!(matches!(
         error,

@@ -254,7 +254,7 @@ fn other_pieces_are_refused() -> Result<(), Error> {
     shows_both(resumed.map(|_| ()).expect_err("other pieces"));
     let path = std::env::temp_dir().join(format!("pieces-{}.zarr", std::process::id()));
     let sweep = |system: &Springs| {
-        let sweep = Sweep::new(3, make(system), Strang, 0.01).steps(5);
+        let sweep = Sweep::new(3, make(system), Strang, 0.01).with_steps(5);
         sweep.record(["x"], |end| [end.state.q[0]]).store(&path)
     };
     sweep(&system)?;

@@ -58,7 +58,7 @@ fn check<H, M, const N: usize>(
     let mut carried = Scheme::start(scheme, &prepared, &dead, Four([h; 4]));
     let map = Scheme::prepare(scheme, &prepared, Step::of(Four([h; 4])));
     let mut work = Scratch::like(&carried);
-    let clock = Clock::new(Four([0.0; 4]), run.interval());
+    let clock = Clock::new(Four([0.0; 4]), run.duration());
     map.run(clock, 0, 700, &mut carried, &mut work);
     map.close(clock.at(700), &mut carried, &mut work);
     let point = hamiltonian_core::schemes::author::Carried::point(&carried);
@@ -117,7 +117,7 @@ fn lanes_are_lone_runs() {
 /// A solve that fails in one lane says so of that one, and leaves the others' bits as they are.
 #[test]
 fn a_solve_fails_in_its_lane_alone() {
-    let scheme = ImplicitMidpoint { max_iterations: 40 };
+    let scheme = ImplicitMidpoint::default().with_max_iterations(40);
     let start = lanes([[0.4, 9.0, 0.05, 0.8]], [[0.3, 5.0, -0.02, -0.5]]);
     let step = Four([0.05; 4]);
     let mut run = Integrator::new(&Hand(Paper34), scheme, start.clone(), step).unwrap();

@@ -24,7 +24,7 @@ struct Steps(Vec<u64>);
 
 impl<S: System> Observer<f64, S> for Steps {
     fn observe(&mut self, view: &View<'_, f64, S>) -> ControlFlow<()> {
-        self.0.push(view.step);
+        self.0.push(view.steps);
         ControlFlow::Continue(())
     }
 }
@@ -274,7 +274,7 @@ fn closures_watch_beside_an_observer() {
     let mut watched = run();
     watched.advance(5).unwrap();
     let mut watched = watched
-        .watch(3, |view| seen.push((view.step, view.state.q[0])))
+        .watch(3, |view| seen.push((view.steps, view.state.q[0])))
         .watch(0, |_| others += 1);
     alone.advance(11).unwrap();
     watched.advance(6).unwrap();

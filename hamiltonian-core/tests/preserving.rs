@@ -96,11 +96,7 @@ fn orbits_of_34_are_jacobis_cosine() {
 fn mixing_holds_the_copies_together() {
     fn distance(coordinates: f64, momenta: f64) -> f64 {
         let system = Hand(Paper34);
-        let scheme = Mixed {
-            table: Strang,
-            coordinates,
-            momenta,
-        };
+        let scheme = Mixed::new(Strang).with_weights(coordinates, momenta);
         let start = State::new([-3.0], [0.0]);
         let mut run = Integrator::new(&system, scheme, start, 1e-3).expect("a good start");
         run.advance(4_000).expect("good steps");
@@ -260,10 +256,7 @@ fn variable_steps_of_keplers_problem_do_not_drift() {
         }
     }
     let end = f64::from(periods) * std::f64::consts::TAU;
-    let paced = Paced {
-        scheme: StormerVerlet::default(),
-        density: Close,
-    };
+    let paced = Paced::new(StormerVerlet::default(), Close);
     let (errors, steps) = tenths(paced, 1e-3, end);
     println!("{errors:?} with {} steps a period", steps / periods as u64);
     let largest = errors.iter().copied().fold(0.0, f64::max);
@@ -278,10 +271,7 @@ fn variable_steps_of_keplers_problem_do_not_drift() {
 /// Any time is reached by a part of a step, whatever the steps' durations; times of one are no steps.
 #[test]
 fn any_time_with_variable_steps() {
-    let scheme = Paced {
-        scheme: Suzuki4,
-        density: Close,
-    };
+    let scheme = Paced::new(Suzuki4, Close);
     let fine = |t: f64| {
         let mut run =
             Integrator::new(&Hand(Kepler), KahanLi8, kepler_start(), t / 65536.0).unwrap();
@@ -329,10 +319,7 @@ fn any_time_with_variable_steps() {
 fn variable_steps_return() {
     let system = Hand(Kepler);
     let prepared = System::prepare::<f64>(&system);
-    let scheme = Paced {
-        scheme: Suzuki4,
-        density: Close,
-    };
+    let scheme = Paced::new(Suzuki4, Close);
     let mut carried = Scheme::<Hand<Kepler, 2>>::start(&scheme, &prepared, &kepler_start(), 2e-3);
     let begin = carried.clone();
     for h in [2e-3, -2e-3] {

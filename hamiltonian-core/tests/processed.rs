@@ -41,7 +41,7 @@ fn a_kernel_alone_has_order_2() {
         let processor = Idle;
         slope(
             &Hand(Pumped),
-            Processed { kernel, processor },
+            Processed::new(kernel, processor),
             &[0.9],
             &[0.4],
         )
@@ -101,10 +101,7 @@ fn a_cheap_post_processor_is_off_by_its_order_and_no_bit_is_carried() {
         assert!((4.95..6.0).contains(&order), "{order}");
         is(4.0, slope(system, CheapProcessed4::default(), q, p));
         // ρ alone is no processor: the control.
-        let alone = Processed {
-            kernel: Kernel4,
-            processor: CheapProcessed4::default().mean_of,
-        };
+        let alone = Processed::new(Kernel4, *CheapProcessed4::default().mean_of());
         is(3.0, slope(system, alone, q, p));
     }
     holds(&Hand(Polar::<3>), &[0.4, 0.7], &[0.2, 0.15]);
@@ -206,11 +203,11 @@ fn steps_of_different_sizes_follow_each_other() {
 fn adjoints_of_adjoints_are_the_scheme() {
     let scheme = Processed6::default();
     let twice = scheme.adjoint().adjoint();
-    assert_eq!(scheme.kernel.stages(), twice.kernel.stages());
-    assert_eq!(scheme.processor.stages(), twice.processor.stages());
+    assert_eq!(scheme.kernel().stages(), twice.kernel().stages());
+    assert_eq!(scheme.processor().stages(), twice.processor().stages());
     assert_ne!(
-        scheme.processor.stages(),
-        scheme.adjoint().processor.stages()
+        scheme.processor().stages(),
+        scheme.adjoint().processor().stages()
     );
 }
 

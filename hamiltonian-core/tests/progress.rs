@@ -59,7 +59,7 @@ fn it_counts_from_where_it_is_attached() {
 #[test]
 fn the_bar_of_a_run_that_ends_is_left() {
     let end = watch(
-        |view: &hamiltonian_core::View<'_, f64, _>| match view.step {
+        |view: &hamiltonian_core::View<'_, f64, _>| match view.steps {
             60 => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
         },

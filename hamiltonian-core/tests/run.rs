@@ -142,7 +142,7 @@ fn bad_starts_and_steps_are_refused() {
 /// A step too long for the iteration is an error with its residual.
 #[test]
 fn a_failed_solve_is_reported() {
-    let scheme = ImplicitMidpoint { max_iterations: 9 };
+    let scheme = ImplicitMidpoint::default().with_max_iterations(9);
     let start = State::new([1.0], [0.3]);
     let mut run = Integrator::new(&Hand(Paper34), scheme, start.clone(), 0.5).unwrap();
     match run.advance(3).unwrap_err() {
@@ -170,10 +170,16 @@ fn limits_of_iterations_are_kept() {
         }
     }
     for most in 1..=3 {
-        stopped(Gauss::<2>::default().at_most(most), most);
-        stopped(Variational::<2, 2>::gauss().at_most(most), most);
-        stopped(Variational::<2, 3>::lobatto().at_most(most), most);
-        stopped(Variational::<2, 2>::lobatto().at_most(most), most);
+        stopped(Gauss::<2>::default().with_max_iterations(most), most);
+        stopped(Variational::<2, 2>::gauss().with_max_iterations(most), most);
+        stopped(
+            Variational::<2, 3>::lobatto().with_max_iterations(most),
+            most,
+        );
+        stopped(
+            Variational::<2, 2>::lobatto().with_max_iterations(most),
+            most,
+        );
     }
     // The control.
     let start = State::new([1.0], [0.3]);

@@ -85,15 +85,15 @@ pub fn on_the_double_pendulum(scheme: impl Scheme<Hand<DoublePendulum, 2>>, step
 
 #[test]
 fn doubled_schemes_have_their_order() {
-    on_34(Tao { omega: 10.0 }, 32);
-    on_34(Yoshida6.of(Tao { omega: 3.0 }), 32);
+    on_34(Tao::default().with_omega(10.0), 32);
+    on_34(Yoshida6.of(Tao::default().with_omega(3.0)), 32);
     on_34(MidpointProjected::<Suzuki4>::default(), 16);
     on_34(MidpointProjected::<BlanesMoan6>::default(), 8);
     on_34(MidpointProjected::<SofroniouSpaletta10>::default(), 4);
     on_34(Semiexplicit::<Strang>::default(), 16);
     on_34(Semiexplicit::<BlanesMoan4>::default(), 16);
     on_34(Semiexplicit::<KahanLi8>::default(), 8);
-    on_the_double_pendulum(Tao { omega: 10.0 }, 32);
+    on_the_double_pendulum(Tao::default().with_omega(10.0), 32);
     on_the_double_pendulum(MidpointProjected::<KahanLi8>::default(), 8);
     on_the_double_pendulum(Semiexplicit::<KahanLi6>::default(), 8);
 }
@@ -129,8 +129,8 @@ fn figures_of_the_papers_34() {
     assert!(drift_34(Semiexplicit::<Yoshida6>::default(), 0.1) <= 3.7e-6);
     assert!(drift_34(Semiexplicit::<KahanLi6>::default(), 0.1) <= 1.4e-7);
     assert!(drift_34(Gauss::<2>::default(), 0.1) <= 4.7e-5);
-    assert!((drift_34(Tao { omega: 20.0 }, 0.1) - 0.079).abs() <= 0.0005);
-    assert!(drift_34(Tao { omega: 20.0 }, 0.01) <= 6.3e-4);
+    assert!((drift_34(Tao::default().with_omega(20.0), 0.1) - 0.079).abs() <= 0.0005);
+    assert!(drift_34(Tao::default().with_omega(20.0), 0.01) <= 6.3e-4);
 }
 
 pub fn symplectic<M>(scheme: M)

@@ -185,7 +185,7 @@ fn an_unknown_column_is_the_error_of_the_run() {
     let start = || State::new([0.7], [0.0]);
     for (recorder, place) in [
         (Recorder::of(["t", "hight"]), "hight"),
-        (Recorder::new().wrap("hight"), "hight"),
+        (Recorder::new().with_wrapped("hight"), "hight"),
     ] {
         let mut run = Integrator::new(&pendulum(true), StormerVerlet::default(), start(), 0.01)
             .unwrap()
@@ -211,7 +211,7 @@ fn angles_are_wrapped_by_name() {
         run.into_observer()
     };
     let plain = turning(Recorder::new());
-    let wrapped = turning(Recorder::new().wrap("theta"));
+    let wrapped = turning(Recorder::new().with_wrapped("theta"));
     let mut table = plain.clone().into_table();
     table.wrap("theta").unwrap();
     assert_eq!(*wrapped, table);

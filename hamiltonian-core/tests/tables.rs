@@ -324,8 +324,8 @@ fn the_mean_of_the_cheap_post_processor_has_the_even_words_of_the_processor() {
     let words = words(&letters, |word| word.weight <= 6);
     let of = |stages: &[(Weight, Weight)]| composed(&words, &maps_and_adjoints(stages, 6));
     let (cheap, whole) = (
-        of(&scheme.mean_of.stages()),
-        of(&scheme.processed.processor.stages()),
+        of(&scheme.mean_of().stages()),
+        of(&scheme.processed().processor().stages()),
     );
     let mut largest = [0.0_f64; 7];
     for (word, (a, b)) in words.iter().zip(cheap.iter().zip(&whole)) {

@@ -125,10 +125,7 @@ fn they_are_symplectic() {
     assert!(of(Semiexplicit::<Strang>::default(), true) <= 3e-13);
     // The controls: no symplectic scheme, and steps that are chosen beside the system.
     assert!(of(RungeKutta4, false) > 1e-7);
-    let scheme = Paced {
-        scheme: StormerVerlet::default(),
-        density: Close,
-    };
+    let scheme = Paced::new(StormerVerlet::default(), Close);
     let start = pericentre::<Dual<f64>>(0.6);
     let beside = defect::<f64>(&tangent(&Hand(Kepler), &scheme, &start, 0.05, 3));
     println!("Paced: {beside:.1e}");
@@ -232,7 +229,8 @@ fn errors_name_the_time() {
     );
     let far = message(run.state_at(1e-7).err());
     assert!(far.starts_with("s = 1e-7 is more than one step"), "{far}");
-    let mut run = Integrator::new(&system, scheme.at_most(1), start, 0.125).expect("a good start");
+    let mut run = Integrator::new(&system, scheme.with_max_iterations(1), start, 0.125)
+        .expect("a good start");
     let unsolved = message(run.advance(1).err());
     assert!(
         unsolved.starts_with("step 1 from s = 0 was not solved"),

@@ -233,9 +233,9 @@ where
         let finished = match end {
             Ok(end) => {
                 let end = end.unwrap_or_else(|| view.state.clone());
-                Finished::Ended(Box::new(end), view.step)
+                Finished::Ended(Box::new(end), view.steps)
             }
-            Err(error) => Finished::Failed(error, view.step),
+            Err(error) => Finished::Failed(error, view.steps),
         };
         self.chunk.finished.insert(key, finished);
         false
@@ -345,8 +345,8 @@ where
         let receive = &mut self.receive;
         match guard(|| receive(key, observer, view)) {
             Ok(ControlFlow::Continue(())) => {
-                *run.stop = self.stop(key, view.step);
-                view.step < self.target
+                *run.stop = self.stop(key, view.steps);
+                view.steps < self.target
             }
             Ok(ControlFlow::Break(end)) => self.end(key, view, end),
             Err(error) => self.end(key, view, Err(error)),
@@ -406,7 +406,7 @@ pub(crate) fn observe<S: System, O: Observer<f64, S>>(
     observer: &mut O,
     view: &View<'_, f64, S>,
 ) -> Decision<S> {
-    let is_due = view.step.is_multiple_of(observer.interval().max(1));
+    let is_due = view.steps.is_multiple_of(observer.interval().max(1));
     if !is_due || observer.observe(view).is_continue() {
         return ControlFlow::Continue(());
     }

@@ -343,7 +343,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
     /// in a rayon pool gets those of the pool, and no others.
     #[must_use]
-    pub fn threads(mut self, threads: usize) -> Self {
+    pub fn with_threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }

@@ -43,8 +43,8 @@ type D = Dual<f64>;
 ///
 /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
 /// let all = Lyapunov::new(20, start, ImplicitMidpoint::default(), 0.1)
-///     .deviations(2)
-///     .steps(1_000)
+///     .with_deviations(2)
+///     .with_steps(1_000)
 ///     .collect()?;
 /// for exponents in all {
 ///     // Orbits of an oscillator neither approach nor leave each other.
@@ -72,7 +72,7 @@ pub struct Lyapunov<'a, S: System, M, A = Fused> {
 }
 
 impl<'a, S: System, M: Scheme<S>> Lyapunov<'a, S, M> {
-    /// Describes a computation for `count` members with the step `step`; [`steps`](Lyapunov::steps) sets its length.
+    /// Describes a computation for `count` members with the step `step`; [`with_steps`](Lyapunov::with_steps) sets its length.
     /// `make` makes the system and the start of a member, on any thread.
     pub fn new(
         count: usize,
@@ -110,7 +110,7 @@ impl<'a, S: System, M: Scheme<S>> Lyapunov<'a, S, M> {
 impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Sets the number of steps.
     #[must_use]
-    pub fn steps(mut self, n: u64) -> Self {
+    pub fn with_steps(mut self, n: u64) -> Self {
         self.steps = n;
         self
     }
@@ -118,7 +118,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Sets the number of steps after which deviations are made orthonormal, or for GALI normalised (0 counts as 1).
     /// The default is 10 steps. About once per time unit is often enough.
     #[must_use]
-    pub fn every(mut self, steps: u64) -> Self {
+    pub fn with_interval(mut self, steps: u64) -> Self {
         self.every = steps.max(1);
         self
     }
@@ -126,7 +126,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Sets the number of exponents that [`collect`](Lyapunov::collect) returns, the greatest first. The default is 1.
     /// An exponent does not depend on how many smaller ones are computed.
     #[must_use]
-    pub fn deviations(mut self, k: usize) -> Self {
+    pub fn with_deviations(mut self, k: usize) -> Self {
         self.deviations = k;
         self
     }
@@ -134,7 +134,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
     /// in a rayon pool gets those of the pool, and no others.
     #[must_use]
-    pub fn threads(mut self, threads: usize) -> Self {
+    pub fn with_threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }
@@ -160,14 +160,14 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
 
     /// Stops with [`SweepError::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
     #[must_use]
-    pub fn cancel(mut self, flag: &'a AtomicBool) -> Self {
+    pub fn with_cancel(mut self, flag: &'a AtomicBool) -> Self {
         self.cancel = Some(flag);
         self
     }
 
     /// Calls a closure after each chunk of members with the number of finished members and the number of all.
     #[must_use]
-    pub fn progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
+    pub fn with_progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
         self.progress = Some(Box::new(closure));
         self
     }
@@ -191,7 +191,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     #[doc = include_str!("../doc/oscillator.md")]
     ///
     /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
-    /// let all = Lyapunov::new(20, start, ImplicitMidpoint::default(), 0.1).steps(1_000);
+    /// let all = Lyapunov::new(20, start, ImplicitMidpoint::default(), 0.1).with_steps(1_000);
     /// for megno in all.megno()? {
     ///     // Orbits of an oscillator neither approach nor leave each other.
     ///     assert!(megno?.abs() < 0.1);
@@ -211,7 +211,7 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Computes GALI of the first `k` deviations of each member after all steps, or its error, in the order of the
     /// index.
     ///
-    /// Deviations are normalised [`every`](Lyapunov::every) so many steps, but not after the last step.
+    /// Deviations are normalised [`with_interval`](Lyapunov::with_interval) so many steps, but not after the last step.
     ///
     /// # Errors
     /// Those of [`collect`](Lyapunov::collect).

@@ -73,8 +73,8 @@ where
     /// # let _ = std::fs::remove_dir_all(&path);
     /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
     /// let sweep = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
-    ///     .steps(10)
-    ///     .chunk(50)
+    ///     .with_steps(10)
+    ///     .with_chunk(50)
     ///     .record(["q"], |end| [end.state.q[0]]);
     /// assert_eq!(sweep.complete(&path)?.to_string(), "2 of 2 chunks are missing: 0 to 1");
     /// sweep.store(&path)?;

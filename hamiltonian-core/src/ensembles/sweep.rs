@@ -57,7 +57,7 @@ pub(crate) enum EndPoint<'a> {
 ///
 /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
 /// let table = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
-///     .until(1.005)
+///     .with_end(1.005)
 ///     .observe(|_member| EnergyDrift::new())
 ///     .record(["q", "drift"], |end| [end.state.q[0], end.observer.max_relative()])
 ///     .collect()?;
@@ -238,7 +238,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
 
     /// Ends members after `n` steps.
     #[must_use]
-    pub fn steps(mut self, n: u64) -> Self {
+    pub fn with_steps(mut self, n: u64) -> Self {
         self.end = EndPoint::Steps(n);
         self
     }
@@ -246,14 +246,14 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     /// Ends members at the time `t`. A state between two steps is computed by a part of a step, as in
     /// [`advance_until`](crate::Integrator::advance_until).
     #[must_use]
-    pub fn until(mut self, t: f64) -> Self {
+    pub fn with_end(mut self, t: f64) -> Self {
         self.end = EndPoint::Until(t);
         self
     }
 
     /// Ends each member at its own time.
     #[must_use]
-    pub fn until_each(mut self, t: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
+    pub fn with_end_each(mut self, t: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
         self.end = EndPoint::Each(Box::new(t));
         self
     }
@@ -268,7 +268,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     /// // A kicked oscillator, for kicks of different sizes.
     /// let start = |_| (Oscillator {}, State::new([1.0], [0.0]));
     /// let table = Sweep::new(10, start, StormerVerlet::default(), 0.01)
-    ///     .steps(1_000)
+    ///     .with_steps(1_000)
     ///     .each(100, |member, state| state.p[0] += 0.1 * member.index as f64 * state.q[0].sin())
     ///     .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
     ///     .collect()?;
@@ -287,14 +287,14 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
 
     /// Sets a step for each member, instead of a common one.
     #[must_use]
-    pub fn step_each(mut self, step: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
+    pub fn with_step_each(mut self, step: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
         self.step_each = Some(Box::new(step));
         self
     }
 
     /// Sets the seed from which [`Member::seed`] is computed. The default is 0.
     #[must_use]
-    pub fn seed(mut self, seed: u64) -> Self {
+    pub fn with_seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
@@ -302,14 +302,14 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     /// Sets the number of members in a chunk (0 counts as 1). A chunk is the unit of work of a thread, and has a file
     /// per array in a store.
     #[must_use]
-    pub fn chunk(mut self, members: usize) -> Self {
+    pub fn with_chunk(mut self, members: usize) -> Self {
         self.chunk = Some(members.max(1));
         self
     }
 
     /// Computes only the chunks of this shard.
     #[must_use]
-    pub fn shard(mut self, shard: Shard) -> Self {
+    pub fn with_shard(mut self, shard: Shard) -> Self {
         self.shard = Some(shard);
         self
     }
@@ -317,7 +317,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
     /// in a rayon pool gets those of the pool, and no others.
     #[must_use]
-    pub fn threads(mut self, threads: usize) -> Self {
+    pub fn with_threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }
@@ -352,7 +352,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
 
     /// Stops the sweep with [`SweepError::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
     #[must_use]
-    pub fn cancel(mut self, flag: &'a AtomicBool) -> Self {
+    pub fn with_cancel(mut self, flag: &'a AtomicBool) -> Self {
         self.cancel = Some(flag);
         self
     }
@@ -360,7 +360,7 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     /// Calls a closure after each chunk with the number of finished members and the number of all members of this
     /// shard.
     #[must_use]
-    pub fn progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
+    pub fn with_progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
         self.progress = Some(Box::new(closure));
         self
     }
@@ -405,7 +405,7 @@ where
     ///
     /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
     /// let largest = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
-    ///     .steps(100)
+    ///     .with_steps(100)
     ///     .record(["q"], |end| [end.state.q[0]])
     ///     .fold(0.0_f64, |largest, row| largest.max(row.values[0]))?;
     /// assert!((largest - (9.9 * 1_f64.cos() + 0.5 * 1_f64.sin())).abs() < 1e-3);

@@ -71,7 +71,7 @@ impl Display for SweepError {
             Self::NoMembers => f.write_str("an ensemble has at least one member, found 0"),
             Self::NoEnd => f.write_str(
                 "the members of the sweep have no end\n\
-                 help: give them one: `.until(t)`, `.steps(n)`, or at least one time of \
+                 help: give them one: `.with_end(t)`, `.with_steps(n)`, or at least one time of \
                  `.record_at(…)`",
             ),
             Self::Apart { reason } => write!(

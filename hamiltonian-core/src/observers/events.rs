@@ -328,10 +328,10 @@ impl<V: Vector> Events<V> {
         }
         match &mut self.before {
             Some((step, state)) => {
-                *step = view.step;
+                *step = view.steps;
                 state.clone_from(view.state);
             }
-            none => *none = Some((view.step, view.state.clone())),
+            none => *none = Some((view.steps, view.state.clone())),
         }
     }
 }
@@ -372,7 +372,7 @@ fn correct<V: Vector>(to: &mut V, part: V::Scalar, end: &V, reached: &V) {
 impl<T: Real, S: System> Observer<T, S> for Events<VectorOf<S, T>> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         one_trajectory::<T>();
-        self.before = Some((view.step, view.state.clone()));
+        self.before = Some((view.steps, view.state.clone()));
         match self.begin(view) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => self.fail(error),
@@ -403,12 +403,12 @@ impl<T: Real, S: System> Observer<T, S> for Events<VectorOf<S, T>> {
             }
             before = end;
         }
-        let made = match view.step == step + 1 {
+        let made = match view.steps == step + 1 {
             true => self.step(view, &before),
             false => Err(self.error(0, "its observer does not receive every step")),
         };
         before.clone_from(view.state);
-        self.before = Some((view.step, before));
+        self.before = Some((view.steps, before));
         match made {
             Ok(()) => self.record(),
             Err(error) => self.fail(error),
@@ -428,7 +428,7 @@ impl<T: Real, S: System> Observer<T, S> for Events<VectorOf<S, T>> {
             }
             Err(error) => self.failure = Some(error),
         }
-        self.before = Some((to.step, to.state.clone()));
+        self.before = Some((to.steps, to.state.clone()));
         self.end = None;
         self.pending.clear();
     }

@@ -31,7 +31,7 @@ use hamiltonian_lanes::Real;
 /// A state of a run, as an observer receives it.
 pub struct View<'a, T: Real, S: System> {
     /// The number of steps made.
-    pub step: u64,
+    pub steps: u64,
     /// Time, coordinates and momenta, all at the same time; finite.
     pub state: &'a State<VectorOf<S, T>>,
     /// The prepared system: expressions that depend only on parameters are computed.
@@ -348,7 +348,7 @@ macro_rules! tuple {
             }
             fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
                 let mut control = ControlFlow::Continue(());
-                $(if view.step % self.$index.interval().max(1) == 0 {
+                $(if view.steps % self.$index.interval().max(1) == 0 {
                     control = first_break(control, self.$index.observe(view));
                 })+
                 control

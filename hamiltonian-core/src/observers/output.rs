@@ -122,7 +122,7 @@ impl Recorder {
     /// The same recorder with the angles of a column, or of all elements of an array, wrapped into
     /// (−π, π]. If it records no such column, the run returns [`TableError::Unknown`].
     #[must_use]
-    pub fn wrap(mut self, column: impl Into<String>) -> Self {
+    pub fn with_wrapped(mut self, column: impl Into<String>) -> Self {
         self.angles.push(column.into());
         self
     }

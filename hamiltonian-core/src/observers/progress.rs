@@ -73,12 +73,12 @@ impl<T: Real, S: System> Observer<T, S> for Progress {
         self.interval
     }
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        self.first = view.step;
+        self.first = view.steps;
         self.bar.reset();
         ControlFlow::Continue(())
     }
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        self.place(view.step);
+        self.place(view.steps);
         ControlFlow::Continue(())
     }
     fn save(&self, to: &mut Memory) {

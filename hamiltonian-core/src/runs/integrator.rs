@@ -255,21 +255,21 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     ///
     /// let run = |lanes| {
     ///     let start = State::new([1.0], [0.0]);
-    ///     let mut run = Integrator::new(&Oscillator {}, Gauss::<8>::default(), start, 0.5)?.lanes(lanes);
+    ///     let mut run = Integrator::new(&Oscillator {}, Gauss::<8>::default(), start, 0.5)?.with_lanes(lanes);
     ///     run.advance(100).cloned()
     /// };
     /// assert_eq!(run(true)?, run(false)?);
     /// # Ok::<(), Error>(())
     /// ```
     #[must_use]
-    pub fn lanes(self, lanes: bool) -> Self {
+    pub fn with_lanes(self, lanes: bool) -> Self {
         let now = self.prepared.arithmetic();
         self.computed(Arithmetic { lanes, ..now })
     }
 
     /// Turns on fused products in lanes, `a·b + c` rounded once: 20 to 50 % faster on CPUs that
     /// have them. The bits then differ from those of other CPUs, of a run without
-    /// [`lanes`](Integrator::lanes), and of the member of an ensemble.
+    /// [`with_lanes`](Integrator::with_lanes), and of the member of an ensemble.
     #[must_use]
     pub fn fused(self) -> Self {
         let now = self.prepared.arithmetic();
@@ -285,7 +285,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// changes of the own row. Threads also share the forces of sums over the pairs of 4096 points
     /// or more, `sum(i in 0..n, j in 0..i)` or `sum(i in 0..n, j in i + 1..n)`, if each iteration
     /// changes elements i and j alone. Sums over a whole array, such as energies, and all else of a
-    /// step run on one thread; so do all loops without [`lanes`](Integrator::lanes), and chains with
+    /// step run on one thread; so do all loops without [`with_lanes`](Integrator::with_lanes), and chains with
     /// neighbours in a [`fused`](Integrator::fused) run. An ensemble has threads of its own, and
     /// each of its members one.
     ///
@@ -301,7 +301,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// let end = |threads| {
     ///     let start = State::new(vec![0.5; 40_000], vec![0.0; 40_000]);
     ///     let system = Chain::new(40_000)?;
-    ///     let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.1)?.threads(threads);
+    ///     let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.1)?.with_threads(threads);
     ///     run.advance(10).cloned()
     /// };
     /// assert_eq!(end(1)?, end(2)?);
@@ -312,7 +312,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// system cannot start threads, the run has one. A saved run is resumed on one.
     #[cfg(feature = "rayon")]
     #[must_use]
-    pub fn threads(mut self, threads: usize) -> Self
+    pub fn with_threads(mut self, threads: usize) -> Self
     where
         R: Map<Work: Send> + Sync,
     {
@@ -393,7 +393,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// The current state as observers receive it.
     fn view<'a>(&'a self, part: &'a Part<'a, T, S, R>) -> View<'a, T, S> {
         View {
-            step: self.steps,
+            steps: self.steps,
             state: &self.state,
             prepared: &self.prepared,
             between: part,

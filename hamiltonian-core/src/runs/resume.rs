@@ -64,7 +64,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// let path = std::env::temp_dir().join("oscillator.saved");
     /// let scheme = StormerVerlet::default();
     /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?
-    ///     .checkpoint_every(1_000, &path);
+    ///     .with_checkpoints(1_000, &path);
     /// run.advance(2_500)?;
     ///
     /// let mut again = Integrator::resume(&Oscillator {}, scheme, Checkpoint::load(&path)?)?;
@@ -77,7 +77,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// This method returns none. If the file cannot be written, [`advance`](Integrator::advance)
     /// returns [`CheckpointError::File`] after the step, and the run can continue.
     #[must_use]
-    pub fn checkpoint_every(mut self, steps: u64, path: impl AsRef<std::path::Path>) -> Self {
+    pub fn with_checkpoints(mut self, steps: u64, path: impl AsRef<std::path::Path>) -> Self {
         self.saving = Some((steps.max(1), path.as_ref().to_path_buf()));
         self
     }

@@ -55,9 +55,29 @@ use hamiltonian_lanes::Real;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct CheapProcessed<K, P, R> {
     /// The scheme of the carried values.
-    pub processed: Processed<K, P>,
+    processed: Processed<K, P>,
     /// ρ.
-    pub mean_of: R,
+    mean_of: R,
+}
+
+impl<K, P, R> CheapProcessed<K, P, R> {
+    /// Returns the scheme that carries the values of `processed` and shows the mean ρ.
+    #[must_use]
+    pub fn new(processed: Processed<K, P>, mean_of: R) -> Self {
+        CheapProcessed { processed, mean_of }
+    }
+
+    /// The scheme of the carried values.
+    #[must_use]
+    pub fn processed(&self) -> &Processed<K, P> {
+        &self.processed
+    }
+
+    /// ρ.
+    #[must_use]
+    pub fn mean_of(&self) -> &R {
+        &self.mean_of
+    }
 }
 
 impl<K: Splitting, P: Splitting, R: Splitting> Listed for CheapProcessed<K, P, R> {

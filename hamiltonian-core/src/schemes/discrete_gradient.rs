@@ -36,7 +36,7 @@ use hamiltonian_lanes::{Mask, Real};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DiscreteGradient {
     /// The number of iterations after which an unsolved step is an error.
-    pub max_iterations: u32,
+    max_iterations: u32,
 }
 
 impl Default for DiscreteGradient {
@@ -45,6 +45,14 @@ impl Default for DiscreteGradient {
         DiscreteGradient {
             max_iterations: 100,
         }
+    }
+}
+
+impl DiscreteGradient {
+    /// The number of iterations after which an unsolved step is an error; 100 by default.
+    #[must_use]
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
+        DiscreteGradient { max_iterations }
     }
 }
 

@@ -25,7 +25,7 @@ use hamiltonian_lanes::Real;
 /// example for steps longer than the fastest motion, by Newton's method with the Hessian of H (up to 256
 /// unknowns: all components of all stages). From four stages on, the stages of a run over `f64` or
 /// [`Dual`](crate::Dual) lie in the lanes of the CPU's registers, with the same bits
-/// ([`Integrator::lanes`](crate::Integrator::lanes), [`Integrator::fused`](crate::Integrator::fused)). aᵢⱼ
+/// ([`Integrator::with_lanes`](crate::Integrator::with_lanes), [`Integrator::fused`](crate::Integrator::fused)). aᵢⱼ
 /// enters as bⱼμᵢⱼ with μᵢⱼ + μⱼᵢ = 1 exactly, so that dq∧dp
 /// and quadratic invariants drift by rounding alone, and the low words that rounding takes from
 /// `z[n+1]` are carried to the next step (compensated summation). A force is part of the vector field. With one
@@ -56,32 +56,24 @@ pub struct Gauss<const STAGES: usize> {
 impl<const S: usize> Default for Gauss<S> {
     /// At most 100 iterations of each method.
     fn default() -> Self {
-        Gauss::<S>::default()
-    }
-}
-
-impl<const STAGES: usize> Gauss<STAGES> {
-    /// Returns the scheme with at most 100 iterations of each method.
-    ///
-    /// ```
-    /// use hamiltonian::prelude::*;
-    ///
-    /// assert_eq!(Gauss::<2>::default(), Gauss::<2>::default().at_most(100));
-    /// ```
-    #[must_use]
-    // If the number of stages is missing, rustc asks for it only if `default` is an inherent method.
-    #[allow(clippy::should_implement_trait)]
-    pub fn default() -> Self {
         Gauss {
             coefficients: Collocation::gauss(),
             max_iterations: 100,
         }
     }
+}
 
-    /// The number of iterations of the fixed point, and then of Newton's method, after which an
-    /// unsolved step is an error; 100 by default.
+impl<const STAGES: usize> Gauss<STAGES> {
+    /// The number of iterations of the fixed point, and then of Newton's method, after which an unsolved step is an error;
+    /// 100 by default.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// assert_eq!(Gauss::<2>::default(), Gauss::<2>::default().with_max_iterations(100));
+    /// ```
     #[must_use]
-    pub fn at_most(self, max_iterations: u32) -> Self {
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
         Gauss {
             max_iterations,
             ..self

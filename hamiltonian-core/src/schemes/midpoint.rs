@@ -40,7 +40,7 @@ use hamiltonian_lanes::{Mask, Real};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ImplicitMidpoint {
     /// The number of iterations after which an unsolved step is an error.
-    pub max_iterations: u32,
+    max_iterations: u32,
 }
 
 impl Default for ImplicitMidpoint {
@@ -49,6 +49,14 @@ impl Default for ImplicitMidpoint {
         ImplicitMidpoint {
             max_iterations: 100,
         }
+    }
+}
+
+impl ImplicitMidpoint {
+    /// The number of iterations after which an unsolved step is an error; 100 by default.
+    #[must_use]
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
+        ImplicitMidpoint { max_iterations }
     }
 }
 

@@ -47,9 +47,17 @@ pub trait Density<S: System>: Clone + Debug + Send + Sync + 'static {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paced<M, G> {
     /// The scheme that makes the steps.
-    pub scheme: M,
+    scheme: M,
     /// The density of steps.
-    pub density: G,
+    density: G,
+}
+
+impl<M, G> Paced<M, G> {
+    /// Returns the scheme that makes steps of `scheme` with this density.
+    #[must_use]
+    pub fn new(scheme: M, density: G) -> Self {
+        Paced { scheme, density }
+    }
 }
 
 impl<M: OneStep, G: Clone + Debug + Send + Sync + 'static> Listed for Paced<M, G> {

@@ -52,9 +52,29 @@ use hamiltonian_lanes::{Mask, Real};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Processed<K, P> {
     /// The step that is repeated.
-    pub kernel: K,
+    kernel: K,
     /// π.
-    pub processor: P,
+    processor: P,
+}
+
+impl<K, P> Processed<K, P> {
+    /// Returns the scheme that repeats the step of `kernel` between `processor` and its inverse.
+    #[must_use]
+    pub fn new(kernel: K, processor: P) -> Self {
+        Processed { kernel, processor }
+    }
+
+    /// The step that is repeated.
+    #[must_use]
+    pub fn kernel(&self) -> &K {
+        &self.kernel
+    }
+
+    /// π.
+    #[must_use]
+    pub fn processor(&self) -> &P {
+        &self.processor
+    }
 }
 
 impl<K: Splitting, P: Splitting> Listed for Processed<K, P> {

@@ -65,22 +65,6 @@ pub struct MidpointProjected<M>(pub M);
 impl<M: Default> Default for MidpointProjected<M> {
     /// The default of the table.
     fn default() -> Self {
-        MidpointProjected::<M>::default()
-    }
-}
-
-impl<M: Default> MidpointProjected<M> {
-    /// Returns the scheme with the default of its table.
-    ///
-    /// ```
-    /// use hamiltonian::prelude::*;
-    ///
-    /// assert_eq!(MidpointProjected::<KahanLi8>::default(), MidpointProjected(KahanLi8));
-    /// ```
-    #[must_use]
-    // If the table is missing, rustc asks for it only if `default` is an inherent method.
-    #[allow(clippy::should_implement_trait)]
-    pub fn default() -> Self {
         MidpointProjected(M::default())
     }
 }
@@ -175,7 +159,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Averaged<M> {
 #[doc = include_str!("../doc/oscillator.md")]
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let scheme = Mixed { table: Strang, coordinates: 1.0, momenta: 0.5 };
+/// let scheme = Mixed::new(Strang).with_weights(1.0, 0.5);
 /// let mut run = Integrator::new(&Oscillator {}, scheme, start, 0.01)?;
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
 /// # Ok::<(), Error>(())
@@ -183,36 +167,44 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Averaged<M> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mixed<M> {
     /// The splitting of the doubled space.
-    pub table: M,
+    table: M,
     /// α.
-    pub coordinates: f64,
+    coordinates: f64,
     /// β.
-    pub momenta: f64,
+    momenta: f64,
 }
 
 impl<M: Default> Default for Mixed<M> {
     /// Coordinates as they are, momenta averaged.
     fn default() -> Self {
-        Mixed::<M>::default()
+        Mixed::new(M::default())
     }
 }
 
-impl<M: Default> Mixed<M> {
+impl<M> Mixed<M> {
     /// Returns the scheme that leaves coordinates as they are and averages momenta.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
     ///
-    /// assert_eq!(Mixed::<Strang>::default(), Mixed { table: Strang, coordinates: 1.0, momenta: 0.5 });
+    /// assert_eq!(Mixed::new(Strang), Mixed::default().with_weights(1.0, 0.5));
     /// ```
     #[must_use]
-    // If the table is missing, rustc asks for it only if `default` is an inherent method.
-    #[allow(clippy::should_implement_trait)]
-    pub fn default() -> Self {
+    pub fn new(table: M) -> Self {
         Mixed {
-            table: M::default(),
+            table,
             coordinates: 1.0,
             momenta: 0.5,
+        }
+    }
+
+    /// α, the weight of the first copy's coordinates, and β, that of its momenta; 1 and ½ by default.
+    #[must_use]
+    pub fn with_weights(self, coordinates: f64, momenta: f64) -> Self {
+        Mixed {
+            coordinates,
+            momenta,
+            ..self
         }
     }
 }
@@ -328,34 +320,41 @@ fn mix<V: Vector>(c: V::Scalar, a: &mut V, b: &mut V) {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Semiexplicit<M> {
     /// The splitting of the doubled space.
-    pub table: M,
+    table: M,
     /// A step that is not solved after so many iterations is an error.
-    pub max_iterations: u32,
+    max_iterations: u32,
 }
 
 impl<M: Default> Default for Semiexplicit<M> {
     /// At most 50 iterations.
     fn default() -> Self {
-        Semiexplicit::<M>::default()
+        Semiexplicit::new(M::default())
     }
 }
 
-impl<M: Default> Semiexplicit<M> {
+impl<M> Semiexplicit<M> {
     /// Returns the scheme with at most 50 iterations.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
     ///
-    /// let scheme = Semiexplicit { table: Suzuki4, max_iterations: 50 };
-    /// assert_eq!(Semiexplicit::<Suzuki4>::default(), scheme);
+    /// let scheme = Semiexplicit::new(Suzuki4).with_max_iterations(50);
+    /// assert_eq!(Semiexplicit::default(), scheme);
     /// ```
     #[must_use]
-    // If the table is missing, rustc asks for it only if `default` is an inherent method.
-    #[allow(clippy::should_implement_trait)]
-    pub fn default() -> Self {
+    pub fn new(table: M) -> Self {
         Semiexplicit {
-            table: M::default(),
+            table,
             max_iterations: 50,
+        }
+    }
+
+    /// The number of iterations after which an unsolved step is an error; 50 by default.
+    #[must_use]
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
+        Semiexplicit {
+            max_iterations,
+            ..self
         }
     }
 }

@@ -60,31 +60,24 @@ pub struct GaussNystrom<const STAGES: usize> {
 impl<const S: usize> Default for GaussNystrom<S> {
     /// At most 100 iterations.
     fn default() -> Self {
-        GaussNystrom::<S>::default()
-    }
-}
-
-impl<const STAGES: usize> GaussNystrom<STAGES> {
-    /// Returns the scheme with at most 100 iterations.
-    ///
-    /// ```
-    /// use hamiltonian::prelude::*;
-    ///
-    /// assert_eq!(GaussNystrom::<2>::default(), GaussNystrom::<2>::default().at_most(100));
-    /// ```
-    #[must_use]
-    // If the number of stages is missing, rustc asks for it only if `default` is an inherent method.
-    #[allow(clippy::should_implement_trait)]
-    pub fn default() -> Self {
         GaussNystrom {
             coefficients: Collocation::gauss(),
             max_iterations: 100,
         }
     }
+}
 
-    /// A step that is not solved after so many iterations is an error; 100 unless said here.
+impl<const STAGES: usize> GaussNystrom<STAGES> {
+    /// The number of iterations of the fixed point, and then of Newton's method, after which an unsolved step is an error;
+    /// 100 by default.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// assert_eq!(GaussNystrom::<2>::default(), GaussNystrom::<2>::default().with_max_iterations(100));
+    /// ```
     #[must_use]
-    pub fn at_most(self, max_iterations: u32) -> Self {
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
         GaussNystrom {
             max_iterations,
             ..self

@@ -29,7 +29,7 @@ use hamiltonian_lanes::Real;
 /// well below 1. Begin with ten to twenty times the frequency. No theorem bounds the distance of
 /// the copies for a small ω: watch [`Integrator::copy_distance`](crate::Integrator::copy_distance).
 ///
-/// Higher even orders are compositions: `KahanLi6.of(Tao { omega: 20.0 })`.
+/// Higher even orders are compositions: `KahanLi6.of(Tao::default().with_omega(20.0))`.
 ///
 /// Source: M. Tao, Phys. Rev. E 94 (2016) 043303, eqs. 1 to 4, doi:10.1103/PhysRevE.94.043303.
 ///
@@ -37,7 +37,7 @@ use hamiltonian_lanes::Real;
 #[doc = include_str!("../doc/oscillator.md")]
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator {}, Tao { omega: 10.0 }, start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, Tao::default().with_omega(10.0), start, 0.01)?;
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
 /// assert!(run.copy_distance() < 1e-4);
 /// # Ok::<(), Error>(())
@@ -45,13 +45,21 @@ use hamiltonian_lanes::Real;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tao {
     /// ω, the strength of the binding, in units of 1 over time.
-    pub omega: f64,
+    omega: f64,
 }
 
 impl Default for Tao {
     /// ω = 20, for motions whose frequencies are about 1.
     fn default() -> Self {
         Tao { omega: 20.0 }
+    }
+}
+
+impl Tao {
+    /// ω, the strength of the binding, in units of 1 over time; 20 by default.
+    #[must_use]
+    pub fn with_omega(self, omega: f64) -> Self {
+        Tao { omega }
     }
 }
 

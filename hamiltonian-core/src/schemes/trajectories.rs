@@ -140,7 +140,15 @@ macro_rules! entries {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TwoStepMidpoint {
     /// The construction of `z[−1]`.
-    pub start: Start,
+    start: Start,
+}
+
+impl TwoStepMidpoint {
+    /// The construction of `z[−1]`; [`Start::default`] unless said here.
+    #[must_use]
+    pub fn with_start(self, start: Start) -> Self {
+        TwoStepMidpoint { start }
+    }
 }
 
 entries!(TwoStepMidpoint, "25", 1);
@@ -177,7 +185,15 @@ entries!(TwoStepMidpoint, "25", 1);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ConsecutiveSubTrajectories {
     /// The construction of `z[−½]`.
-    pub start: Start,
+    start: Start,
+}
+
+impl ConsecutiveSubTrajectories {
+    /// The construction of `z[−½]`; [`Start::default`] unless said here.
+    #[must_use]
+    pub fn with_start(self, start: Start) -> Self {
+        ConsecutiveSubTrajectories { start }
+    }
 }
 
 entries!(ConsecutiveSubTrajectories, "26", 2);
@@ -200,7 +216,7 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
 ///
-/// let scheme = IntersectingSubTrajectories { start: Start::HalfEuler };
+/// let scheme = IntersectingSubTrajectories::default().with_start(Start::HalfEuler);
 /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?;
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 5e-5);
 /// # Ok::<(), Error>(())
@@ -208,7 +224,15 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct IntersectingSubTrajectories {
     /// The construction of `z[−½]`.
-    pub start: Start,
+    start: Start,
+}
+
+impl IntersectingSubTrajectories {
+    /// The construction of `z[−½]`; [`Start::default`] unless said here.
+    #[must_use]
+    pub fn with_start(self, start: Start) -> Self {
+        IntersectingSubTrajectories { start }
+    }
 }
 
 entries!(IntersectingSubTrajectories, "33", 1);

@@ -60,13 +60,21 @@ use nalgebra::SVector;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TransformedVerlet {
     /// The number of iterations after which a step without g(Q) is an error.
-    pub max_iterations: u32,
+    max_iterations: u32,
 }
 
 impl Default for TransformedVerlet {
     /// At most 50 iterations of Newton's method, which doubles the digits.
     fn default() -> Self {
         TransformedVerlet { max_iterations: 50 }
+    }
+}
+
+impl TransformedVerlet {
+    /// The number of iterations after which an unsolved step is an error; 50 by default.
+    #[must_use]
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
+        TransformedVerlet { max_iterations }
     }
 }
 

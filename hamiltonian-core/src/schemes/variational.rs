@@ -129,7 +129,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// many points as the degree, they are those of the fixed point, then as many of Newton's
     /// method.
     #[must_use]
-    pub fn at_most(self, max_iterations: u32) -> Self {
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
         Variational {
             max_iterations,
             ..self
@@ -252,29 +252,15 @@ pub struct MomentumVariational<const S: usize>(Variational<S, S>);
 impl<const S: usize> Default for MomentumVariational<S> {
     /// At most 100 iterations.
     fn default() -> Self {
-        MomentumVariational::<S>::default()
+        MomentumVariational(Variational::lobatto())
     }
 }
 
 impl<const S: usize> MomentumVariational<S> {
-    /// Returns the scheme with at most 100 iterations.
-    ///
-    /// ```
-    /// use hamiltonian::prelude::*;
-    ///
-    /// assert_eq!(MomentumVariational::<3>::default(), MomentumVariational::<3>::default().at_most(100));
-    /// ```
-    #[must_use]
-    // If the number of points is missing, rustc asks for it only if `default` is an inherent method.
-    #[allow(clippy::should_implement_trait)]
-    pub fn default() -> Self {
-        MomentumVariational(Variational::lobatto())
-    }
-
     /// A step that is not solved after so many iterations is an error; 100 unless said here.
     #[must_use]
-    pub fn at_most(self, max_iterations: u32) -> Self {
-        MomentumVariational(self.0.at_most(max_iterations))
+    pub fn with_max_iterations(self, max_iterations: u32) -> Self {
+        MomentumVariational(self.0.with_max_iterations(max_iterations))
     }
 }
 

@@ -277,8 +277,8 @@ pub(crate) fn derivatives_are_free<T: Real, S: System + ?Sized>() {
     }
 }
 
-/// How a single run is computed: [`Integrator::lanes`](crate::Integrator::lanes),
-/// [`Integrator::fused`](crate::Integrator::fused) and `Integrator::threads` choose it. A prepared system carries
+/// How a single run is computed: [`Integrator::with_lanes`](crate::Integrator::with_lanes),
+/// [`Integrator::fused`](crate::Integrator::fused) and `Integrator::with_threads` choose it. A prepared system carries
 /// it to the maps and flows that are made of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Arithmetic {

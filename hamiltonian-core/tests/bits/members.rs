@@ -26,7 +26,7 @@ fn members_have_the_bits_of_single_runs() {
         Cpu::limit_to(cpu);
         let scheme = StormerVerlet::default();
         let members = Ensemble::new(COUNT, make, scheme, 0.03125).expect("there are members");
-        let mut members = members.reproducible().threads(2);
+        let mut members = members.reproducible().with_threads(2);
         members.advance(13);
         for (index, end) in members.states().enumerate() {
             let (system, start) = make(Member::new(index, 0));

@@ -28,7 +28,7 @@ impl<S: System> Visitor<S> for NoAllocations<S> {
         let count = allocations(|| {
             run.advance(3000).unwrap();
             run.advance(1).unwrap();
-            run.advance_to(run.time() + run.interval() * 10.0).unwrap();
+            run.advance_to(run.time() + run.duration() * 10.0).unwrap();
         });
         assert_eq!(count, 0, "{name} on {}", self.0.description().name);
         let observers = (

@@ -32,7 +32,7 @@ impl<S: System> Visitor<S> for SameBits<S> {
             every(7, watch(|_: &hamiltonian_core::View<'_, f64, S>| seen += 1)),
         ));
         watched
-            .advance_to(start.t + watched.interval() * 5000.0)
+            .advance_to(start.t + watched.duration() * 5000.0)
             .unwrap();
         assert_eq!(watched.state(), whole, "{name}, watched");
         drop(watched);
@@ -79,7 +79,7 @@ fn the_first_bad_step_is_found() {
                     ..
                 }) => {
                     assert_eq!(*step, single.steps() + 1);
-                    assert_eq!(*time, *step as f64 * single.interval());
+                    assert_eq!(*time, *step as f64 * single.duration());
                     // H overflows before its variables do.
                     let numbers_are_finite = q.iter().chain(p).all(|x| x.is_finite());
                     assert_eq!(energy.is_some(), numbers_are_finite, "{}", entry.name);

@@ -29,7 +29,7 @@ impl<S: Sample<f64>> Visitor<S> for Parts {
         let run = Integrator::new(&S::sample(), scheme, S::begin(), 0.01);
         let mut run = run.unwrap().observe(watchers());
         run.advance(3).unwrap();
-        let (third, time, interval) = (run.state().clone(), run.time(), run.interval());
+        let (third, time, interval) = (run.state().clone(), run.time(), run.duration());
         assert_eq!(run.state_at(time).unwrap(), third);
         for part in [1.0, 0.3, -0.3, -1.0] {
             let t = time + part * interval;

@@ -82,7 +82,7 @@ fn an_ensemble_holds_what_members_carry() {
     let swarm = |count, each| {
         Ensemble::new(count, many(each), StormerVerlet::default(), 0.01)
             .expect("there are members")
-            .threads(1)
+            .with_threads(1)
     };
     // The bytes that a member adds.
     let adds = |held: &dyn Fn(usize) -> isize| {
@@ -135,9 +135,9 @@ fn a_sweep_holds_its_chunks_in_work() {
     }
     let most = |count| {
         let sweep = Sweep::new(count, many(true), StormerVerlet::default(), 0.01)
-            .steps(5)
-            .chunk(256)
-            .threads(1)
+            .with_steps(5)
+            .with_chunk(256)
+            .with_threads(1)
             .observe(|_| EnergyDrift::new())
             .record(["q"], |end| [end.state.q[0]]);
         let sum = |sum: f64, row: &hamiltonian::Row<'_>| sum + row.values[0];

@@ -69,7 +69,7 @@ fn of<M: Scheme<Pendulum>>(scheme: M) {
         }
     }
     let table = Sweep::new(MEMBERS, swaying, scheme.clone(), 0.05)
-        .steps(20 * ROUNDS as u64)
+        .with_steps(20 * ROUNDS as u64)
         .each(20, kick)
         .observe(|_| observers())
         .reproducible()
@@ -181,7 +181,7 @@ fn a_bad_change_is_the_error_of_its_member() {
         }
     }
     let table = Sweep::new(20, swaying, StormerVerlet::default(), 0.05)
-        .steps(30)
+        .with_steps(30)
         .each(10, |member, state| {
             if member.index == 3 {
                 state.q[0] = f64::NAN;

@@ -130,8 +130,8 @@ fn members_that_leave_the_domain_have_the_errors_of_single_runs() {
     // A sweep with an observer in lanes, one with an observer of states, and one in fused arithmetic.
     let sweep = || {
         Sweep::new(MEMBERS, falling, StormerVerlet::default(), STEP)
-            .steps(STEPS)
-            .chunk(100)
+            .with_steps(STEPS)
+            .with_chunk(100)
     };
     let take = |mut all: Vec<_>, row: &hamiltonian::Row<'_>| {
         assert_eq!(row.error.is_some(), row.values[0].is_nan());
@@ -182,7 +182,7 @@ fn parts_of_steps_and_deviations_stay_in_the_domain() {
     };
     let sweep = Sweep::new(MEMBERS, falling, StormerVerlet::default(), STEP)
         .reproducible()
-        .until_each(end)
+        .with_end_each(end)
         .record(["x"], |end| [end.state.q[0]]);
     let rows = sweep.fold(vec![], |mut all, row| {
         all.push(row.error.map(alone));
@@ -196,7 +196,7 @@ fn parts_of_steps_and_deviations_stay_in_the_domain() {
     }
     assert!(failed > 30, "{failed} failed");
     let all = Lyapunov::new(MEMBERS, falling, StormerVerlet::default(), STEP)
-        .steps(STEPS)
+        .with_steps(STEPS)
         .collect()
         .expect("there are members");
     for (index, found) in all.iter().enumerate() {

@@ -101,7 +101,7 @@ fn closing_pieces_and_observables_are_of_the_halves_they_name() {
 fn neighbours_of_events_change_no_bit() {
     let sweep = || {
         Sweep::new(COUNT, swinging, BlanesMoan4, 0.05)
-            .until_each(|member| 20.0 + 30.0 * part(member.index))
+            .with_end_each(|member| 20.0 + 30.0 * part(member.index))
             .observe(sought)
             .rows(["event", "t", "q", "p"], |end| {
                 let located = end.observer.located().iter().map(|located| {
@@ -117,9 +117,13 @@ fn neighbours_of_events_change_no_bit() {
         let stopped = all.iter().filter(|row| row.1 == Status::Stopped).count();
         assert!(all.len() > 1_000 && stopped > 50, "{} {stopped}", all.len());
         for chunk in [1, 7] {
-            assert_eq!(all, rows(&sweep().chunk(chunk)), "{cpu:?}");
+            assert_eq!(all, rows(&sweep().with_chunk(chunk)), "{cpu:?}");
         }
-        assert_eq!(all, rows(&sweep().threads(2).chunk(20)), "{cpu:?}");
+        assert_eq!(
+            all,
+            rows(&sweep().with_threads(2).with_chunk(20)),
+            "{cpu:?}"
+        );
     });
 }
 

@@ -14,10 +14,10 @@ where
     let h = 0.0625;
     let swarm = |count, threads| {
         Lyapunov::new(count, make, scheme.clone(), h)
-            .deviations(deviations)
-            .steps(50)
-            .every(8)
-            .threads(threads)
+            .with_deviations(deviations)
+            .with_steps(50)
+            .with_interval(8)
+            .with_threads(threads)
             .reproducible()
     };
     let compare = |all: &[Found], alone: &dyn Fn(&S, StateOf<S>) -> Found| {
@@ -101,23 +101,27 @@ fn indicators_of_members_are_those_of_single_tangents() {
         of().megno(),
         Err(Error::Start(StartError::NoSteps { .. }))
     ));
-    let three = of().steps(1).gali(3).expect("members");
+    let three = of().with_steps(1).gali(3).expect("members");
     assert!(three.iter().all(
         |one| matches!(one, Err(Error::Sweep(SweepError::Member { error, .. }))
         if matches!(**error, Error::Start(StartError::Deviations { most: 2, found: 3, .. })))
     ));
-    let none = Lyapunov::new(0, mixture, ImplicitMidpoint::default(), 0.1).steps(1);
+    let none = Lyapunov::new(0, mixture, ImplicitMidpoint::default(), 0.1).with_steps(1);
     assert!(matches!(
         none.collect(),
         Err(Error::Sweep(SweepError::NoMembers { .. }))
     ));
-    let many = of().steps(1).deviations(3).collect().expect("members");
+    let many = of()
+        .with_steps(1)
+        .with_deviations(3)
+        .collect()
+        .expect("members");
     assert!(many.iter().all(
         |one| matches!(one, Err(Error::Sweep(SweepError::Member { error, .. }))
         if matches!(**error, Error::Start(StartError::Deviations { most: 2, found: 3, .. })))
     ));
     let stop = AtomicBool::new(true);
-    let stopped = of().steps(1).cancel(&stop).collect();
+    let stopped = of().with_steps(1).with_cancel(&stop).collect();
     assert!(matches!(
         stopped,
         Err(Error::Sweep(SweepError::Cancelled { done: 0, of: 2, .. }))

@@ -184,8 +184,8 @@ fn stores_of_systems_by_hand_recognise_parameters() {
             (Spring { omega }, start)
         };
         Sweep::new(40, make, RungeKutta4, 0.01)
-            .steps(10)
-            .chunk(20)
+            .with_steps(10)
+            .with_chunk(20)
             .record(["q"], |end| [end.state.q[0]])
     };
     assert!(sweep(1.0).store(&path).expect("a store").is_complete());

@@ -127,14 +127,8 @@ fn members_in_another_time() {
 #[test]
 fn members_with_variable_steps() {
     // The first prepares each step, the second makes it at once.
-    let verlet = Paced {
-        scheme: StormerVerlet::default(),
-        density: Close,
-    };
-    let suzuki = Paced {
-        scheme: Suzuki4,
-        density: Close,
-    };
+    let verlet = Paced::new(StormerVerlet::default(), Close);
+    let suzuki = Paced::new(Suzuki4, Close);
     at_each_level(|_| {
         agrees(kepler, verlet);
         agrees(kepler, suzuki);

@@ -26,7 +26,7 @@ fn with_errors<S: System, M: Scheme<S>, A: Rounding>(
 fn failing_members_change_no_bit_whatever_the_layout() {
     let sweep = || {
         Sweep::try_new(COUNT, holes, StormerVerlet::default(), 0.01)
-            .until_each(|member| 12.0 + 5.0 * part(COUNT - member.index))
+            .with_end_each(|member| 12.0 + 5.0 * part(COUNT - member.index))
     };
     at_each_level(|cpu| {
         changes_no_bit(cpu, sweep);
@@ -43,7 +43,7 @@ fn changes_no_bit<'a, A: Rounding>(
             [end.state.t, end.state.q[0], end.state.p[0]]
         })
     };
-    let all = with_errors(&recorded(sweep()).threads(1));
+    let all = with_errors(&recorded(sweep()).with_threads(1));
     assert_eq!(all.len(), COUNT);
     let mut failed = 0;
     for (index, status, .., error) in &all {
@@ -59,7 +59,7 @@ fn changes_no_bit<'a, A: Rounding>(
     assert!(failed > 30, "{failed} failed");
     for chunk in [1, 7, 4096] {
         for threads in [1, 2] {
-            let other = with_errors(&recorded(sweep()).chunk(chunk).threads(threads));
+            let other = with_errors(&recorded(sweep()).with_chunk(chunk).with_threads(threads));
             let layout = format!("{cpu:?}, chunks of {chunk} on {threads} threads");
             assert!(all == other, "{layout}: {other:?}");
         }
@@ -68,7 +68,9 @@ fn changes_no_bit<'a, A: Rounding>(
         let mut sharded = vec![];
         for k in 0..count {
             let shard = Shard::new(k, count).expect("a shard");
-            sharded.extend(with_errors(&recorded(sweep()).chunk(8).shard(shard)));
+            sharded.extend(with_errors(
+                &recorded(sweep()).with_chunk(8).with_shard(shard),
+            ));
         }
         sharded.sort_by_key(|row| row.0);
         assert!(all == sharded, "{cpu:?}, {count} shards: {sharded:?}");
@@ -80,7 +82,7 @@ fn an_early_stop_does_not_depend_on_the_layout() {
     let _level = one_level();
     let sweep = || {
         Sweep::new(COUNT, pendulum, StormerVerlet::default(), 0.02)
-            .steps(100)
+            .with_steps(100)
             .reproducible()
             .record(["q"], |end| [end.state.q[0]])
     };
@@ -123,7 +125,7 @@ fn an_early_stop_does_not_depend_on_the_layout() {
         let expected = (first, sums[first].to_bits());
         for chunk in [1, 7, 4096] {
             for threads in [1, 2] {
-                let found = stopped(&sweep().chunk(chunk).threads(threads), limit);
+                let found = stopped(&sweep().with_chunk(chunk).with_threads(threads), limit);
                 assert_eq!(found, expected, "chunks of {chunk} on {threads} threads");
             }
         }
@@ -138,10 +140,10 @@ fn a_long_member_is_cancelled_on_its_way() {
         let flag = AtomicBool::new(false);
         // Some minutes if nobody cancels them.
         let sweep = Sweep::new(count, pendulum, StormerVerlet::default(), 1e-9)
-            .steps(10_000_000_000)
-            .chunk(20)
-            .threads(threads)
-            .cancel(&flag)
+            .with_steps(10_000_000_000)
+            .with_chunk(20)
+            .with_threads(threads)
+            .with_cancel(&flag)
             .record(["q"], |end| [end.state.q[0]]);
         let ended = std::thread::scope(|scope| {
             scope.spawn(|| {
@@ -171,7 +173,7 @@ fn a_sweep_has_an_end() {
     let none = sweep().record_at([], ["q"], |end| [end.state.q[0]]);
     assert!(has_no_end(none.collect().err()));
     // An end at the start is one.
-    let starts = sweep().steps(0).record(["q"], |end| [end.state.q[0]]);
+    let starts = sweep().with_steps(0).record(["q"], |end| [end.state.q[0]]);
     let starts = starts.collect().expect("rows");
     let expected = (0..3).map(|index| pendulum(Member::new(index, 0)).1.q[0]);
     assert!(starts.column("q").expect("a column").eq(expected));

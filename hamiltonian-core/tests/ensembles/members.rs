@@ -14,7 +14,7 @@ where
     let mut swarm = Ensemble::new(COUNT, &make, scheme.clone(), h)
         .expect("there are members")
         .reproducible()
-        .threads(2);
+        .with_threads(2);
     swarm.advance(7).advance(6);
     let mut members = 0;
     for (index, end) in swarm.states().enumerate() {
@@ -42,9 +42,7 @@ fn members_have_the_bits_of_single_runs() {
         agrees(mixture, Tao::default());
         agrees(
             mixture,
-            TwoStepMidpoint {
-                start: Start::SecondOrder,
-            },
+            TwoStepMidpoint::default().with_start(Start::SecondOrder),
         );
         agrees(chain, StormerVerlet::default());
     });
@@ -56,7 +54,7 @@ fn neither_threads_nor_calls_nor_neighbours_change_a_bit() {
         let ends = |count, threads, calls: &[u64]| {
             let mut swarm = Ensemble::new(count, pendulum, StormerVerlet::default(), 0.1)
                 .expect("there are members")
-                .threads(threads);
+                .with_threads(threads);
             for n in calls {
                 swarm.advance(*n);
             }

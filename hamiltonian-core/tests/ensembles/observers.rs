@@ -51,7 +51,7 @@ fn intervals_of_neighbours_change_no_bit() {
     let interval = |member: Member| 1 + member.index as u64 % 3;
     let sweep = || {
         Sweep::new(COUNT, pendulum, StormerVerlet::default(), 0.05)
-            .until_each(|member| 5.0 + part(member.index))
+            .with_end_each(|member| 5.0 + part(member.index))
             .observe(move |member| every(interval(member), EnergyDrift::new()))
             .record(["t", "q", "p", "mean", "max"], |end| {
                 let (State { t, q, p }, drift) = (end.state, &end.observer.inner);
@@ -61,7 +61,7 @@ fn intervals_of_neighbours_change_no_bit() {
     at_each_level(|cpu| {
         let all = rows(&sweep());
         for chunk in [1, 7] {
-            assert_eq!(all, rows(&sweep().chunk(chunk)), "{cpu:?}");
+            assert_eq!(all, rows(&sweep().with_chunk(chunk)), "{cpu:?}");
         }
         let exact = rows(&sweep().reproducible());
         for (index, _, steps, values) in exact.iter().take(9) {

@@ -24,7 +24,7 @@ fn panicked(errors: impl Iterator<Item = (usize, Option<String>)>) -> Vec<usize>
 
 fn watching(bad: usize, member: Member) -> impl Observer<f64, Pendulum> + Send {
     watch(move |view: &View<'_, f64, Pendulum>| {
-        if view.step == 3 {
+        if view.steps == 3 {
             not(bad, member);
         }
     })
@@ -39,7 +39,7 @@ fn closures_of_an_ensemble() {
     };
     let swarm = Ensemble::new(COUNT, make, StormerVerlet::default(), 0.1).expect("members");
     let mut seen = vec![];
-    let mut swarm = swarm.reproducible().threads(2).observe(|member| {
+    let mut swarm = swarm.reproducible().with_threads(2).observe(|member| {
         seen.push(member.index);
         not(7, member);
         // Of the observers of one chunk none can be made.
@@ -83,11 +83,11 @@ fn closures_of_a_sweep() {
             pendulum(member)
         };
         Sweep::new(COUNT, make, StormerVerlet::default(), 0.1)
-            .until_each(|member| {
+            .with_end_each(|member| {
                 not(6, member);
                 1.5
             })
-            .step_each(|member| {
+            .with_step_each(|member| {
                 not(8, member);
                 0.1
             })
@@ -95,8 +95,8 @@ fn closures_of_a_sweep() {
                 not(7, member);
                 watching(9, member)
             })
-            .chunk(20)
-            .threads(2)
+            .with_chunk(20)
+            .with_threads(2)
     };
     let errors = |mut all: Vec<_>, row: &hamiltonian::Row<'_>| {
         assert_eq!(row.error.is_some(), row.status == Status::Panicked);
@@ -133,15 +133,15 @@ fn chunks_written_before_a_panic_are_intact() {
     let _level = one_level();
     let sweep = || {
         Sweep::new(COUNT, pendulum, StormerVerlet::default(), 0.02)
-            .steps(50)
-            .chunk(20)
-            .threads(2)
+            .with_steps(50)
+            .with_chunk(20)
+            .with_threads(2)
             .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
     };
     let (disturbed, calm) = (place("panicked"), place("calm"));
     sweep().store(&calm).expect("a store");
     // A closure that is no member's ends the sweep.
-    let panics = sweep().progress(|done, _| assert!(done < 60, "enough"));
+    let panics = sweep().with_progress(|done, _| assert!(done < 60, "enough"));
     let store = AssertUnwindSafe(|| panics.store(&disturbed));
     assert!(catch_unwind(store).is_err());
     let left = sweep().complete(&disturbed).expect("a store");
@@ -164,7 +164,7 @@ fn chunks_written_before_a_panic_are_intact() {
         StormerVerlet::default(),
         0.02,
     );
-    let panics = panics.steps(50).chunk(20).threads(2);
+    let panics = panics.with_steps(50).with_chunk(20).with_threads(2);
     let panics = panics.record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
     let path = place("member");
     assert!(panics.store(&path).expect("a store").is_complete());

@@ -9,17 +9,17 @@ fn a_store_goes_on_where_it_stopped() {
     let path = place("sweep");
     let sweep = |seed| {
         Sweep::new(COUNT, pendulum, StormerVerlet::default(), 0.01)
-            .steps(50)
-            .chunk(16)
-            .seed(seed)
+            .with_steps(50)
+            .with_chunk(16)
+            .with_seed(seed)
             .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
     };
     let shard = |k| Shard::new(k, 3).expect("a shard");
-    let first = sweep(1).shard(shard(1)).store(&path).expect("a store");
+    let first = sweep(1).with_shard(shard(1)).store(&path).expect("a store");
     assert!(!first.is_complete());
     assert!(
         !sweep(1)
-            .shard(shard(0))
+            .with_shard(shard(0))
             .store(&path)
             .expect("a store")
             .is_complete()
@@ -33,9 +33,9 @@ fn a_store_goes_on_where_it_stopped() {
         (system, start.at(0.5))
     };
     let other = Sweep::new(COUNT, moved, StormerVerlet::default(), 0.01)
-        .steps(50)
-        .chunk(16)
-        .seed(1);
+        .with_steps(50)
+        .with_chunk(16)
+        .with_seed(1);
     let other = other.record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
     assert!(other.store(&path).is_err(), "a store of other members");
     std::fs::remove_dir_all(&path).expect("it is there");
@@ -47,27 +47,27 @@ fn shards_of_two_levels_share_a_reproducible_store_alone() {
     let shard = |k| Shard::new(k, 2).expect("a shard");
     let sweep = || {
         Sweep::new(COUNT, pendulum, StormerVerlet::default(), 0.01)
-            .steps(50)
-            .chunk(16)
+            .with_steps(50)
+            .with_chunk(16)
             .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
     };
     let levels: Vec<Cpu> = Cpu::available().collect();
     let [worst, best] = [levels[0], levels[levels.len() - 1]];
     let (fused, unfused, calm) = (place("fused"), place("unfused"), place("calm-levels"));
     Cpu::limit_to(worst);
-    let first = sweep().shard(shard(0)).store(&fused).expect("a store");
+    let first = sweep().with_shard(shard(0)).store(&fused).expect("a store");
     assert!(!first.is_complete());
     sweep()
         .reproducible()
-        .shard(shard(0))
+        .with_shard(shard(0))
         .store(&unfused)
         .expect("a store");
     Cpu::limit_to(best);
     let (second, opened) = (
-        sweep().shard(shard(1)).store(&fused),
+        sweep().with_shard(shard(1)).store(&fused),
         sweep().complete(&fused),
     );
-    let last = sweep().reproducible().shard(shard(1)).store(&unfused);
+    let last = sweep().reproducible().with_shard(shard(1)).store(&unfused);
     sweep().reproducible().store(&calm).expect("a store");
     Cpu::limit_to(Cpu::Avx512);
     if worst == best {
@@ -99,8 +99,8 @@ fn members_that_failed_are_stored_with_the_kind_of_their_failure() {
     let _level = one_level();
     let path = place("failed");
     let sweep = Sweep::try_new(20, holes, StormerVerlet::default(), 0.01)
-        .until(17.0)
-        .chunk(20)
+        .with_end(17.0)
+        .with_chunk(20)
         .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
     assert_eq!(
         sweep.complete(&path).expect("nothing is wrong").to_string(),
@@ -147,10 +147,10 @@ fn killed(
     hamiltonian::Unfused,
 > {
     Sweep::new(4_000, pendulum, StormerVerlet::default(), 0.001)
-        .steps(2_000)
-        .chunk(20)
-        .shard(shard)
-        .threads(1)
+        .with_steps(2_000)
+        .with_chunk(20)
+        .with_shard(shard)
+        .with_threads(1)
         .reproducible()
         .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
 }

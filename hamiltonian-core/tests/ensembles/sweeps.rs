@@ -11,8 +11,8 @@ fn a_sweep_has_the_bits_of_single_runs_whatever_its_layout() {
     let step = |member: Member| 0.01 + 0.01 * part(COUNT - member.index);
     let sweep = || {
         Sweep::new(COUNT, pendulum, StormerVerlet::default(), 1.0)
-            .until_each(end)
-            .step_each(step)
+            .with_end_each(end)
+            .with_step_each(step)
             .observe(|_| EnergyDrift::new())
             .record(["t", "q", "p", "drift", "energy"], |end| {
                 let State { t, q, p } = end.state;
@@ -20,7 +20,7 @@ fn a_sweep_has_the_bits_of_single_runs_whatever_its_layout() {
             })
     };
     at_each_level(|_| {
-        let all = rows(&sweep().reproducible().threads(1));
+        let all = rows(&sweep().reproducible().with_threads(1));
         assert_eq!(all.len(), COUNT);
         for (index, status, steps, values) in &all {
             let member = Member::new(*index, 0);
@@ -40,15 +40,18 @@ fn a_sweep_has_the_bits_of_single_runs_whatever_its_layout() {
             assert_eq!(*values, expected.map(f64::to_bits), "member {index}");
             assert_eq!((*status, *steps), (Status::Ended, run.steps()));
         }
-        let fused = rows(&sweep().threads(1));
+        let fused = rows(&sweep().with_threads(1));
         for chunk in [1, 7, 4096] {
-            assert_eq!(all, rows(&sweep().reproducible().chunk(chunk).threads(2)));
-            assert_eq!(fused, rows(&sweep().chunk(chunk).threads(2)));
+            assert_eq!(
+                all,
+                rows(&sweep().reproducible().with_chunk(chunk).with_threads(2))
+            );
+            assert_eq!(fused, rows(&sweep().with_chunk(chunk).with_threads(2)));
         }
         let mut sharded = vec![];
         for k in 0..7 {
             let shard = Shard::new(k, 7).expect("a shard");
-            sharded.extend(rows(&sweep().chunk(8).shard(shard)));
+            sharded.extend(rows(&sweep().with_chunk(8).with_shard(shard)));
         }
         sharded.sort_by_key(|row| row.0);
         assert_eq!(fused, sharded);
@@ -79,7 +82,7 @@ fn sweeps_record_at_times_and_sections() {
         assert_eq!(row, [index as f64, expected.t, expected.q[0], ended]);
     }
     let section = Sweep::new(40, start, StormerVerlet::default(), 0.02)
-        .steps(1000)
+        .with_steps(1000)
         .observe(|_| Events::new([Event::named("bottom").rising()]))
         .rows(["t", "p"], |end| {
             end.observer
@@ -106,7 +109,7 @@ fn bad_input_is_a_typed_error() {
         Err(Error::Start(StartError::Step { .. }))
     ));
     let none = Sweep::new(0, pendulum, StormerVerlet::default(), 0.1)
-        .steps(1)
+        .with_steps(1)
         .record(["q"], |end| [end.state.q[0]]);
     assert!(matches!(
         none.collect(),
@@ -118,7 +121,7 @@ fn bad_input_is_a_typed_error() {
         pendulum(member)
     };
     let sweep = Sweep::new(20, panics, StormerVerlet::default(), 0.1)
-        .steps(10)
+        .with_steps(10)
         .record(["q"], |end| {
             assert_ne!(end.member.index, 7, "no record");
             [end.state.q[0]]
@@ -156,9 +159,9 @@ fn bad_input_is_a_typed_error() {
 
     let flag = AtomicBool::new(false);
     let sweep = Sweep::new(1000, pendulum, StormerVerlet::default(), 0.1)
-        .steps(10)
-        .chunk(10)
-        .cancel(&flag)
+        .with_steps(10)
+        .with_chunk(10)
+        .with_cancel(&flag)
         .record(["q"], |end| {
             if end.member.index == 500 {
                 flag.store(true, Ordering::Relaxed);

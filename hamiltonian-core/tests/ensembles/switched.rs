@@ -156,9 +156,9 @@ fn jumping(member: Member) -> (Jumping, StateOf<Jumping>) {
 fn ends(finer: u64) -> Vec<[f64; 2]> {
     let last = |drawn: &Drawn| drawn.step * drawn.steps() as f64 + drawn.start.t;
     let sweep = Sweep::new(MEMBERS, jumping, StormerVerlet::default(), 1.0)
-        .step_each(|member| Drawn::new(member).step / finer as f64)
-        .until_each(|member| last(&Drawn::new(member)))
-        .chunk(97)
+        .with_step_each(|member| Drawn::new(member).step / finer as f64)
+        .with_end_each(|member| last(&Drawn::new(member)))
+        .with_chunk(97)
         .reproducible()
         .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
     let take = |mut all: Vec<_>, row: &hamiltonian::Row<'_>| {

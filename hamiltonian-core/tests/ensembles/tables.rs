@@ -66,7 +66,7 @@ struct Until(u64);
 
 impl<S: System> Observer<f64, S> for Until {
     fn observe(&mut self, view: &View<'_, f64, S>) -> ControlFlow<()> {
-        match view.step >= self.0 {
+        match view.steps >= self.0 {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -150,8 +150,8 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
         }
         let mut sweep = Sweep::try_new(MEMBERS, falling, StormerVerlet::default(), step)
             .reproducible()
-            .chunk(1 + numbers.below(14))
-            .threads(1 + numbers.below(2));
+            .with_chunk(1 + numbers.below(14))
+            .with_threads(1 + numbers.below(2));
         // Steps of their own, of some members in the other direction; any order of times may then be meant.
         let is_own = !matches!(fault, Fault::Order | Fault::Direction) && numbers.below(3) == 0;
         let step_of = move |index: usize| match index % 4 {
@@ -160,7 +160,7 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
             _ => step * (0.6 + 0.1 * (index % 9) as f64),
         };
         if is_own {
-            sweep = sweep.step_each(move |member| step_of(member.index));
+            sweep = sweep.with_step_each(move |member| step_of(member.index));
         }
         let ends = numbers.below(2) == 0;
         let table = match ends {
@@ -218,7 +218,7 @@ fn tables_of_generated_sweeps_lose_no_row_and_report_bad_times() {
 #[test]
 fn every_record_has_members_and_states_of_their_ends() {
     let _level = one_level();
-    let sweep = || Sweep::try_new(MEMBERS, falling, StormerVerlet::default(), 0.05).until(4.0);
+    let sweep = || Sweep::try_new(MEMBERS, falling, StormerVerlet::default(), 0.05).with_end(4.0);
     let ends = sweep().record(["q"], |end| [end.state.q[0]]);
     let ends = ends.collect().expect("rows");
     assert_eq!(ends.columns(), ["member", "q", "status"]);

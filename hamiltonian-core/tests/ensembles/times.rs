@@ -81,10 +81,7 @@ fn members_reach_a_time_as_single_runs_do() {
         apart.advance_to(2.0),
         Err(Error::Sweep(SweepError::Apart { .. }))
     ));
-    let varying = Paced {
-        scheme: StormerVerlet::default(),
-        density: Steady,
-    };
+    let varying = Paced::new(StormerVerlet::default(), Steady);
     let mut varying = Ensemble::new(3, together, varying, 0.1).expect("there are members");
     assert!(matches!(
         varying.advance_until(2.0).map(|_| ()),

@@ -107,7 +107,7 @@ fn points_that_meet_are_an_error_with_its_place() -> Result<(), Error> {
         for threads in [1, 2] {
             let start = State::new(places.clone(), momenta.clone());
             let run = Integrator::new(&system, StormerVerlet::default(), start, 0.5)?;
-            let mut run = run.threads(threads);
+            let mut run = run.with_threads(threads);
             let Err(Error::Step(StepError::NotFinite { step, p, .. })) = run.advance(10) else {
                 panic!("{n} points met")
             };
@@ -133,7 +133,7 @@ fn a_point_and_none_have_no_pairs() -> Result<(), Error> {
         let system = Charges::new(n)?;
         let start = State::new(vec![1.0; n], vec![0.5; n]);
         let run = Integrator::new(&system, StormerVerlet::default(), start, 0.5)?;
-        let mut run = run.threads(2);
+        let mut run = run.with_threads(2);
         assert_eq!(run.advance(2)?.q.as_slice(), vec![1.5; n]);
         assert_eq!(system.energy(run.state()), 0.125 * n as f64);
     }

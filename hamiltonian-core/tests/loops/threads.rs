@@ -92,7 +92,7 @@ where
     for fused in [false, true] {
         let end = |threads| {
             let run = Integrator::new(system, scheme.clone(), start(system), 0.01).unwrap();
-            let mut run = if fused { run.fused() } else { run }.threads(threads);
+            let mut run = if fused { run.fused() } else { run }.with_threads(threads);
             bits(run.advance(3).unwrap())
         };
         let one = end(1);
@@ -147,7 +147,7 @@ fn pairs_have_the_bits_of_one_thread() {
     let system = Bodies::new(4098, masses).unwrap();
     let end = |threads| {
         let run = Integrator::new(&system, Gauss::<2>::default(), start(&system), 0.01).unwrap();
-        let mut run = run.threads(threads);
+        let mut run = run.with_threads(threads);
         bits(run.advance(1).unwrap())
     };
     assert!(end(1) == end(2), "an implicit scheme");
@@ -157,7 +157,7 @@ fn pairs_have_the_bits_of_one_thread() {
 fn a_member_has_the_tiles_of_its_run() {
     let system = Rotors::new(4097).unwrap();
     let new = || Integrator::new(&system, StormerVerlet::default(), start(&system), 0.01).unwrap();
-    let mut run = new().threads(2);
+    let mut run = new().with_threads(2);
     run.advance(1).unwrap();
     let each = |_: Member| (system.clone(), start(&system));
     let mut members = Ensemble::new(2, each, StormerVerlet::default(), 0.01)
@@ -167,7 +167,7 @@ fn a_member_has_the_tiles_of_its_run() {
     for state in members.states() {
         assert_eq!(state.unwrap(), *run.state());
     }
-    let mut alone = new().lanes(false);
+    let mut alone = new().with_lanes(false);
     assert_eq!(alone.advance(1).unwrap(), run.state());
 }
 
@@ -175,13 +175,13 @@ fn a_member_has_the_tiles_of_its_run() {
 fn members_and_saved_runs_have_the_bits_of_threads() {
     let system = Field::new(128, 129, vec![0.5; 129]).unwrap();
     let new = || Integrator::new(&system, StormerVerlet::default(), start(&system), 0.01).unwrap();
-    let mut run = new().threads(2);
+    let mut run = new().with_threads(2);
     run.advance(4).unwrap();
     let each = |_: Member| (system.clone(), start(&system));
     let mut members = Ensemble::new(2, each, StormerVerlet::default(), 0.01)
         .unwrap()
         .reproducible()
-        .threads(2);
+        .with_threads(2);
     members.advance(4);
     for state in members.states() {
         assert_eq!(state.unwrap(), *run.state());
@@ -249,7 +249,7 @@ where
     run.advance(1).unwrap();
     let one: Vec<ThreadId> = take().into_iter().map(|(thread, _)| thread).collect();
     assert_eq!(one, [current().id()]);
-    let mut run = run.threads(2);
+    let mut run = run.with_threads(2);
     // The caller evaluates H at the end of a block, and makes no step. The second thread takes rows when the machine
     // lets it run.
     let both = |run: &mut Run<S, StormerVerlet>| {

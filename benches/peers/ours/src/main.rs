@@ -408,7 +408,7 @@ fn swing<M: Scheme<Pendulum>>(
         let (q, p) = start(member.index);
         (Pendulum {}, State::new([q], [p]))
     };
-    let swarm = Ensemble::new(PENDULUMS, member, scheme, SWING / steps as f64)?.threads(1);
+    let swarm = Ensemble::new(PENDULUMS, member, scheme, SWING / steps as f64)?.with_threads(1);
     match fused {
         true => ends_of(swarm, steps),
         false => ends_of(swarm.reproducible(), steps),

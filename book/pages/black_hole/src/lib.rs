@@ -87,7 +87,7 @@ pub extern "C" fn trace(a: f64, inclination: f64, side: u32, first: u32, count: 
             },
         )
     };
-    let mut swarm = swarm.threads(1).observe(ends);
+    let mut swarm = swarm.with_threads(1).observe(ends);
     swarm.advance(STEPS);
     let system = Light { a };
     let mut worst: f64 = 0.0;

@@ -39,7 +39,7 @@ pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
             duration: durations.map(|durations| durations[lane]),
         };
         let view = View {
-            step: run.made,
+            steps: run.made,
             state: &run.state,
             prepared: &run.prepared,
             between: &part,
@@ -111,7 +111,7 @@ impl<T: Real> PassedStates<'_, T> {
                 duration: self.carries_duration.then(next),
             };
             let view = View {
-                step,
+                steps: step,
                 state: &run.state,
                 prepared: &run.prepared,
                 between: &part,

@@ -271,7 +271,7 @@ where
             active.is_attached = true;
             active.observer.attach(view)
         } else if !active.is_followed
-            && (view.step).is_multiple_of(active.observer.interval().max(1))
+            && (view.steps).is_multiple_of(active.observer.interval().max(1))
         {
             active.observer.observe(view)
         } else {
@@ -295,7 +295,7 @@ where
         let clock_of = Clock::new(view.between.start(), view.between.interval());
         loop {
             let Some(t) = self.time(active) else {
-                let is_there = active.target == Some(view.step);
+                let is_there = active.target == Some(view.steps);
                 return Ok(match is_there {
                     true => ControlFlow::Break((view.state.clone(), false)),
                     false => ControlFlow::Continue(()),
@@ -303,7 +303,7 @@ where
             };
             let forward = view.between.interval() > 0.0;
             let is_passed = match active.target {
-                Some(target) => target == view.step,
+                Some(target) => target == view.steps,
                 None if forward => view.state.t >= t,
                 None => view.state.t <= t,
             };
@@ -311,7 +311,7 @@ where
                 return Ok(ControlFlow::Continue(()));
             }
             let meets = match active.target {
-                Some(_) => clock_of.whole_steps(view.step, t, "")?.0.is_none(),
+                Some(_) => clock_of.whole_steps(view.steps, t, "")?.0.is_none(),
                 None => view.state.t.to_bits() == t.to_bits(),
             };
             if active.target.is_some() && !meets && !goes_on {
@@ -329,7 +329,7 @@ where
                 return Ok(ControlFlow::Break((state, false)));
             }
             self.write(active, view, &state, false);
-            self.set_target(active, view.prepared.description(), clock_of, view.step)?;
+            self.set_target(active, view.prepared.description(), clock_of, view.steps)?;
         }
     }
 
@@ -352,19 +352,19 @@ where
             prepared: view.prepared,
             step: active.step,
             clock: active.clock,
-            made: view.step,
+            made: view.steps,
         };
         if decision.is_continue() {
             if let Some((n, closure)) = &self.sweep.each
-                && view.step > 0
-                && view.step.is_multiple_of(*n)
+                && view.steps > 0
+                && view.steps.is_multiple_of(*n)
             {
                 let member = active.member;
                 let closure = |state: &mut State<VectorOf<S>>| closure(member, state);
                 changed = standing.change(view.state, closure, &mut active.observer, words)?;
             }
             decision = match &changed {
-                Some(state) => self.record(active, &standing.part(state).view(view.step), true)?,
+                Some(state) => self.record(active, &standing.part(state).view(view.steps), true)?,
                 None => self.record(active, view, true)?,
             };
         }
@@ -389,7 +389,7 @@ where
             member: active.member,
             state,
             observer: &active.observer,
-            steps: view.step,
+            steps: view.steps,
             stopped,
             prepared: view.prepared,
         };
@@ -411,11 +411,11 @@ where
                     true => Status::Stopped,
                     false => Status::Ended,
                 };
-                self.finish(key, status, state.t, view.step, values, None);
+                self.finish(key, status, state.t, view.steps, values, None);
             }
             Err(error) => {
                 let status = Status::of(&error, true);
-                self.finish(key, status, view.state.t, view.step, values, Some(error));
+                self.finish(key, status, view.state.t, view.steps, values, Some(error));
             }
         }
         false
@@ -484,16 +484,16 @@ where
         match guard(|| self.decide(&mut active, words, view)).and_then(|decision| decision) {
             Ok(ControlFlow::Continue(is_changed)) => {
                 if is_changed {
-                    *began = view.step;
+                    *began = view.steps;
                 }
-                let is_first = !active.is_followed && view.step == 0;
+                let is_first = !active.is_followed && view.steps == 0;
                 if is_first || is_changed && active.is_followed {
                     FollowVisitor::list(view.prepared.description(), followed, |visitor| {
                         active.observer.follow(visitor)
                     });
                     active.is_followed = !followed.is_empty();
                 }
-                *stop = self.stop(&active, view.step);
+                *stop = self.stop(&active, view.steps);
                 self.active[key] = Some(active);
                 true
             }

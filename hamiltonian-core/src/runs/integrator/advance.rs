@@ -55,7 +55,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
                     duration: self.carried.duration(self.clock.interval),
                 };
                 let view = View {
-                    step: self.steps,
+                    steps: self.steps,
                     state: &self.state,
                     prepared: &self.prepared,
                     between: &part,

@@ -35,7 +35,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
 
     /// The time that one step advances: the step size, or twice the step size for
     /// [`ConsecutiveSubTrajectories`](crate::schemes::ConsecutiveSubTrajectories).
-    pub fn interval(&self) -> T {
+    pub fn duration(&self) -> T {
         self.clock.interval
     }
 

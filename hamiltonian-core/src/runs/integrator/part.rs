@@ -121,7 +121,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
     /// The state after so many steps, as observers receive it.
     pub(crate) fn view(&self, step: u64) -> View<'_, T, S> {
         View {
-            step,
+            steps: step,
             state: self.state,
             prepared: self.prepared,
             between: self,

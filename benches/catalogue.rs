@@ -12,6 +12,14 @@ use hamiltonian::Vector;
 use hamiltonian::lanes::Cpu;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::author::{Observed, catalogue};
+use hamiltonian::schemes::{
+    Aba104, Aba864, BlanesCasasEscorihuela8, BlanesCasasMurua8, CheapProcessed4, Compensated,
+    ConsecutiveSubTrajectories, DiscreteGradient, IntersectingSubTrajectories, KahanLi6,
+    McLachlan8, MidpointProjected, Mixed, MomentumVariational, Pihajoki, Processed4, Processed6,
+    Ruth3, Saba2, Saba3, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b,
+    Srkn14a, Start, Suzuki4, SymplecticEuler, Tao, TwoStepMidpoint, Variational, WisdomHolman3,
+    WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
+};
 
 hamiltonian! {
     /// Hénon–Heiles.

@@ -18,6 +18,9 @@ use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
+use hamiltonian::schemes::{
+    ConsecutiveSubTrajectories, IntersectingSubTrajectories, Pihajoki, Start, Yoshida4,
+};
 use hamiltonian::{Exact, Scheme, Separable, Split, System, Unforced, View, hamiltonian};
 use std::fmt::{Display, Write as _};
 use std::path::Path;

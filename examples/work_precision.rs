@@ -14,6 +14,9 @@ use checks::Checks;
 use hamiltonian::VectorOf;
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::{
+    BlanesCasasEscorihuela8, Compensated, Semiexplicit, SofroniouSpaletta10, Srkn6b, Srkn11b, Tao,
+};
 use hamiltonian::{Exact, Scheme, Split, Unforced, hamiltonian};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -135,8 +138,8 @@ impl<'a, S: System> Race<'a, S> {
         let begin = || Integrator::new(self.system, scheme.clone(), self.start.clone(), h);
         let mut run = begin()?.observe(EnergyDrift::new());
         let end = run.advance(steps)?;
-        let of_q = hamiltonian::Vector::distance(&end.q, &self.exact.q);
-        let of_end = of_q.max(hamiltonian::Vector::distance(&end.p, &self.exact.p));
+        let of_q = Vector::distance(&end.q, &self.exact.q);
+        let of_end = of_q.max(Vector::distance(&end.p, &self.exact.p));
         let of_energy = run.observer().max_relative();
         let mut nanoseconds = f64::INFINITY;
         for _ in 0..5 {

@@ -11,6 +11,7 @@ use crate::systems::{Dipole, Vortices as Strengths};
 use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::Visitor;
+use hamiltonian::schemes::{KahanLi6, Yoshida4};
 use hamiltonian::{DoubleDouble, Dual, Exact, Split, Vector};
 use std::f64::consts::FRAC_PI_2;
 

@@ -8,6 +8,7 @@ use hamiltonian::prelude::*;
 use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_implicit, visit_separable, visit_split,
 };
+use hamiltonian::schemes::{Composition, Yoshida4};
 use hamiltonian::{DoubleDouble, Scheme, Separable, Split, hamiltonian};
 
 hamiltonian! {

@@ -6,7 +6,7 @@ use crate::common::systems::*;
 use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
-use hamiltonian::schemes::*;
+use hamiltonian::schemes::{IntersectingSubTrajectories, Pihajoki, Tao, TwoStepMidpoint};
 use hamiltonian::{Separable, Split, Unforced};
 
 fn separable<S>(mut geometry: Geometry<S>)

@@ -1,6 +1,7 @@
 //! Systems from their Lagrangians: the same H as written by hand, momenta from velocities and back.
 
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::Variational;
 use hamiltonian::schemes::author::Ends;
 use hamiltonian::{Dual, Vector};
 

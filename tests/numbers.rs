@@ -95,7 +95,7 @@ fn over<T: Real>(x: T) -> T {
 }
 
 /// A run from a state of any system.
-fn first<S: hamiltonian::Separable>(system: &S, start: impl IntoStart<VectorOf<S>>) -> f64 {
+fn first<S: Separable>(system: &S, start: impl IntoStart<VectorOf<S>>) -> f64 {
     let run = Integrator::new(system, StormerVerlet::default(), start, 0.1).unwrap();
     System::energy(system, run.state())
 }

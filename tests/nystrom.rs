@@ -6,6 +6,7 @@ use crate::common::reference::difference;
 use crate::common::systems::Relativistic;
 use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::{BlanesCasasEscorihuela8, Srkn11b};
 use hamiltonian::schemes::{
     author::{Zigzag, ZigzagOf},
     walk::Visitor,

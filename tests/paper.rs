@@ -11,6 +11,9 @@ use crate::common::{assert_digits, state};
 use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::private::SVector;
+use hamiltonian::schemes::{
+    ConsecutiveSubTrajectories, IntersectingSubTrajectories, Pihajoki, Start,
+};
 use hamiltonian::{DoubleDouble, Real, Scheme, Separable, Unforced, Vector};
 use std::f64::consts::FRAC_PI_4;
 

@@ -9,6 +9,7 @@ use hamiltonian::nalgebra::{Const, Dyn, OMatrix};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::author::Description;
 use hamiltonian::schemes::walk::Visitor;
+use hamiltonian::schemes::{KahanLi6, Yoshida4};
 use hamiltonian::{DoubleDouble, Dual, Split};
 
 hamiltonian! {

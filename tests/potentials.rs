@@ -2,6 +2,7 @@
 
 use hamiltonian::errors::StepError;
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::Srkn6b;
 use hamiltonian::schemes::author::Dynamics;
 
 fn morse<T: Real>(r: T) -> T {

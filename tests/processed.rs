@@ -5,6 +5,9 @@ use crate::common::is_heavy;
 use hamiltonian::VectorOf;
 use hamiltonian::nalgebra::{SMatrix, SVector};
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::{
+    CheapProcessed4, Processed4, Processed6, WisdomHolman3, WisdomHolman17,
+};
 use hamiltonian::{DoubleDouble, Exact, Scheme, Split, Unforced, Vector};
 use std::f64::consts::FRAC_PI_2;
 

@@ -7,6 +7,7 @@ use hamiltonian::VectorOf;
 use hamiltonian::errors::StepError;
 use hamiltonian::lanes::Cpu;
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::{MomentumVariational, Variational, Yoshida4};
 use hamiltonian::{Checkpoint, Dual, Run, Scheme};
 use std::sync::PoisonError;
 

@@ -1,6 +1,7 @@
 //! The restricted three-body problem: a symmetric orbit by shooting, from the event y = 0 and a tangent map.
 
 use hamiltonian::prelude::*;
+use hamiltonian::analysis::monodromy;
 
 hamiltonian! {
     pub struct ThreeBody { mu = 0.012277471 }

@@ -106,8 +106,8 @@ where
         p: system.zeros(),
         t: 0.0,
     };
-    hamiltonian::Vector::part_mut(&mut state.q, 0).copy_from_slice(&start.0);
-    hamiltonian::Vector::part_mut(&mut state.p, 0).copy_from_slice(&start.1);
+    Vector::part_mut(&mut state.q, 0).copy_from_slice(&start.0);
+    Vector::part_mut(&mut state.p, 0).copy_from_slice(&start.1);
     let mut run = Integrator::new(system, StormerVerlet::default(), state, H).unwrap();
     if fused {
         run = run.fused();
@@ -118,7 +118,7 @@ where
     run.advance(black_box(steps as u64)).unwrap();
     let time = began.elapsed();
     let end = run.state();
-    let [q, p] = [&end.q, &end.p].map(|vector| hamiltonian::Vector::part(vector, 0));
+    let [q, p] = [&end.q, &end.p].map(|vector| Vector::part(vector, 0));
     ([q, p].concat(), time)
 }
 

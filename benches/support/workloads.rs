@@ -5,6 +5,7 @@
 
 use hamiltonian::Scheme;
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::{Composition, Pihajoki, Yoshida4};
 use std::hint::black_box;
 
 hamiltonian! {

@@ -4,6 +4,7 @@
 use hamiltonian::VectorOf;
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::Pihajoki;
 use hamiltonian::{Scheme, Split, Unforced, View};
 use std::fmt::Display;
 use std::path::Path;

@@ -85,7 +85,8 @@ pub use nalgebra;
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
 pub type StateOf<S, T = f64> = State<VectorOf<S, T>>;
 
-/// The names that a program needs to run systems.
+/// The names that most programs need to run systems: runs, ensembles, observers, and the schemes with which to start. All
+/// other schemes are in [`schemes`].
 ///
 /// It imports the methods of its traits also if a name is taken: in a program with a type `System` of its own,
 /// `energy` is still a method of every definition.
@@ -97,28 +98,22 @@ pub mod prelude {
     pub use crate::private::EveryParameterHasADefault as _;
 
     pub use crate::analysis::{
-        Closing, OrbitSearch, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,
+        Closing, OrbitSearch, PeriodicOrbit, Tangent, megno, symplectic_defect,
     };
     pub use crate::observers::{
         EnergyDrift, Event, Events, Monitors, Recorder, at_times, every, watch,
     };
     pub use crate::schemes::{
-        Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesCasasMurua8, BlanesMoan4,
-        BlanesMoan6, CheapProcessed, CheapProcessed4, Compensated, Composition,
-        ConsecutiveSubTrajectories, Density, DiscreteGradient, Gauss, GaussNystrom,
-        ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8,
-        MidpointProjected, Mixed, MomentumVariational, Paced, Pihajoki, Processed, Processed4,
-        Processed6, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8,
-        SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
-        SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational, WisdomHolman3,
-        WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
+        Aba1064, BlanesMoan4, BlanesMoan6, Density, Gauss, GaussNystrom, ImplicitMidpoint,
+        KahanLi8, Paced, RungeKutta4, Saba4, StormerVerlet, Strang, TransformedVerlet,
     };
     pub use crate::systems::function::{Function, Grid, Spline};
     pub use crate::{
-        AnyRun, Checkpoint, DoubleDouble, Dual, Ensemble, Error, Gradient, Integrator, Lyapunov,
-        Member, Observer, Real, Run, Scheme, Shard, Split, State, StateOf, Status, Sweep, System,
-        TimeTransformed,
+        Checkpoint, DoubleDouble, Dual, Ensemble, Error, Integrator, Lyapunov, Member, Observer,
+        Real, Run, Scheme, Separable, Shard, Split, State, StateOf, Sweep, System, TimeTransformed,
+        Vector,
     };
+    pub use hamiltonian_lanes::Mask;
 
     #[cfg(feature = "progress")]
     pub use crate::observers::Progress;

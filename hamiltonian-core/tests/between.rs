@@ -3,9 +3,11 @@
 use crate::common::difference;
 use crate::common::systems::*;
 use core::ops::ControlFlow;
+use hamiltonian_core::AnyRun;
 use hamiltonian_core::errors::{StepError, TimeError};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::{Composition, IntersectingSubTrajectories, Pihajoki};
 use hamiltonian_core::{Scheme, Vector, View};
 
 type Heiles = Hand<HenonHeiles, 2>;

@@ -9,6 +9,7 @@ use core::cell::Cell;
 use hamiltonian_core::errors::StepError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::Composition;
 use hamiltonian_core::schemes::author::{Flow, Group, OneStep, Piece, Point, Weight};
 use hamiltonian_core::schemes::{Aba864, Adjoint, CheapProcessed4, Processed4, Ruth3};
 use hamiltonian_core::{Error, Exact, Real, Scheme, Split, Vector};

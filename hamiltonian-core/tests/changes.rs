@@ -3,6 +3,7 @@
 use crate::common::systems::*;
 use hamiltonian_core::errors::{StartError, TimeError};
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::{Tao, TwoStepMidpoint};
 use hamiltonian_core::{Real, Scheme, private::SVector};
 
 type Start = State<SVector<f64, 2>>;

@@ -4,6 +4,7 @@ use crate::common::start;
 use crate::common::systems::*;
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::IntersectingSubTrajectories;
 use hamiltonian_core::{
     errors::CheckpointError,
     observers::Every,

@@ -6,6 +6,7 @@ use crate::common::{difference, start};
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::author::{Reversed, Splitting, Weight};
+use hamiltonian_core::schemes::{Adjoint, Composition, KahanLi6, Pihajoki, SymplecticEuler};
 use hamiltonian_core::{DoubleDouble, Scheme, Vector, schemes::author::OneStep};
 
 /// The slope of the error at t = 1 between two steps, in double-double, against Gauss's method of order 16, whose

@@ -3,6 +3,7 @@
 use crate::common::systems::*;
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::{Composition, Processed6, SymplecticEuler};
 use hamiltonian_core::{ErrorEstimate, Scheme, schemes::author::Listed};
 
 type Estimate = ErrorEstimate<hamiltonian_core::private::SVector<f64, 1>>;

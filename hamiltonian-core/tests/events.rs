@@ -6,6 +6,7 @@ use core::ops::ControlFlow;
 use hamiltonian_core::errors::TimeError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::Composition;
 use hamiltonian_core::{DoubleDouble, Error, Scheme, View};
 
 type Heiles = Hand<HenonHeiles, 2>;

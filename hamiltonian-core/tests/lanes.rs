@@ -6,6 +6,10 @@ use hamiltonian_core::errors::StepError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::Coupled;
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::{
+    Adjoint, Composition, ConsecutiveSubTrajectories, IntersectingSubTrajectories, Pihajoki,
+    SymplecticEuler, TwoStepMidpoint,
+};
 use hamiltonian_core::{
     Real, Scheme, Vector,
     schemes::author::{Clock, Flow, Map, Point, Scratch, Step, VectorField},

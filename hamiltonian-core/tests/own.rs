@@ -4,7 +4,9 @@ use crate::common::systems::*;
 use crate::composition::{is, slope};
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::Adjoint;
 use hamiltonian_core::schemes::author::{Durations, Splitting, Weight, Zigzag, ZigzagOf};
+use hamiltonian_core::schemes::{Composition, Yoshida4};
 use hamiltonian_core::{
     Scheme,
     schemes::author::{Description, Dynamics, Entry, Form, Listed, Map, Needs, OneStep, Point},

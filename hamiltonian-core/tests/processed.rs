@@ -7,6 +7,10 @@ use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::{
+    BlanesCasasMurua8, CheapProcessed4, Composition, Processed, Processed4, Processed6,
+    WisdomHolman17,
+};
+use hamiltonian_core::schemes::{
     author::{Durations, Splitting, Weight},
     inside::{Kernel4, Kernel6},
 };

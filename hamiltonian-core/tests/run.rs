@@ -4,6 +4,7 @@ use crate::common::difference;
 use crate::common::systems::*;
 use hamiltonian_core::errors::{InputError, StartError, StepError, TimeError};
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::Variational;
 use hamiltonian_core::{Real, Scheme, private::SVector};
 
 fn oscillating() -> State<SVector<f64, 2>> {

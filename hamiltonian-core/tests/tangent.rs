@@ -2,6 +2,7 @@
 
 use crate::common::systems::*;
 use core::f64::consts::{FRAC_PI_2, TAU};
+use hamiltonian_core::analysis::monodromy;
 use hamiltonian_core::errors::StartError;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::nalgebra::{Complex, DMatrix, DVector};

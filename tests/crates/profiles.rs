@@ -2,6 +2,7 @@
 //! different optimisations.
 
 use mechanics::prelude::*;
+use mechanics::schemes::DiscreteGradient;
 use mechanics::{Scheme, Vector};
 
 hamiltonian! {

@@ -410,6 +410,7 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::analysis::monodromy;
 /// use std::f64::consts::TAU;
 ///
 /// let matrix = monodromy(&Oscillator {}, RungeKutta4, State::new([1.0], [0.0]), TAU, 1_000)?;

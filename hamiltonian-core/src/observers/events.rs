@@ -67,6 +67,7 @@ pub struct Located<V: Vector> {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Composition;
 ///
 /// let events = Events::new([
 ///     Event::of("q = 0", |state: &StateOf<Oscillator>| state.q[0]),

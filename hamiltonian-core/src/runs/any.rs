@@ -17,6 +17,7 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::AnyRun;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut runs: Vec<Box<dyn AnyRun>> = vec![

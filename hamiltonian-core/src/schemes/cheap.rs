@@ -42,6 +42,7 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::{CheapProcessed4, Processed4};
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, CheapProcessed4::default(), start.clone(), 0.1)?;
@@ -186,6 +187,7 @@ weights! {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::CheapProcessed4;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut largest = 0.0_f64;

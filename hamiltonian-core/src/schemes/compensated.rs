@@ -34,6 +34,7 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Compensated;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, Compensated(KahanLi8), start, 0.1)?;
@@ -46,6 +47,7 @@ use hamiltonian_lanes::Real;
 /// ```compile_fail,E0277
 /// use hamiltonian::{Scheme, Separable};
 /// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::Compensated;
 ///
 /// fn takes<S: Separable>() where Compensated<Strang>: Scheme<S> {}
 /// fn with_or_without_a_force<S: Separable>() { takes::<S>() }

@@ -27,6 +27,7 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Composition;
 ///
 /// let fourth = Composition::yoshida(ImplicitMidpoint::default());
 /// let mut run = Integrator::new(&Oscillator {}, fourth, State::new([1.0], [0.0]), 0.1)?;
@@ -36,6 +37,7 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```compile_fail,E0277
 /// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::{Composition, IntersectingSubTrajectories};
 ///
 /// // (33) carries a point whose distance depends on the step.
 /// let _ = Composition::yoshida(IntersectingSubTrajectories::default());
@@ -43,6 +45,7 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```compile_fail,E0277
 /// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::{KahanLi6, SymplecticEuler};
 ///
 /// // Its adjoint is another scheme; a table has its order with symmetric ones.
 /// let _ = KahanLi6.of(SymplecticEuler::default());
@@ -52,6 +55,7 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 /// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::{Composition, KahanLi6, SymplecticEuler};
 ///
 /// let _ = KahanLi6.of(Composition::with_adjoint(SymplecticEuler::default()));
 /// ```

@@ -26,6 +26,7 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::DiscreteGradient;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, DiscreteGradient::default(), start, 0.5)?;

@@ -42,6 +42,7 @@ pub type Copies<V> = Pair<Point<V>, Point<V>>;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Pihajoki;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, Pihajoki::default(), start, 0.01)?;

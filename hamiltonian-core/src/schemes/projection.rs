@@ -52,6 +52,7 @@ fn inner<T: Real, S: System, W: Splitting>(
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::MidpointProjected;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let scheme = MidpointProjected::<KahanLi8>::default();
@@ -157,6 +158,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Averaged<M> {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Mixed;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let scheme = Mixed::new(Strang).with_weights(1.0, 0.5);
@@ -186,6 +188,7 @@ impl<M> Mixed<M> {
     ///
     /// ```
     /// use hamiltonian::prelude::*;
+    /// use hamiltonian::schemes::Mixed;
     ///
     /// assert_eq!(Mixed::new(Strang), Mixed::default().with_weights(1.0, 0.5));
     /// ```
@@ -309,6 +312,7 @@ fn mix<V: Vector>(c: V::Scalar, a: &mut V, b: &mut V) {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::{Semiexplicit, Suzuki4};
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, Semiexplicit::<Suzuki4>::default(), start, 0.1)?;
@@ -337,6 +341,7 @@ impl<M> Semiexplicit<M> {
     ///
     /// ```
     /// use hamiltonian::prelude::*;
+    /// use hamiltonian::schemes::{Semiexplicit, Suzuki4};
     ///
     /// let scheme = Semiexplicit::new(Suzuki4).with_max_iterations(50);
     /// assert_eq!(Semiexplicit::default(), scheme);

@@ -156,6 +156,8 @@ pub type CarriedBy<M, S, T = f64> =
 /// ```
 /// use hamiltonian::{Separable, prelude::*};
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Yoshida4;
+/// use hamiltonian::analysis::monodromy;
 ///
 /// fn study<S: Separable, M: Scheme<S>>(system: &S, scheme: M, start: StateOf<S>) -> Result<f64, Error> {
 ///     let run = Integrator::new(system, scheme.clone(), start.clone(), 0.01)?;

@@ -142,6 +142,7 @@ symmetric!(StormerVerlet);
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::SymplecticEuler;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, SymplecticEuler::default(), start, 0.01)?;

@@ -35,6 +35,7 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Tao;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, Tao::default().with_omega(10.0), start, 0.01)?;

@@ -130,6 +130,7 @@ macro_rules! entries {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::TwoStepMidpoint;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run = Integrator::new(&Oscillator {}, TwoStepMidpoint::default(), start, 0.01)?;
@@ -173,6 +174,7 @@ entries!(TwoStepMidpoint, "25", 1);
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::ConsecutiveSubTrajectories;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run =
@@ -215,6 +217,7 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::{IntersectingSubTrajectories, Start};
 ///
 /// let scheme = IntersectingSubTrajectories::default().with_start(Start::HalfEuler);
 /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?;

@@ -74,6 +74,7 @@ use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::Variational;
 ///
 /// // A parabola and Simpson's rule: order 4.
 /// let start = State::new([1.0], [0.0]);
@@ -239,6 +240,7 @@ impl<S: System, const DEGREE: usize, const POINTS: usize> Scheme<S>
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian::schemes::MomentumVariational;
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let scheme = MomentumVariational::<3>::default();
@@ -363,6 +365,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// ```
     /// use hamiltonian::schemes::author::Ends;
     #[doc = include_str!("../doc/oscillator.md")]
+    /// use hamiltonian::schemes::Variational;
     ///
     /// // From 0 to 1 in a quarter of a period, S = (p₁q₁ − p₀q₀)/2 = 0; in an eighth it is ½.
     /// let scheme = Variational::<4, 4>::gauss();

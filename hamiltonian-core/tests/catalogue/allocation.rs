@@ -4,6 +4,7 @@
 use crate::common::allocator::allocations;
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::Variational;
 use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_compensated, visit_doubled, visit_energy, visit_implicit,
     visit_separable, visit_split, visit_unforced,

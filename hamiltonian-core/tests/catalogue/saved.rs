@@ -7,6 +7,9 @@ use core::marker::PhantomData;
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::walk::{Visitor, visit_any, visit_split};
+use hamiltonian_core::schemes::{
+    Adjoint, Composition, IntersectingSubTrajectories, TwoStepMidpoint,
+};
 use hamiltonian_core::{
     DoubleDouble, Scheme,
     observers::{Deviation, Every},

@@ -8,6 +8,7 @@ use hamiltonian_core::Scheme;
 use hamiltonian_core::errors::{StartError, TimeError};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::Srkn6b;
 use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };

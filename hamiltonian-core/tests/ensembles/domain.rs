@@ -1,6 +1,7 @@
 //! Members that leave the domain of H: the errors of their single runs.
 
 use super::*;
+use hamiltonian::Status;
 use hamiltonian::errors::SweepError;
 
 /// The generated members.

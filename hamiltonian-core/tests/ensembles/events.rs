@@ -2,6 +2,7 @@
 
 use super::*;
 use hamiltonian::Scheme;
+use hamiltonian::Status;
 use hamiltonian::errors::SweepError;
 use hamiltonian::schemes::author::{Map, Scratch, Step};
 use std::f64::consts::TAU;

@@ -3,6 +3,7 @@
 use super::members::agrees;
 use super::*;
 use hamiltonian::Vector;
+use hamiltonian::schemes::Suzuki4;
 use hamiltonian_core::VectorOf;
 
 hamiltonian! {

@@ -1,6 +1,7 @@
 //! Rows of sweeps with failing members among them, and where a sweep stops: whatever the layout.
 
 use super::*;
+use hamiltonian::Status;
 use hamiltonian::errors::SweepError;
 use hamiltonian::{Rounding, Unfused};
 use std::ops::ControlFlow;

@@ -137,7 +137,7 @@ fn files(root: &std::path::Path) -> std::collections::BTreeMap<std::path::PathBu
 }
 
 /// The bits of a state.
-fn bits<V: hamiltonian::Vector<Scalar = f64>>(state: &State<V>) -> Vec<u64> {
+fn bits<V: Vector<Scalar = f64>>(state: &State<V>) -> Vec<u64> {
     let numbers = state.q.components().chain(state.p.components());
     core::iter::once(state.t)
         .chain(numbers)

@@ -2,6 +2,7 @@
 
 use super::*;
 use hamiltonian::errors::{StartError, StepError, SweepError};
+use hamiltonian::schemes::{Start, Tao, TwoStepMidpoint};
 
 /// Members of a reproducible ensemble, advanced in two calls on two threads, have the bits of single runs.
 pub(super) fn agrees<S, M>(make: impl Fn(Member) -> (S, StateOf<S>), scheme: M)

@@ -1,6 +1,7 @@
 //! A closure that panics is the error of its member, with the index.
 
 use super::*;
+use hamiltonian::Status;
 use hamiltonian::View;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -1,6 +1,7 @@
 //! Stores of sweeps outlast processes.
 
 use super::*;
+use hamiltonian::Status;
 use hamiltonian::errors::StoreError;
 
 #[test]

@@ -1,6 +1,7 @@
 //! Sweeps: rows of members, and errors.
 
 use super::*;
+use hamiltonian::Status;
 use hamiltonian::errors::{StartError, SweepError};
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -5,7 +5,9 @@
 //! evaluates V(t) at the ends of steps.
 
 use super::*;
+use hamiltonian::Status;
 use hamiltonian::errors::{StartError, SweepError};
+use hamiltonian::schemes::SymplecticEuler;
 
 hamiltonian! {
     /// An oscillator whose strength jumps twice.

@@ -2,6 +2,7 @@
 
 use super::*;
 use core::ops::ControlFlow;
+use hamiltonian::Status;
 use hamiltonian::View;
 use hamiltonian::errors::{StepError, TimeError};
 

@@ -1,4 +1,4 @@
-use hamiltonian::prelude::*;
+use hamiltonian::{prelude::*, schemes::CheapProcessed4};
 use hamiltonian::schemes::Adjoint;
 
 hamiltonian! {

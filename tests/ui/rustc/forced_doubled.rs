@@ -1,4 +1,4 @@
-use hamiltonian::prelude::*;
+use hamiltonian::{prelude::*, schemes::Pihajoki};
 
 hamiltonian! {
     /// A pendulum in air.

@@ -9,6 +9,7 @@ mod problems;
 use hamiltonian::VectorOf;
 use cpu_time::ThreadTime;
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::{BlanesCasasEscorihuela8, Processed6, Srkn11b};
 use hamiltonian::{Rounding, Scheme, Vector};
 use problems::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

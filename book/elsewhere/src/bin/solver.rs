@@ -1,6 +1,7 @@
 //! A definition in an adaptive solver of another crate: Dormand and Prince's method of order 8.
 
 use hamiltonian::prelude::*;
+use hamiltonian::Gradient;
 use ode_solvers::{Dop853, OutputType, SVector, System as Equations};
 
 hamiltonian! {

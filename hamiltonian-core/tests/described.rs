@@ -3,9 +3,9 @@
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::DVector;
 use hamiltonian_core::schemes::author::{
-    Description, Dynamics, Flow, Group, NamedPiece, Observable, ObservableKind, Piece, Point,
-    VectorField,
+    Description, Dynamics, Flow, Group, Observable, ObservableKind, Piece, Point, VectorField,
 };
+use hamiltonian_core::systems::NamedPiece;
 use hamiltonian_core::{
     Exact, Split, TimeTransformed, Unforced, Vector,
     observers::{Event, Events},

@@ -26,7 +26,7 @@ pub use crate::systems::observed::Observed;
 pub use crate::systems::state::{Carried, CarriedShape, Pair, Point};
 pub use crate::systems::system::gather::{self, InLanes, InPack, Kept};
 pub use crate::systems::system::{
-    Arithmetic, Description, Dynamics, Group, NamedPiece, Observable, ObservableKind, Text,
+    Arithmetic, Description, Dynamics, Group, Observable, ObservableKind,
 };
 pub use crate::systems::transformed::WithTime;
 pub use crate::systems::vector::{Over, Shape};

@@ -30,3 +30,5 @@ pub(crate) mod system;
 pub(crate) mod transformed;
 pub(crate) mod uneven;
 pub(crate) mod vector;
+
+pub use system::{NamedPiece, Text};

@@ -7,7 +7,7 @@ use crate::common::{difference, start};
 use crate::saved::watchers;
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Adjoint, Ruth3};
+use hamiltonian_core::schemes::Ruth3;
 use hamiltonian_core::schemes::{author::Reversed, walk::Visitor};
 use hamiltonian_core::{
     Scheme, Vector,

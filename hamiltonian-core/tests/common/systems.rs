@@ -2,11 +2,11 @@
 
 pub use super::chain::Chain;
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::systems::NamedPiece;
 use hamiltonian_core::{
     Dual, Exact, Nystrom, Real, Separable, Split, System, Unforced,
     schemes::author::{
-        Description, Dynamics, Flow, Group, NamedPiece, Observable, ObservableKind, Piece, Point,
-        VectorField,
+        Description, Dynamics, Flow, Group, Observable, ObservableKind, Piece, Point, VectorField,
     },
 };
 use hamiltonian_lanes::Pack;

@@ -269,12 +269,12 @@ where
         }
         take().into_iter().filter(is_other).collect::<Vec<_>>()
     };
-    let before = on_two_threads(&mut run);
+    let before = both(&mut run);
     let count = allocations(|| {
         run.advance(20).unwrap();
     });
     assert_eq!(count, 0);
-    let after = on_two_threads(&mut run);
+    let after = both(&mut run);
     assert_eq!(before.len(), 2);
     assert_eq!(before, after);
 }

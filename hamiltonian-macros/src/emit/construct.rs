@@ -274,6 +274,8 @@ pub fn with_arrays(context: Context, item: &Header) -> TokenStream {
         return out;
     }
     let scalar = context.generics.scalars.first().map_or("", String::as_str);
+    let has_others = definition.checked.fields.len() > 1;
+    let others = has_others.then(|| quote! { , ..self });
     for (number, parameter) in definition.checked.parameters.iter().enumerate() {
         let (name, shape) = (&parameter.name, &context.model.parameters[number].shape);
         let method = format_ident!("with_{}", name, span = name.span());
@@ -295,7 +297,7 @@ pub fn with_arrays(context: Context, item: &Header) -> TokenStream {
                     #allow
                     #visibility fn #method<K, V: __h::ListOf<K, #ty>>(self, #argument: V) -> __h::Result<Self, __h::Error> {
                         let _a = __h::ListOf::fit(#argument, #text)?;
-                        Self { #name: #value, ..self }.__checked()
+                        Self { #name: #value #others }.__checked()
                     }
                 }
             }
@@ -308,7 +310,7 @@ pub fn with_arrays(context: Context, item: &Header) -> TokenStream {
                     #allow
                     #[must_use]
                     #visibility fn #method<K, V: __h::ListOf<K, #ty>>(self, #argument: V) -> V::Outcome<Self> {
-                        __h::ListOf::set(#argument, #text, |_a| Self { #name: _a, ..self })
+                        __h::ListOf::set(#argument, #text, |_a| Self { #name: _a #others })
                     }
                 }
             }

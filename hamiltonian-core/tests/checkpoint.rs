@@ -8,7 +8,7 @@ use hamiltonian_core::schemes::IntersectingSubTrajectories;
 use hamiltonian_core::{
     errors::CheckpointError,
     observers::Every,
-    schemes::author::{Description, Group, Listed},
+    schemes::author::{Description, Listed},
 };
 use hamiltonian_lanes::Pack;
 use std::path::PathBuf;
@@ -209,7 +209,7 @@ fn another_run_is_refused() {
     // It may end elsewhere.
     assert_eq!(goes_on_with(events.clone(), 0, 4), None);
     // A system whose parameters are written tells them apart.
-    let [one, two] = [1.0, 2.0].map(Spring);
+    let [one, two] = [1.0, 2.0].map(|k| Spring(k, pendulum(true)));
     let run = Integrator::new(&one, RungeKutta4, State::new([0.3], [0.1]), 0.01).unwrap();
     let found = Integrator::resume(&two, RungeKutta4, run.checkpoint());
     assert_eq!(other(found).as_deref(), Some("parameter"));
@@ -231,26 +231,23 @@ fn goes_on_with<O: Observer<f64, Hand<Pendulum, 1>> + Clone, const N: usize>(
     other(again.observe(observers[given].clone()).advance(1))
 }
 
-/// The pendulum under a name with a parameter.
-struct Spring(f64);
-
-const GROUPS: &[Group] = &[Group::scalar("q", "p", 0)];
-const SPRING: &Description = &Description::new("Spring", GROUPS);
+/// The pendulum with a parameter that it writes.
+struct Spring(f64, Hand<Pendulum, 1>);
 
 impl System for Spring {
     type Shape = hamiltonian_core::private::SVector<(), 1>;
     type Prepared<T: Real> = Ready<Pendulum, 1>;
     fn description(&self) -> &Description {
-        SPRING
+        self.1.description()
     }
     fn describe_parameters(&self, to: &mut dyn core::fmt::Write) -> core::fmt::Result {
         writeln!(to, "k = {:?}", self.0)
     }
     fn prepare<T: Real>(&self) -> Self::Prepared<T> {
-        System::prepare::<T>(&pendulum(true))
+        System::prepare::<T>(&self.1)
     }
     fn zeros<T: Real>(&self) -> VectorOf<Self, T> {
-        System::zeros::<T>(&pendulum(true))
+        System::zeros::<T>(&self.1)
     }
     fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>> {
         members[0].clone()

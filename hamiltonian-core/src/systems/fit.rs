@@ -54,7 +54,7 @@ pub trait ListOf<K, V> {
     /// The same numbers in that storage.
     ///
     /// # Errors
-    /// Those of [`Fit::fit`].
+    /// [`InputError`](crate::errors::InputError) for other extents.
     fn fit(self, name: &str) -> Result<V, Error>;
     /// What `set` makes of the same numbers in that storage.
     fn set<X>(self, name: &str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;

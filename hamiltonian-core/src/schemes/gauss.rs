@@ -56,14 +56,22 @@ pub struct Gauss<const STAGES: usize> {
 impl<const S: usize> Default for Gauss<S> {
     /// At most 100 iterations of each method.
     fn default() -> Self {
+        Gauss::<S>::default()
+    }
+}
+
+impl<const STAGES: usize> Gauss<STAGES> {
+    /// Returns the scheme with at most 100 iterations of each method, as [`Default`] does.
+    #[must_use]
+    // If the number of stages is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
         Gauss {
             coefficients: Collocation::gauss(),
             max_iterations: 100,
         }
     }
-}
 
-impl<const STAGES: usize> Gauss<STAGES> {
     /// The number of iterations of the fixed point, and then of Newton's method, after which an unsolved step is an error;
     /// 100 by default.
     ///

@@ -60,14 +60,22 @@ pub struct GaussNystrom<const STAGES: usize> {
 impl<const S: usize> Default for GaussNystrom<S> {
     /// At most 100 iterations.
     fn default() -> Self {
+        GaussNystrom::<S>::default()
+    }
+}
+
+impl<const STAGES: usize> GaussNystrom<STAGES> {
+    /// Returns the scheme with at most 100 iterations of each method, as [`Default`] does.
+    #[must_use]
+    // If the number of stages is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
         GaussNystrom {
             coefficients: Collocation::gauss(),
             max_iterations: 100,
         }
     }
-}
 
-impl<const STAGES: usize> GaussNystrom<STAGES> {
     /// The number of iterations of the fixed point, and then of Newton's method, after which an unsolved step is an error;
     /// 100 by default.
     ///

@@ -254,11 +254,19 @@ pub struct MomentumVariational<const S: usize>(Variational<S, S>);
 impl<const S: usize> Default for MomentumVariational<S> {
     /// At most 100 iterations.
     fn default() -> Self {
-        MomentumVariational(Variational::lobatto())
+        MomentumVariational::<S>::default()
     }
 }
 
 impl<const S: usize> MomentumVariational<S> {
+    /// Returns the scheme with at most 100 iterations of each method, as [`Default`] does.
+    #[must_use]
+    // If the number of stages is missing, rustc asks for it only if `default` is an inherent method.
+    #[allow(clippy::should_implement_trait)]
+    pub fn default() -> Self {
+        MomentumVariational(Variational::lobatto())
+    }
+
     /// A step that is not solved after so many iterations is an error; 100 unless said here.
     #[must_use]
     pub fn with_max_iterations(self, max_iterations: u32) -> Self {

@@ -67,8 +67,7 @@ fn damage_is_found_wherever_it_is() {
             let error = refused(&bad);
             let right = match place {
                 0..8 => matches!(error, CheckpointError::Foreign { .. }),
-                // The version is 3, and 3 ^ 1 is the one before.
-                8 if flip == 1 => matches!(error, CheckpointError::Older { .. }),
+                8 if bad[8] < bytes[8] => matches!(error, CheckpointError::Older { .. }),
                 8..16 => matches!(error, CheckpointError::Newer { .. }),
                 _ => matches!(error, CheckpointError::Damaged { .. }),
             };
@@ -88,26 +87,19 @@ fn damage_is_found_wherever_it_is() {
     let foreign = refused(b"no saved run at all");
     assert!(matches!(foreign, CheckpointError::Foreign { .. }));
     let mut newer = bytes.clone();
-    newer[8] = 4;
+    newer[8] += 1;
     let error = refused(&newer);
+    let own = u64::from(bytes[8]);
     assert!(matches!(
         error,
-        CheckpointError::Newer {
-            version: 4,
-            readable: 3,
-            ..
-        }
+        CheckpointError::Newer { version, readable, .. } if (version, readable) == (own + 1, own)
     ));
     assert!(error.to_string().contains("update"), "{error}");
     newer[8] = 1;
     let error = refused(&newer);
     assert!(matches!(
         error,
-        CheckpointError::Older {
-            version: 1,
-            readable: 3,
-            ..
-        }
+        CheckpointError::Older { version: 1, readable, .. } if readable == own
     ));
     assert!(
         error.to_string().contains("the version that saved it"),

@@ -340,6 +340,7 @@ macro_rules! processed {
         ///
         /// ```
         #[doc = include_str!("../doc/oscillator.md")]
+        #[doc = concat!("use hamiltonian::schemes::", stringify!($scheme), ";")]
         ///
         /// let start = State::new([1.0], [0.0]);
         #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($scheme), "::default(), start, 0.05)?;")]

@@ -123,6 +123,7 @@ macro_rules! general {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
+            #[doc = concat!("use hamiltonian::schemes::", stringify!($name), ";")]
             ///
             /// let start = State::new([1.0], [0.0]);
             #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($name), ", start, 0.05)?;")]
@@ -146,6 +147,7 @@ macro_rules! of_symmetric {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
+            #[doc = concat!("use hamiltonian::schemes::", stringify!($name), ";")]
             ///
             #[doc = concat!("let scheme = ", stringify!($name), ".of(ImplicitMidpoint::default());")]
             /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.05)?;
@@ -245,6 +247,7 @@ macro_rules! nystrom {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
+            #[doc = concat!("use hamiltonian::schemes::", stringify!($name), ";")]
             ///
             /// let start = State::new([1.0], [0.0]);
             #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($name), ", start, 0.05)?;")]
@@ -295,6 +298,7 @@ macro_rules! near_integrable {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
+            #[doc = concat!("use hamiltonian::schemes::", stringify!($name), ";")]
             ///
             /// let start = State::new([1.0], [0.0]);
             #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($name), ", start, 0.05)?;")]

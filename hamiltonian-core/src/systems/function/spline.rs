@@ -82,7 +82,7 @@ impl Spline {
     /// assert_eq!(spline.value([-2.0]), 1.0);
     ///
     /// let error = Spline::periodic(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, -1.0, 0.5]).unwrap_err();
-    /// assert_eq!(error, KnotError::NotPeriodic { first: 0.0, last: 0.5 });
+    /// assert!(matches!(error, KnotError::NotPeriodic { first: 0.0, last: 0.5, .. }));
     /// # Ok::<(), KnotError>(())
     /// ```
     ///

@@ -153,7 +153,8 @@ impl NamedPiece {
 /// [`NONE`](Description::NONE) completes one with more fields:
 ///
 /// ```
-/// use hamiltonian::schemes::author::{Description, Group, NamedPiece};
+/// use hamiltonian::schemes::author::{Description, Group};
+/// use hamiltonian::systems::NamedPiece;
 /// use std::borrow::Cow;
 ///
 /// const GROUPS: &[Group] = &[Group::scalar("q", "p", 0)];

@@ -1,7 +1,7 @@
 //! Dual numbers: derivatives of every operation against differences in double-double, second
 //! derivatives by nesting, and the conventions where no derivative exists.
 
-use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Parameter, Real};
+use hamiltonian_lanes::{DoubleDouble, Dual, Parameter, Real};
 
 type First = Dual<DoubleDouble>;
 type Second = Dual<First>;

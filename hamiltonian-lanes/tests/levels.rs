@@ -1,7 +1,7 @@
 //! Packs of every level this machine has, lane by lane against `f64`.
 
 use hamiltonian_lanes::{
-    Base, Cpu, Dual, Kernel, Level, Lift, Mask, Nf, Pack, Real, W, dispatch, dispatch_at_most,
+    Base, Cpu, Dual, Kernel, Level, Mask, Nf, Pack, Real, W, dispatch, dispatch_at_most,
 };
 
 /// Runs `$check::<P>()` for the packs `P` that are listed, on every level.
@@ -263,7 +263,7 @@ fn sizes_are_told_lane_by_lane<P: Base>() {
     assert_eq!(<Dual<P> as Real>::LANES, P::LANES);
     assert_eq!(P::epsilon(), f64::EPSILON);
     assert_eq!(lanes(P::default()), vec![0.0; P::LANES as usize]);
-    assert_eq!(<P as Lift<u32>>::lift(3).lane(P::LANES - 1), 3.0);
+    assert_eq!(P::lift(3u32).lane(P::LANES - 1), 3.0);
 }
 
 #[test]

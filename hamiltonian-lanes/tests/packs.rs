@@ -6,7 +6,7 @@ use core::ops::{
     Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
 };
 
-use hamiltonian_lanes::{Dual, Lift, Mask, Real};
+use hamiltonian_lanes::{Dual, Mask, Real};
 
 const LANES: usize = 4;
 
@@ -96,18 +96,6 @@ impl Neg for Pack {
     type Output = Self;
     fn neg(self) -> Self {
         self.each(Neg::neg)
-    }
-}
-
-impl Lift<f64> for Pack {
-    fn lift(value: f64) -> Self {
-        Self([value; LANES])
-    }
-}
-
-impl Lift<Pack> for Pack {
-    fn lift(value: Pack) -> Self {
-        value
     }
 }
 

@@ -41,10 +41,9 @@ pub mod elementary;
 mod float;
 
 mod dual;
-mod lift;
 
 pub use dual::Dual;
-pub use real::{Lift, Mask, Pack, Parameter, Real};
+pub use real::{Mask, Pack, Parameter, Real};
 
 /// The parts for crates that define further scalars.
 ///
@@ -55,8 +54,8 @@ pub mod parts {
     pub use crate::elementary;
     pub use crate::elementary::exact;
     pub use crate::elementary::reduction::reduce;
-    pub use crate::lift::words;
     pub use crate::real::series;
+    pub use crate::real::words;
     #[doc(hidden)]
     pub use crate::two_over_pi::TWO_OVER_PI_MODULO_4;
     pub use crate::word::{Bits, Rare, Word};

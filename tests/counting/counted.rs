@@ -5,7 +5,7 @@
 //! counts, once each; lifting, constants, signs, comparisons and choices are no arithmetic.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-use hamiltonian::{Real, lanes::Lift};
+use hamiltonian::Real;
 use std::cell::Cell;
 
 /// Operations by kind.
@@ -82,18 +82,6 @@ impl<const COUNTS: bool> Neg for Called<COUNTS> {
     type Output = Self;
     fn neg(self) -> Self {
         Self(-self.0)
-    }
-}
-
-impl<const COUNTS: bool> Lift<f64> for Called<COUNTS> {
-    fn lift(value: f64) -> Self {
-        Self(value)
-    }
-}
-
-impl<const COUNTS: bool> Lift<Self> for Called<COUNTS> {
-    fn lift(value: Self) -> Self {
-        value
     }
 }
 

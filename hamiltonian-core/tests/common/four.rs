@@ -1,7 +1,7 @@
 //! Four independent numbers as one scalar, without any care for speed.
 
 use hamiltonian_core::Real;
-use hamiltonian_lanes::{Lift, Mask};
+use hamiltonian_lanes::Mask;
 use std::array::from_fn;
 use std::ops::{
     Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
@@ -79,18 +79,6 @@ impl Neg for Four {
     type Output = Four;
     fn neg(self) -> Four {
         Four(self.0.map(|x| -x))
-    }
-}
-
-impl Lift<f64> for Four {
-    fn lift(value: f64) -> Four {
-        Four([value; 4])
-    }
-}
-
-impl Lift<Four> for Four {
-    fn lift(value: Four) -> Four {
-        value
     }
 }
 

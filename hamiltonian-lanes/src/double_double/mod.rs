@@ -13,7 +13,6 @@ mod exponential;
 mod trigonometric;
 mod whole;
 
-mod lift;
 mod scalar;
 
 mod big;

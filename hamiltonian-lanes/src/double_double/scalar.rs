@@ -4,7 +4,14 @@
 //! leading word, then by the trailing one; NaN compares false.
 
 use super::DoubleDouble;
-use hamiltonian_real::{Real, itself_in_lanes};
+use hamiltonian_real::{Parameter, Real, itself_in_lanes};
+
+impl Parameter for DoubleDouble {
+    #[inline(always)]
+    fn into_real<T: Real>(self) -> T {
+        T::constant(self.hi(), self.lo())
+    }
+}
 
 impl Real for DoubleDouble {
     type Mask = bool;

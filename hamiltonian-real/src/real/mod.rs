@@ -1,10 +1,13 @@
 //! The scalar of all generic code: schemes and emitted programs.
 //!
-//! Input: nothing. Output: [`Real`], [`Mask`], [`Lift`]. Invariant: a `Real` is a value of fixed
+//! Input: nothing. Output: [`Real`], [`Mask`], [`Parameter`]. Invariant: a `Real` is a value of fixed
 //! size without heap memory; all its operations are total (NaN and infinities instead of panics).
 
 pub(crate) mod kepler;
+mod parameter;
 pub mod series;
+
+pub use parameter::{Parameter, words};
 
 use core::fmt::Debug;
 use core::ops::{
@@ -42,67 +45,6 @@ pub trait Mask:
     fn lane(self, k: u32) -> bool;
     /// The first lane that is set.
     fn first(self) -> Option<u32>;
-}
-
-/// A scalar made from a value of type `P` without loss: parameters of type `P` serve every scalar
-/// of a state to which they lift. A scalar narrower than `P` rounds to nearest (`f32` from `f64`);
-/// a dual number lifts as a constant.
-///
-/// ```
-/// use hamiltonian::lanes::Lift;
-/// use hamiltonian::prelude::*;
-///
-/// fn twice<P, T: Real + Lift<P>>(parameter: P, x: T) -> T {
-///     T::lift(parameter) * x
-/// }
-/// assert_eq!(twice(2.5, 2.0), 5.0);
-/// assert_eq!(twice(2.5, Dual::variable(2.0)).eps, 2.5);
-/// assert_eq!(twice(2u32, 2.0f32), 4.0);
-/// ```
-#[diagnostic::on_unimplemented(
-    message = "`{P}` is not a number from which a scalar `{Self}` is made",
-    label = "a parameter or a captured value is `{P}`",
-    note = "parameters and captured values are `f64`, `f32`, integers or of the state's own scalar",
-    note = "in code that is generic over the scalar `P` of the parameters, write `P: Real` and make states over `P` (`StateOf<Name<P>, P>`), or write `where f64: Lift<P>` and make them over `f64`"
-)]
-pub trait Lift<P> {
-    /// The value as this scalar.
-    fn lift(value: P) -> Self;
-}
-
-/// A number that a parameter or a captured value may be: a float, an integer, a double-double, or a dual number of such.
-/// It serves every scalar of a state.
-///
-/// A scalar with fewer digits rounds to nearest. Derivatives are kept where the scalar is a dual number. In dual numbers
-/// of dual numbers those of a parameter are the innermost, so that the outer ones are free for derivatives by
-/// coordinates. They are dropped where the scalar is no dual number: a system with dual parameters runs over `f64` with
-/// their values.
-///
-/// ```
-/// use hamiltonian::lanes::Parameter;
-/// use hamiltonian::prelude::*;
-///
-/// fn twice<P: Parameter, T: Real>(parameter: P, x: T) -> T {
-///     parameter.into_real::<T>() * x
-/// }
-/// assert_eq!(twice(2.5, 2.0), 5.0);
-/// assert_eq!(twice(2.5, Dual::variable(2.0)).eps, 2.5);
-/// assert_eq!(twice(2u32, 2.0f32), 4.0);
-/// // With the derivative by the parameter, or its value alone.
-/// assert_eq!(twice(Dual::variable(2.5), Dual::fixed(2.0)).eps, 2.0);
-/// assert_eq!(twice(Dual::variable(2.5), 2.0), 5.0);
-/// ```
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a number from which scalars are made",
-    label = "a parameter or a captured value is `{Self}`",
-    note = "parameters and captured values are `f64`, `f32`, integers, `DoubleDouble` or `Dual`s of such",
-    note = "in code that is generic over the scalar `P` of the parameters, write `P: Real + Parameter`"
-)]
-pub trait Parameter: Copy + Debug + Send + Sync + 'static {
-    /// The number of dual numbers inside each other: 1 for `Dual<f64>`.
-    const DUALS: u32 = 0;
-    /// The value as a scalar.
-    fn into_real<T: Real>(self) -> T;
 }
 
 /// Real arithmetic: `f64`, `f32`, dual numbers, double-double and packs of lanes.
@@ -185,8 +127,6 @@ pub trait Real:
     + SubAssign
     + MulAssign
     + DivAssign
-    + Lift<f64>
-    + Lift<Self>
 {
     /// The result of comparisons.
     type Mask: Mask;
@@ -225,6 +165,23 @@ pub trait Real:
     /// derivative is dropped by scalars that have none.
     #[inline(always)]
     fn from_dual<A: Parameter>(value: A, _derivative: A) -> Self {
+        value.into_real()
+    }
+
+    /// The value of a number as this scalar: a parameter, a captured value, or a constant of a Rust function. A scalar with
+    /// fewer digits rounds to nearest; a dual number of `f64` is constant. See [`Parameter`].
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// fn twice<T: Real>(x: T) -> T {
+    ///     T::lift(2) * x
+    /// }
+    /// assert_eq!(twice(2.5), 5.0);
+    /// assert_eq!(twice(Dual::variable(2.5)).eps, 2.0);
+    /// ```
+    #[inline(always)]
+    fn lift<A: Parameter>(value: A) -> Self {
         value.into_real()
     }
 

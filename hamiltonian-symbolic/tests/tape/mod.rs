@@ -4,7 +4,7 @@
 //! Input: `f64`s. Output: the same bits as `f64`, and a tape of the thread's operations.
 //! Invariant: inputs and exact constants are not on the tape, because they carry no error.
 
-use hamiltonian_lanes::{Dual, Lift, Real};
+use hamiltonian_lanes::{Dual, Real};
 use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -126,17 +126,6 @@ impl PartialEq for Traced {
         self.value == other.value
     }
 }
-impl Lift<f64> for Traced {
-    fn lift(value: f64) -> Traced {
-        Traced::input(value)
-    }
-}
-impl Lift<Traced> for Traced {
-    fn lift(value: Traced) -> Traced {
-        value
-    }
-}
-
 macro_rules! operators {
     ($($trait:ident $method:ident $assign:ident $method_assign:ident $name:literal, |$x:ident, $y:ident| $slopes:expr;)*) => {$(
         impl $trait for Traced {

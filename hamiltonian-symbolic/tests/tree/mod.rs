@@ -10,7 +10,7 @@ mod grow;
 pub use edges::{Region, region};
 pub use grow::grow;
 
-use hamiltonian_lanes::{DoubleDouble, Lift, Mask, Real};
+use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 use hamiltonian_symbolic::dag::{Node, Parameter, Side};
 use hamiltonian_symbolic::model::{Group, Model, ParameterDeclaration, Shape};
 use hamiltonian_symbolic::op::Op;

@@ -4,7 +4,7 @@
 //! in lock-step ([`W`]) and any of them unfused ([`Nf`]). Invariant: a lane's result depends on
 //! that lane's operands alone, and equals that of `f64` in every pack that does not fuse.
 
-mod lift;
+mod parameter;
 mod register;
 mod unfused;
 mod wide;
@@ -16,11 +16,9 @@ pub use wide::W;
 use hamiltonian_real::Pack;
 use hamiltonian_real::parts::Word;
 
-use lift::LiftEvery;
-
-/// A pack from which [`W`] and [`Nf`] make packs, and which lifts from every type of number.
-pub trait Base: Pack + Word + LiftEvery {}
-impl<P: Pack + Word + LiftEvery> Base for P {}
+/// A pack from which [`W`] and [`Nf`] make packs.
+pub trait Base: Pack + Word {}
+impl<P: Pack + Word> Base for P {}
 
 /// `x += y` and the other assignments from `x + y`, for a generic type.
 macro_rules! assigning {

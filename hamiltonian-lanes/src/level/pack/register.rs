@@ -10,7 +10,7 @@ use super::{Nf, assigning};
 use crate::level::register::Register;
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Bits, Rare, TWO_OVER_PI_MODULO_4, Word};
-use hamiltonian_real::{Lift, Mask, Pack, Real, itself_in_lanes};
+use hamiltonian_real::{Mask, Pack, Real, itself_in_lanes};
 
 /// The numbers of one register.
 #[repr(transparent)]
@@ -169,19 +169,6 @@ impl<R: Register> Bits for Words<R> {
     #[inline(always)]
     fn shr<const K: u32>(self) -> Self {
         Self(R::shr::<K>(self.0))
-    }
-}
-
-impl<R: Register> Lift<f64> for V<R> {
-    #[inline(always)]
-    fn lift(value: f64) -> Self {
-        Self(R::splat(value))
-    }
-}
-impl<R: Register> Lift<V<R>> for V<R> {
-    #[inline(always)]
-    fn lift(value: Self) -> Self {
-        value
     }
 }
 

@@ -8,7 +8,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use super::{Base, assigning};
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Rare, Word};
-use hamiltonian_real::{Lift, Pack, Real, itself_in_lanes};
+use hamiltonian_real::{Pack, Real, itself_in_lanes};
 
 /// A pack whose [`fma`](Real::fma) rounds twice, as that of `f64` does: the bits of single runs on
 /// every CPU, for 20 to 50 % more time on levels that fuse.
@@ -59,19 +59,6 @@ impl<P: Base> Neg for Nf<P> {
     #[inline(always)]
     fn neg(self) -> Self {
         Self(-self.0)
-    }
-}
-
-impl<P: Base> Lift<f64> for Nf<P> {
-    #[inline(always)]
-    fn lift(value: f64) -> Self {
-        Self(P::lift(value))
-    }
-}
-impl<P: Base> Lift<Nf<P>> for Nf<P> {
-    #[inline(always)]
-    fn lift(value: Self) -> Self {
-        value
     }
 }
 

@@ -10,7 +10,7 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 use super::{Base, assigning};
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Bits, Rare, Word};
-use hamiltonian_real::{Lift, Mask, Pack, Real, itself_in_lanes};
+use hamiltonian_real::{Mask, Pack, Real, itself_in_lanes};
 
 /// `K` packs as one of `K` times as many lanes; pack 0 has the first lanes.
 ///
@@ -184,19 +184,6 @@ impl<P: Base, const K: usize> Bits for WideWords<P, K> {
     #[inline(always)]
     fn shr<const S: u32>(self) -> Self {
         Self(each!(K, self.0, k => self.0[k].shr::<S>()))
-    }
-}
-
-impl<P: Base, const K: usize> Lift<f64> for W<P, K> {
-    #[inline(always)]
-    fn lift(value: f64) -> Self {
-        Self([P::lift(value); K])
-    }
-}
-impl<P: Base, const K: usize> Lift<W<P, K>> for W<P, K> {
-    #[inline(always)]
-    fn lift(value: Self) -> Self {
-        value
     }
 }
 

@@ -18,9 +18,10 @@ pub use super::processed::{
     BlanesCasasMurua8Kernel, BlanesCasasMurua8Processor, Corrector3, Corrector5, Corrector7,
     Corrector11, Corrector17, Kernel4, Kernel6, ProcessedMap, Processor4, Processor6,
 };
-pub use super::projection::{Averaged, Mixing, Projected, ProjectedWork};
+pub use super::projection::{Averaged, Mixing};
 pub use super::runge_kutta::{Classical, ClassicalWork};
 pub use super::second_order::{CarriesForces, Eliminated, EliminatedWork};
+pub use super::semiexplicit::{Projected, ProjectedWork};
 pub use super::stages::{Carries, Collocated, CollocatedWork, Stages};
 pub use super::tao::{Bind, Turned};
 pub use super::trajectories::{Interleaved, TwoStep};

@@ -75,6 +75,7 @@ mod zigzag;
 
 mod cheap;
 mod processed;
+mod semiexplicit;
 mod separable;
 mod strang;
 mod tabulated;
@@ -117,9 +118,10 @@ pub use processed::{
     BlanesCasasMurua8, Processed, Processed4, Processed6, WisdomHolman3, WisdomHolman5,
     WisdomHolman7, WisdomHolman11, WisdomHolman17,
 };
-pub use projection::{MidpointProjected, Mixed, Semiexplicit};
+pub use projection::{MidpointProjected, Mixed};
 pub use runge_kutta::RungeKutta4;
 pub use second_order::GaussNystrom;
+pub use semiexplicit::Semiexplicit;
 pub use separable::{StormerVerlet, SymplecticEuler};
 pub use strang::Strang;
 pub use tabulated::{

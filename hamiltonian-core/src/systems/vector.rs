@@ -273,6 +273,7 @@ pub trait Shape: 'static {
 pub type Over<V, U> = <<V as Vector>::Shape as Shape>::Vector<U>;
 
 /// a·b.
+#[inline(always)]
 pub(crate) fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
     let mut sum = V::Scalar::zero();
     for k in 0..V::PARTS {

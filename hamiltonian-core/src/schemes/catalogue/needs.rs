@@ -1,4 +1,4 @@
-//! What schemes require, compared with the bounds of their implementations.
+//! The requirements of schemes, compared with the bounds of their implementations.
 //!
 //! Input: the catalogue. Output: none. Invariant: a system without a trait is no system for exactly the schemes that
 //! require this trait, so a set with a trait too many or too few is found.

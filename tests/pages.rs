@@ -6,10 +6,19 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// The public names of a page's source; globs and hidden items are left out.
-fn names(file: &str) -> BTreeSet<String> {
+/// The text of a file.
+fn text(file: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
-    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"));
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"))
+}
+
+/// The public names of a page.
+fn names(file: &str) -> BTreeSet<String> {
+    names_of(&text(file))
+}
+
+/// The public names of a page's source; globs, hidden items and traits without a name are left out.
+fn names_of(text: &str) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut hidden = false;
     let mut lines = text.lines();
@@ -55,7 +64,7 @@ fn names(file: &str) -> BTreeSet<String> {
             names.insert(name.chars().take_while(|c| is_name(*c)).collect());
         }
     }
-    names.retain(|name| !name.is_empty() && name != "*");
+    names.retain(|name| !matches!(name.as_str(), "" | "*" | "_"));
     names
 }
 
@@ -76,6 +85,32 @@ fn the_root_has_at_most_sixty_items() {
     }
     assert!(!all.contains("private"), "{all:?}");
     assert!(all.len() <= 60, "{} items: {all:?}", all.len());
+}
+
+/// The names that a glob brings into each program.
+#[test]
+fn the_prelude_has_at_most_sixty_names() {
+    let mut all = BTreeSet::new();
+    for file in ["src/lib.rs", "hamiltonian-core/src/lib.rs"] {
+        let text = text(file);
+        let (_, prelude) = text.split_once("pub mod prelude {\n").expect("a prelude");
+        let (prelude, _) = prelude.split_once("\n}").expect("its end");
+        let lines = prelude
+            .lines()
+            .map(|line| line.strip_prefix("    ").unwrap_or(line));
+        all.extend(names_of(&lines.collect::<Vec<_>>().join("\n")));
+    }
+    for name in [
+        "hamiltonian",
+        "Integrator",
+        "StormerVerlet",
+        "Mask",
+        "Progress",
+    ] {
+        assert!(all.contains(name), "{name} in {all:?}");
+    }
+    assert!(!all.contains("EveryParameterHasADefault"), "{all:?}");
+    assert!(all.len() <= 60, "{} names: {all:?}", all.len());
 }
 
 /// Types of a scheme's own, such as scratch, are nothing that another scheme's author names.

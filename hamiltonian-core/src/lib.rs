@@ -33,7 +33,7 @@
 //!
 //! The folders are layers, and each reads only those before it: [`errors`]; [`systems`], with vectors and states; `flows`,
 //! what moves a state; `loops` over arrays; [`schemes`]; [`results`]; [`observers`]; `runs`; [`analysis`]; `ensembles`;
-//! `private`, for emitted code. The page of each says what enters and what leaves. The types of a run are at the root.
+//! `private`, for emitted code. The page of each has its input and its output. The types of a run are at the root.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 

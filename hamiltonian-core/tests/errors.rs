@@ -9,7 +9,7 @@ use hamiltonian_core::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error as _;
 
-/// What the source of an enum says about its variants.
+/// The facts about variants in the source of an enum.
 #[derive(Debug, Default, PartialEq)]
 struct Variants {
     /// The types of the fields of each name.
@@ -86,7 +86,7 @@ fn mixed_types_and_closed_variants_are_found() {
     assert_eq!(found.closed, ["Two", "Three"]);
 }
 
-/// What each phase is.
+/// The facts about each phase.
 fn is_phase<E: Into<Error> + std::error::Error + Clone + PartialEq + Send + Sync + 'static>() {}
 
 #[test]

@@ -1,6 +1,6 @@
 //! Derivatives of the numerical map, periodic orbits, and starts on a surface.
 //!
-//! What enters: a run or a guess of a start. What leaves: Lyapunov exponents, Floquet multipliers, periodic orbits
+//! Input: a run or a guess of a start. Output: Lyapunov exponents, Floquet multipliers, periodic orbits
 //! ([`Tangent`], [`OrbitSearch`]), and states with a given energy or on a section ([`momentum_from_energy`],
 //! [`on_section`]).
 

@@ -162,8 +162,8 @@ impl Error {
     }
 }
 
-/// What each phase needs beside its variants and their messages: to be an error, to become [`Error`], and the message as
-/// its `Debug`. The message of `Error` is that of the phase.
+/// Makes each phase an error that becomes [`Error`], and whose `Debug` is its message. The message of `Error` is that of
+/// the phase.
 macro_rules! phases {
     ($($(#[$with:meta])* $Variant:ident($Phase:ident))*) => {
         $(

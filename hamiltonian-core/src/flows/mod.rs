@@ -1,6 +1,6 @@
 //! Motion: what emitted code becomes, and one-step maps.
 //!
-//! What enters: the bodies that the macro emits, a prepared system, a coefficient. What leaves: fields and exact flows
+//! Input: the bodies that the macro emits, a prepared system, a coefficient. Output: fields and exact flows
 //! with that coefficient folded in, and the contract of a [`Map`](map::Map), one step of a scheme.
 
 pub(crate) mod exponential;

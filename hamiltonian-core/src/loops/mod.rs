@@ -1,6 +1,6 @@
 //! Loops over arrays, in lanes and on threads.
 //!
-//! What enters: the body of one iteration, written by the macro, and the range of its loop. What leaves: the same
+//! Input: the body of one iteration, written by the macro, and the range of its loop. Output: the same
 //! numbers as by iterations one after the other, to the bit.
 
 pub(crate) mod calls;

@@ -1,6 +1,6 @@
 //! Observers receive the states of a run; events are located between steps.
 //!
-//! What enters: a [`View`](crate::View) of the run after each step, or after each n-th step ([`every`]). What leaves: what the
+//! Input: a [`View`](crate::View) of the run after each step, or after each n-th step ([`every`]). Output: what the
 //! observer made of it, by [`Integrator::observer`](crate::Integrator::observer). [`watch`] makes an observer from a
 //! closure. A tuple of observers is an observer. Observers change no bit of a run.
 

@@ -1,6 +1,6 @@
-//! What remains of runs: tables, saved runs, and Zarr stores of sweeps, written chunk by chunk.
+//! Results of runs: tables, saved runs, and Zarr stores of sweeps, written chunk by chunk.
 //!
-//! What enters: rows of numbers, the words of a run. What leaves: files, and the same rows and words read from them.
+//! Input: rows of numbers, the words of a run. Output: files, and the same rows and words read from them.
 //! [`Table`](crate::Table), [`Checkpoint`](crate::Checkpoint) and [`Shard`](crate::Shard) are at the root of the crate.
 
 pub(crate) mod checkpoint;

@@ -1,6 +1,6 @@
 //! One run: a system, a scheme, a start and a step.
 //!
-//! What enters: these four, and observers. What leaves: states, and the run itself, which can be saved and resumed.
+//! Input: these four, and observers. Output: states, and the run itself, which can be saved and resumed.
 
 pub(crate) mod any;
 pub(crate) mod failed;

@@ -20,7 +20,7 @@ pub trait Fit<V: Vector>: Vector {
     /// # Errors
     /// [`InputError::Shape`], [`InputError::Row`] or [`InputError::Extent`] for other lengths.
     fn fit(self, name: &str) -> Result<V, Error>;
-    /// What `set` makes of the same numbers in that storage.
+    /// Gives the same numbers in that storage to `set`, and returns its result.
     fn set<X>(self, name: &str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;
 }
 
@@ -56,7 +56,7 @@ pub trait ListOf<K, V> {
     /// # Errors
     /// [`InputError`](crate::errors::InputError) for other extents.
     fn fit(self, name: &str) -> Result<V, Error>;
-    /// What `set` makes of the same numbers in that storage.
+    /// Gives the same numbers in that storage to `set`, and returns its result.
     fn set<X>(self, name: &str, set: impl FnOnce(V) -> X) -> Self::Outcome<X>;
 }
 

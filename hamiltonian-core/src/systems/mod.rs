@@ -1,6 +1,6 @@
-//! What a system is, and the data at which it is evaluated.
+//! Systems, and the data at which they are evaluated.
 //!
-//! What enters: the numbers of parameters, coordinates and momenta. What leaves: a
+//! Input: the numbers of parameters, coordinates and momenta. Output: a
 //! [`State`](crate::State), a [`System`](crate::System) prepared from its parameters, and H, its derivatives and the
 //! contracts of its flows at a state. No step is made here.
 //!

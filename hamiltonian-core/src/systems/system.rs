@@ -117,7 +117,7 @@ pub trait System {
     /// The prepared system over a scalar, with all that depends on parameters alone computed.
     type Prepared<T: Real>: Dynamics<T, Vector = VectorOf<Self, T>> + Send + Sync + 'static;
 
-    /// What describes the system. That of a definition is a constant.
+    /// The description of the system; for a definition it is a constant.
     fn description(&self) -> &Description;
 
     /// The number of dual numbers inside each other in its parameters: 1 for parameters `Dual<f64>`. Derivatives by
@@ -311,7 +311,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// J∇H, with the force where there is one, scaled by a step coefficient.
     type Field: VectorField<Self::Vector>;
 
-    /// What describes the system, as [`System::description`] returns it. Nothing reads it within a step.
+    /// The description of the system, as [`System::description`] returns it. Nothing reads it within a step.
     fn description(&self) -> &Description;
     /// H.
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T;

@@ -56,7 +56,7 @@ fn formula(context: Context) -> String {
     formula
 }
 
-/// Whether the kick jumps in time, and whether the rest of H does.
+/// True if the kick jumps in time, and the same for the rest of H.
 fn jumps(structure: &Structure) -> [bool; 2] {
     let Some(jumping) = &structure.jumping else {
         return [false; 2];

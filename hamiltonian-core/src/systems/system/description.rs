@@ -1,4 +1,4 @@
-//! What describes a system, as a value: names, formulas, and facts about H that no code is specialised for.
+//! The description of a system, as a value: names, formulas, and facts about H for which no code is specialised.
 //!
 //! Input: nothing. Output: [`Description`], which [`System`](super::System) and its prepared form return. Invariant: all
 //! texts and lists are borrowed for ever or owned, so a system made at run time has one as well as a compiled one.
@@ -123,7 +123,7 @@ impl NamedPiece {
     }
 }
 
-/// What describes a system: its name and formula, its variables, observables and pieces, and facts about H.
+/// The description of a system: its name and formula, its variables, observables and pieces, and facts about H.
 ///
 /// It is a value, and not a set of constants of the type, so that a system made at run time has one too. Nothing in it
 /// is read within a step. [`System::description`](crate::System::description) returns that of a system,
@@ -149,7 +149,7 @@ impl NamedPiece {
 /// assert!(!described.is_forced);
 /// ```
 ///
-/// That of a system written by hand is a constant. [`new`](Description::new) makes it of a name and the variables, and
+/// The description of a system written by hand is a constant. [`new`](Description::new) makes it of a name and the variables, and
 /// [`NONE`](Description::NONE) completes one with more fields:
 ///
 /// ```

@@ -2,8 +2,8 @@
 //!
 //! An entry of a folder is a file with its own subfolder, or a subfolder with a `mod.rs`. Parent and
 //! child may name each other; a re-exported name counts as its defining file. A page, which re-exports and
-//! does nothing else, names nobody itself. The folders of the engine and of the core are layers, of which each reads only
-//! those below it.
+//! does nothing else, names nobody itself. The folders of the engine, of the core and of the macro's
+//! emission are layers, of which each reads only those below it.
 
 use crate::source::{CRATES, Module, Texts, is_word, texts, texts_of};
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,6 +24,19 @@ const CORE: &[&str] = &[
     "analysis",
     "ensembles",
     "private",
+];
+
+/// The layers of the macro's emission, the lowest first.
+const EMISSION: &[&str] = &[
+    "tokens",
+    "definition",
+    "names",
+    "steps",
+    "statements",
+    "functions",
+    "types",
+    "traits",
+    "items",
 ];
 
 /// Every path in a text that begins with `crate`, `super`, `self` or, in a `use`, a child module; with
@@ -177,12 +190,15 @@ fn circles(texts: &Texts) -> Vec<String> {
     found.collect()
 }
 
-/// Modules that are in no layer, and uses of a layer by one below it.
-fn against_layers(texts: &Texts, layers: &[&str]) -> Vec<String> {
+/// The modules of a folder that are in no layer, and uses of a layer by one below it.
+fn against_layers(texts: &Texts, folder: &Module, layers: &[&str]) -> Vec<String> {
     let level = |name: &String| layers.iter().position(|layer| layer == name);
-    let outside = texts.keys().filter_map(|module| module.first());
-    let outside = outside.filter(|name| level(name).is_none()).cloned();
-    let graph = uses(texts).remove(&vec![]).unwrap_or_default();
+    let inside = texts.keys().filter_map(|module| {
+        let rest = module.strip_prefix(folder.as_slice())?;
+        rest.first()
+    });
+    let outside = inside.filter(|name| level(name).is_none()).cloned();
+    let graph = uses(texts).remove(folder).unwrap_or_default();
     let uses = (graph.iter()).flat_map(|(from, used)| used.iter().map(move |to| (from, to)));
     let upward = uses.filter(|(from, to)| level(from) < level(to));
     let upward = upward.map(|(from, to)| format!("{from} uses {to}"));
@@ -199,12 +215,17 @@ fn no_folder_names_itself_in_a_circle() {
 
 #[test]
 fn layers_read_those_below_them() {
-    for (name, layers) in [("hamiltonian-symbolic", ENGINE), ("hamiltonian-core", CORE)] {
+    let folders = [
+        ("hamiltonian-symbolic", vec![], ENGINE),
+        ("hamiltonian-core", vec![], CORE),
+        ("hamiltonian-macros", vec!["emit".to_owned()], EMISSION),
+    ];
+    for (name, folder, layers) in folders {
         let crate_texts = texts_of(name);
-        let found = against_layers(&crate_texts, layers);
+        let found = against_layers(&crate_texts, &folder, layers);
         assert!(found.is_empty(), "{name}: {found:#?}");
         // Each layer but the lowest is seen to read another one.
-        let graph = (uses(&crate_texts).remove(&vec![])).expect("layers use layers");
+        let graph = (uses(&crate_texts).remove(&folder)).expect("layers use layers");
         let readers: BTreeSet<&str> = graph.keys().map(String::as_str).collect();
         assert_eq!(readers, layers[1..].iter().copied().collect(), "{name}");
     }
@@ -222,7 +243,7 @@ fn a_use_of_a_layer_above_is_found() {
             ("flows/split", "use crate::dag::Dag;"),
             (other, ""),
         ]);
-        against_layers(&crate_texts, ENGINE)
+        against_layers(&crate_texts, &vec![], ENGINE)
     };
     assert!(with("", "programs").is_empty());
     assert_eq!(
@@ -230,6 +251,25 @@ fn a_use_of_a_layer_above_is_found() {
         ["algebra uses flows"]
     );
     assert_eq!(with("", "printing"), ["printing"]);
+    // In a folder: a file of a lower layer, and a file beside the layers.
+    let within = |lex, other| {
+        let crate_texts = texts(&[
+            ("", "mod emit; mod backend;"),
+            ("backend", "use crate::emit::items::Item;"),
+            ("emit", "mod items; pub use items::Item;"),
+            ("emit/tokens", lex),
+            ("emit/items", ""),
+            ("emit/items/item", "use crate::emit::tokens::lex;"),
+            (other, ""),
+        ]);
+        against_layers(&crate_texts, &vec!["emit".to_owned()], EMISSION)
+    };
+    assert!(within("", "emit/names").is_empty());
+    assert_eq!(
+        within("use super::items::item::Item;", "emit/names"),
+        ["tokens uses items"]
+    );
+    assert_eq!(within("", "emit/printing"), ["printing"]);
 }
 
 #[test]

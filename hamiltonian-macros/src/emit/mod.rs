@@ -1,7 +1,7 @@
 //! From a scheduled program to tokens.
 //!
-//! Input: [`Definition`]: a model, its program, its proven structure, and the tokens of the user. Output: the tokens of the type (or the value), of everything it implements, and of its
-//! documentation. Invariants:
+//! Input: [`Definition`]: a model, its program, its proven structure, and the tokens of the user. Output: the tokens of the
+//! type (or the value), of everything it implements, and of its documentation. Invariants:
 //!
 //! - Emitted code names nothing of the user's but names the user wrote: paths begin with the
 //!   private module of the facade, which is called `__h` inside; locals begin with an underscore,
@@ -9,6 +9,20 @@
 //! - Bodies are written as text and lexed once, which costs a tenth of building them token by
 //!   token; the user's names, attributes and paths keep their own tokens and spans.
 //! - The same definition gives the same tokens.
+//!
+//! | layer | input → output |
+//! |---|---|
+//! | `tokens` | text, and names of the user → tokens with the spans that rustc shows |
+//! | `definition` | results of the back end → [`Definition`] |
+//! | `names` | groups, parameters, indices, numbers → their text, and the types that store them |
+//! | `steps` | steps of a program → what they read, which are written where they are used, in which order |
+//! | `statements` | steps → Rust statements, loops as loops |
+//! | `functions` | steps with inputs and results → bodies of functions, and the holders of their prepared values |
+//! | `types` | fields → construction, storage, checks of indices, serde |
+//! | `traits` | purposes → implementations of the traits of core |
+//! | `items` | all of these → the item or the expression |
+//!
+//! Each layer reads those before it.
 
 /// Writes a line to the text of a writer. Writing to a string does not fail.
 macro_rules! line {
@@ -17,302 +31,19 @@ macro_rules! line {
     }};
 }
 
-mod accesses;
-mod block;
-mod construct;
-mod context;
-mod declared;
-mod derived;
-mod description;
-mod dynamics;
-mod expression;
-mod externals;
-mod function;
-mod generics;
-mod halves;
-mod holder;
-mod index;
-mod inline;
-mod item;
-mod iteration;
-mod join;
-mod kicks;
-mod layout;
-mod markers;
-mod mixed;
-mod number;
-mod observables;
-mod pairs;
-mod parts;
-mod pieces;
-mod reach;
-mod record;
-mod scan;
-mod slabs;
-mod storage;
-mod stretch;
-mod together;
-mod values;
-mod vectors;
-mod whole;
+mod definition;
+mod functions;
+mod items;
+mod names;
+mod statements;
+mod steps;
+mod tokens;
+mod traits;
+mod types;
 
-pub use declared::Declared;
-pub use number::closed;
-
-use context::Context;
-use hamiltonian_language::ast::Header;
-use hamiltonian_language::checked::Checked;
-use hamiltonian_symbolic::dag::Node;
-use hamiltonian_symbolic::model::Model;
-use hamiltonian_symbolic::program::{Program, Purpose};
-use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
-use quote::{format_ident, quote};
-
-/// All that emission reads.
-#[derive(Debug)]
-pub struct Definition<'a> {
-    /// The path of the facade: `$crate`.
-    pub root: &'a TokenStream,
-    /// The user's tokens.
-    pub checked: &'a Checked,
-    /// The defaults of the parameters, number by number: expressions of the scalar `T`.
-    pub defaults: &'a [Option<Vec<String>>],
-    /// Of each observable the sentences about its proof.
-    pub proofs: &'a [Vec<String>],
-    /// The name of the piece of a split that is emitted; none for the whole system.
-    pub piece: Option<&'a Ident>,
-    /// The pieces that are types of their own.
-    pub pieces: &'a [(Ident, Node)],
-    /// The variables it was declared in, where it is integrated in others.
-    pub declared: Option<&'a Declared>,
-    /// The mathematics.
-    pub model: &'a Model,
-    /// The instructions.
-    pub program: &'a Program,
-    /// The Rust function whose third derivative is in H's second derivatives, which are then not in the program.
-    pub third: Option<&'a str>,
-    /// The source of the gradient.
-    pub gradient: Gradient,
-    /// The proven structure.
-    pub structure: Structure,
-    /// The printed text.
-    pub text: Text,
-}
-
-impl Definition<'_> {
-    /// The name of the type.
-    fn type_name(&self, item: &Header) -> Ident {
-        match self.piece {
-            Some(piece) => piece_type(item, piece),
-            None => item.name.clone(),
-        }
-    }
-}
-
-/// Tokens that rustc is to show at the name of the type instead of at the whole definition, with
-/// the insides of groups down to some depth.
-fn located(tokens: TokenStream, name: Span, depth: usize) -> TokenStream {
-    let span = Span::call_site().located_at(name);
-    let moved = tokens.into_iter().map(|mut token| {
-        if let TokenTree::Group(group) = &token
-            && depth > 0
-        {
-            let inner = located(group.stream(), name, depth - 1);
-            token = Group::new(group.delimiter(), inner).into();
-        }
-        token.set_span(span);
-        token
-    });
-    moved.collect()
-}
-
-/// The name of the type of a piece.
-fn piece_type(item: &Header, piece: &Ident) -> Ident {
-    format_ident!("{}{}", item.name, piece, span = piece.span())
-}
-
-/// The method that gives a piece.
-pub fn piece_method(piece: &str) -> String {
-    format!("piece_{}", piece.to_lowercase())
-}
-
-/// The source of ∂H/∂q and ∂H/∂p.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Gradient {
-    /// Functions of their own, or `energy_and_gradient` of a large H.
-    Written,
-    /// The kick and the drift.
-    Halves,
-    /// The vector field.
-    Field,
-}
-
-/// The proven structure of H.
-#[derive(Debug)]
-pub struct Structure {
-    /// H = T(p, t) + V(q, t)
-    pub separable: Result<(), Reason>,
-    /// H is a sum of pieces with exact flows: those of the model, or V and T.
-    pub split: Result<(), Reason>,
-    /// V and T in the author's notation, where H is separable.
-    pub halves: [String; 2],
-    /// T = ½ pᵀM⁻¹p with constant M
-    pub quadratic_kinetic: Result<(), Reason>,
-    /// A kick V(q, t) and a piece at most quadratic in the momenta.
-    pub nystrom: Result<Nystrom, Reason>,
-    /// No force acts.
-    pub unforced: Result<(), Reason>,
-    /// The flows of all pieces are exact.
-    pub exact: Result<(), Reason>,
-    /// The kick of V, with the force, or of the force alone beside pieces of H.
-    pub kick: Option<Kick>,
-    /// H does not depend on t
-    pub autonomous: Result<(), Reason>,
-    /// Coordinates that do not appear in H.
-    pub cyclic: Vec<String>,
-    /// The growth of H, where it is finite for all finite numbers.
-    pub growth: Option<u32>,
-    /// The parts that jump at times that do not depend on the state, if any does.
-    pub jumping: Option<Jumping>,
-}
-
-impl Structure {
-    /// Returns true if T is the first piece, because V jumps in time and T does not.
-    pub fn is_drift_first(&self) -> bool {
-        (self.jumping.as_ref()).is_some_and(|jumping| jumping.halves == [true, false])
-    }
-
-    /// Returns true if the force is a piece of its own, the last one.
-    pub fn is_forced_apart(&self) -> bool {
-        self.kick.is_some() && self.separable.is_err()
-    }
-}
-
-/// The parts of H that jump at times that do not depend on the state.
-#[derive(Debug)]
-pub struct Jumping {
-    /// V with the force, and T, where H is separable.
-    pub halves: [bool; 2],
-    /// The pieces of the model, and at the end the force.
-    pub pieces: Vec<bool>,
-}
-
-/// The places of the kick and of the piece at most quadratic in the momenta.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Nystrom {
-    /// V and T.
-    Halves,
-    /// The model's pieces of these numbers.
-    Pieces([usize; 2]),
-}
-
-/// The functions that make up the kick.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kick {
-    /// The kick alone: without a force, or with one that does not depend on momenta.
-    Plain,
-    /// The part that reads momenta, and where `rest` the kick after it.
-    Damped {
-        /// True if there is a part that reads none.
-        rest: bool,
-    },
-    /// Exact by a series over the rates of momenta and their linear part: momenta push each other.
-    Coupled,
-    /// A symmetric sub-step over the rates of momenta.
-    SubStep,
-}
-
-impl Kick {
-    /// The purposes of the functions that a kick is made of.
-    #[must_use]
-    pub fn purposes(self) -> &'static [Purpose] {
-        match self {
-            Kick::Plain => &[Purpose::Kick],
-            Kick::Damped { rest: false } => &[Purpose::Push],
-            Kick::Damped { rest: true } => &[Purpose::Push, Purpose::Kick],
-            Kick::Coupled => &[Purpose::Rates, Purpose::Linear],
-            Kick::SubStep => &[Purpose::Rates],
-        }
-    }
-}
-
-/// Why a structure is not there: the words of rustc where a scheme requires it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Reason {
-    /// The property of H in the way, with the term at fault.
-    pub message: String,
-    /// The missing property.
-    pub label: String,
-    /// The alternative.
-    pub note: String,
-}
-
-/// H and Hamilton's equations as people read them.
-#[derive(Debug, Default)]
-pub struct Text {
-    /// `H(q; p) = …`
-    pub hamiltonian: String,
-    /// Hamilton's equations, one a line.
-    pub equations: Vec<String>,
-    /// H in LaTeX.
-    pub latex: String,
-    /// Hamilton's equations in LaTeX, one a line.
-    pub latex_equations: Vec<String>,
-    /// H in MathML; empty where formulas are long.
-    pub math: String,
-    /// Hamilton's equations in MathML, one a row of a table; empty where formulas are long.
-    pub math_equations: String,
-    /// Facts of H, one sentence a line.
-    pub facts: Vec<String>,
-    /// A table of the operations of value and gradient, one row a line.
-    pub operations: Vec<String>,
-}
-
-/// The tokens of a definition.
-pub fn generate(definition: &Definition) -> TokenStream {
-    let generics = generics::Generics::of(definition);
-    let context = Context::of(definition, &generics);
-    match &definition.checked.item {
-        Some(item) => item::generate(context, item),
-        None => expression::generate(context),
-    }
-}
-
-/// Text as tokens. All text that is emitted is made here, so it lexes.
-fn lex(text: &str) -> TokenStream {
-    // rustc's own lexer, called directly: through proc-macro2 the text is lexed twice.
-    let tokens = if proc_macro::is_available() {
-        let tokens = text.parse::<proc_macro::TokenStream>();
-        tokens.map(TokenStream::from).ok()
-    } else {
-        text.parse().ok()
-    };
-    tokens.expect("the emitted code lexes")
-}
-
-/// Attributes that allow the lints which the user's own names may raise.
-fn allowances(names: &[&Ident]) -> TokenStream {
-    let snake = |name: &&Ident| name.to_string().chars().all(|c| !c.is_uppercase());
-    if names.iter().all(snake) {
-        TokenStream::new()
-    } else {
-        quote! { #[allow(non_snake_case)] }
-    }
-}
-
-/// Returns true for a doc comment, and for `#[doc = …]`.
-fn is_doc(attribute: &TokenStream) -> bool {
-    let inside = attribute.clone().into_iter().find_map(|token| match token {
-        TokenTree::Group(group) => group.stream().into_iter().next(),
-        _ => None,
-    });
-    matches!(inside, Some(TokenTree::Ident(name)) if name == "doc")
-}
-
-/// The user's attributes, with this text as documentation if they have none.
-fn documented(attributes: &[TokenStream], text: &str) -> TokenStream {
-    match attributes.iter().any(is_doc) {
-        true => quote! { #(#attributes)* },
-        false => quote! { #[doc = #text] #(#attributes)* },
-    }
-}
+pub use definition::{
+    Declared, Definition, Gradient, Jumping, Kick, Nystrom, Reason, Structure, Text,
+};
+pub use items::generate;
+pub use names::number::closed;
+pub use tokens::piece_method;

@@ -1,0 +1,166 @@
+//! Proven structure of H as types, and the reasons for the rest.
+//!
+//! Input: the verdicts. Output: text of the markers' implementations. Invariant: every marker is
+//! implemented for every system; one that does not hold has a bound that nothing satisfies,
+//! whose message is the reason, so that a scheme that needs it says what couples what.
+
+use crate::emit::definition::Reason;
+use crate::emit::names::context::Context;
+use crate::emit::types::construct::is_all_defaults;
+use std::fmt::Write;
+
+/// A piece that cannot exist.
+const NEVER: &str = "__h::Never<__h::Point<__h::VectorOf<Self, T>>>";
+
+/// The types of pieces, and their values.
+pub type Pieces<'a> = (&'a [String], &'a str);
+
+/// A trait of pieces, each as a type and as a function that returns one of these values, if they are there.
+pub fn of_pieces(
+    out: &mut String,
+    context: Context,
+    name: &str,
+    names: &[&str],
+    pieces: Result<Pieces, (&str, &Reason)>,
+) {
+    let mut items = String::new();
+    for (at, name) in names.iter().enumerate() {
+        let (ty, value) = match &pieces {
+            Ok((types, value)) => (types[at].as_str(), *value),
+            Err(_) => (NEVER, "__h::Never::PIECE"),
+        };
+        let method = name.to_lowercase();
+        let _ = writeln!(
+            items,
+            "type {name}<T: __h::Real> = {ty};\n#[inline(always)]\nfn {method}<T: __h::Real>() -> Self::{name}<T> {{ {value} }}"
+        );
+    }
+    let declaration = context.generics.declaration();
+    marker(out, context, name, &declaration, pieces.err(), &items);
+}
+
+/// `QuadraticKinetic`, `Autonomous`, `Unforced` and `Exact`, `Display` and `Default`.
+pub fn implementations(context: Context) -> String {
+    let (structure, generics) = (&context.definition.structure, context.generics);
+    let (mut out, mut known) = (String::new(), String::new());
+    let declaration = generics.declaration_without_bounds();
+    for (name, bound, verdict) in [
+        (
+            "QuadraticKinetic",
+            "__KineticIsQuadratic",
+            &structure.quadratic_kinetic,
+        ),
+        ("Autonomous", "__HIsAutonomous", &structure.autonomous),
+        ("Unforced", "__Forced", &structure.unforced),
+        ("Exact", "__NotExact", &structure.exact),
+    ] {
+        match verdict {
+            Ok(()) => known += &format!(" {name}"),
+            Err(reason) => {
+                let missing = Some((bound, reason));
+                marker(&mut out, context, name, &declaration, missing, "");
+            }
+        }
+    }
+    let text = &context.definition.text;
+    let texts = context.definition.checked.item.as_ref().map(|_| {
+        let (constants, system) = generics.over_f64();
+        let (default, missing) = match (is_all_defaults(context), generics.scalars.is_empty()) {
+            (false, _) => (without_default(&mut out, context), ""),
+            (true, true) => ("= Self {}".to_owned(), " AnyParameter"),
+            (true, false) => (
+                "= Self::with_defaults()".to_owned(),
+                " ParameterWithoutDefault",
+            ),
+        };
+        known += missing;
+        format!(
+            " {} [impl{constants}] {system}: {:?}, {:?} {default}",
+            generics.visibility,
+            text.latex,
+            text.latex_equations.join("\n"),
+        )
+    });
+    let _ = writeln!(
+        out,
+        "__h::known!([impl{declaration}] {}: {:?};{known};{});",
+        generics.system_type(),
+        text.hamiltonian,
+        texts.unwrap_or_default(),
+    );
+    out
+}
+
+/// The bound of `Default` that names the parameters without a default, if nothing but numbers is missing. Other systems
+/// have no `Default`, so that users may implement it.
+fn without_default(out: &mut String, context: Context) -> String {
+    if context.has_run_time_sizes() || !context.generics.functions.is_empty() {
+        return String::new();
+    }
+    let checked = context.definition.checked;
+    let parameters = checked.parameters.iter().zip(context.definition.defaults);
+    let missing = parameters.filter(|(_, default)| default.is_none());
+    let missing: Vec<String> = missing.map(|(p, _)| p.name.to_string()).collect();
+    let (first, name) = (&missing[0], &context.generics.name);
+    let (noun, verb) = match missing.len() {
+        1 => ("parameter", "has"),
+        _ => ("parameters", "have"),
+    };
+    let names = missing.join("`, `");
+    let reason = Reason {
+        message: format!("`{name}` has no `Default`: its {noun} `{names}` {verb} no default"),
+        label: format!("`{first}` has no value"),
+        note: format!(
+            "write `{name}::new({})`, or declare a default for each parameter",
+            missing.join(", ")
+        ),
+    };
+    let bound = format!("__{first}_has_no_default");
+    out.push_str("#[allow(non_camel_case_types)]\n");
+    reason_trait(out, &bound, &reason);
+    format!("? {bound}")
+}
+
+/// An implementation of a marker trait. If the trait does not hold, a bound that nothing satisfies carries the reason.
+fn marker(
+    out: &mut String,
+    context: Context,
+    name: &str,
+    declaration: &str,
+    missing: Option<(&str, &Reason)>,
+    items: &str,
+) {
+    let system = context.generics.system_type();
+    let condition = match missing {
+        None => String::new(),
+        Some((bound, reason)) => {
+            reason_trait(out, bound, reason);
+            format!(" where for<'a> &'a {system}: {bound}")
+        }
+    };
+    let _ = write!(
+        out,
+        "impl{declaration} __h::{name} for {system}{condition} {{\n{items}}}\n",
+    );
+}
+
+/// Why rustc goes on to speak of a trait that nobody wrote.
+const CARRIER: &str = "the trait that rustc names only carries this message: implement nothing, change H or the scheme";
+
+/// A trait nothing implements. The bound is on references of all lifetimes: that keeps rustc from
+/// deciding it where it is written, and from naming the marker instead of the reason.
+fn reason_trait(out: &mut String, name: &str, reason: &Reason) {
+    let _ = write!(
+        out,
+        "#[diagnostic::on_unimplemented(message = {:?}, label = {:?}, note = {:?}, note = {CARRIER:?})]\n\
+         #[doc(hidden)]\npub trait {name} {{}}\n",
+        escaped(&reason.message),
+        escaped(&reason.label),
+        escaped(&reason.note),
+    );
+}
+
+/// A text in which braces would be placeholders.
+fn escaped(text: &str) -> String {
+    text.replace('{', "{{").replace('}', "}}")
+}

@@ -45,7 +45,7 @@
 //! | `linear-algebra` | norms and decompositions of vectors and matrices, by nalgebra |
 //! | `progress` | a progress bar as an observer |
 //! | `plot` | pictures of results, as SVG |
-//! | `serde` | states, parameters and tables that serde reads and writes |
+//! | `serde` | states, parameters, functions with data, tables and saved runs that serde reads and writes |
 //!
 //! The package is `hamiltonian-dynamics`, the library in it `hamiltonian`.
 #![cfg_attr(not(feature = "std"), no_std)]

@@ -8,6 +8,8 @@
 //! the macro is changed with it.
 
 #[cfg(feature = "serde")]
+mod functions;
+#[cfg(feature = "serde")]
 mod record;
 #[cfg(feature = "serde")]
 mod tables;

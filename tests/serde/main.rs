@@ -1,4 +1,4 @@
-//! States, parameters and tables, written and read by serde: `cargo test --features serde --test serde`.
+//! States, parameters, functions with data, tables and saved runs, written and read by serde: `cargo test --features serde --test serde`.
 
 use hamiltonian::prelude::*;
 use hamiltonian::{Gradient, Table};
@@ -35,6 +35,12 @@ hamiltonian! {
     /// No parameters.
     pub struct Plain {}
     H = p^2/2 - cos(q)
+}
+
+hamiltonian! {
+    /// A function with data.
+    pub struct Well { m = 1.0, V: fn(x) }
+    H(x; p) = p^2/(2*m) + V(x)
 }
 
 /// The message of an error.
@@ -222,5 +228,167 @@ fn tables_come_back() -> Result<(), Box<dyn std::error::Error>> {
     ] {
         refused::<Table>(wrong);
     }
+    Ok(())
+}
+
+#[test]
+fn splines_come_back() -> Result<(), Box<dyn std::error::Error>> {
+    let (knots, values) = ([0.0, 1.0, 2.5, 3.0], [0.1, 1.0, -1.0, 0.1]);
+    let splines = [
+        (Spline::natural(&knots, &values)?, false, json!(null)),
+        (
+            Spline::clamped(&knots, &values, [0.3, -0.7])?,
+            false,
+            json!([0.3, -0.7]),
+        ),
+        (Spline::periodic(&knots, &values)?, true, json!(null)),
+    ];
+    let mut fingerprints = vec![];
+    for (spline, periodic, slopes) in splines {
+        let text =
+            json!({"knots": knots, "values": values, "periodic": periodic, "slopes": slopes});
+        assert_eq!(to_value(&spline)?, text);
+        let back: Spline = from_str(&text.to_string())?;
+        for x in [0.0, 0.73, 1.0, 2.9, 3.0] {
+            assert_eq!(back.value([x]), spline.value([x]));
+        }
+        assert_eq!(back.fingerprint(), spline.fingerprint());
+        fingerprints.push(back.fingerprint());
+
+        // As a parameter.
+        let well = Well::new(spline);
+        let back: Well<Spline> = from_str(&to_value(&well)?.to_string())?;
+        assert_eq!((back.m, back.V.value([0.5])), (1.0, well.V.value([0.5])));
+    }
+    fingerprints.sort_unstable();
+    fingerprints.dedup();
+    assert_eq!(fingerprints.len(), 3);
+    Ok(())
+}
+
+#[test]
+fn splines_are_checked() {
+    let spline = |fields: &str| refused::<Spline>(&format!("{{{fields}}}"));
+    for (fields, message) in [
+        (
+            r#""knots": [0, 1], "values": [0], "periodic": false, "slopes": null"#,
+            "2 knots have 1 values",
+        ),
+        (
+            r#""knots": [], "values": [], "periodic": false, "slopes": null"#,
+            "0 knots are too few: at least 2 are needed",
+        ),
+        (
+            r#""knots": [0, 1, 2], "values": [0, 1, 0], "periodic": true, "slopes": null"#,
+            "3 knots are too few: at least 4 are needed",
+        ),
+        (
+            r#""knots": [0, 0], "values": [0, 1], "periodic": false, "slopes": null"#,
+            "knot 1 is 0, and must be above knot 0, which is 0",
+        ),
+        (
+            r#""knots": [0, 1, 2, 3], "values": [0, 1, 2, 3], "periodic": true, "slopes": null"#,
+            "a periodic function begins and ends with the same value",
+        ),
+        (
+            r#""knots": [0, 1, 2, 3], "values": [0, 1, 2, 0], "periodic": true, "slopes": [0, 0]"#,
+            "a periodic spline has no `slopes`",
+        ),
+        (
+            r#""knots": [0, 1], "values": [0, 1], "periodic": false"#,
+            "missing field `slopes`",
+        ),
+    ] {
+        let error = spline(fields);
+        assert!(error.starts_with(message), "{error}");
+    }
+}
+
+#[test]
+fn grids_come_back() -> Result<(), Box<dyn std::error::Error>> {
+    let rows = [
+        [0.1, 1.0, 2.0],
+        [3.0, 0.5, -1.0],
+        [2.0, 0.25, 1.5],
+        [1.0; 3],
+    ];
+    let (origin, spacing) = ([-1.0, 0.5], [0.5, 0.25]);
+    for (grid, periodic) in [
+        (Grid::natural(origin, spacing, &rows)?, false),
+        (Grid::periodic(origin, spacing, &rows)?, true),
+    ] {
+        let text =
+            json!({"origin": origin, "spacing": spacing, "rows": rows, "periodic": periodic});
+        assert_eq!(to_value(&grid)?, text);
+        let back: Grid = from_str(&text.to_string())?;
+        for at in [[-1.0, 0.5], [-0.3, 0.8], [0.2, 1.0]] {
+            assert_eq!(back.value(at), grid.value(at));
+            assert!(grid.value(at).is_finite());
+        }
+        assert_eq!(back.fingerprint(), grid.fingerprint());
+    }
+    Ok(())
+}
+
+#[test]
+fn grids_are_checked() {
+    for (fields, message) in [
+        (
+            r#""spacing": [1, 1], "rows": [[0, 1], [0]]"#,
+            "2 knots have 1 values",
+        ),
+        (
+            r#""spacing": [1, 1], "rows": [[], []]"#,
+            "0 knots are too few",
+        ),
+        (r#""spacing": [1, 1], "rows": []"#, "0 knots are too few"),
+        (
+            r#""spacing": [1, -1], "rows": [[0, 1], [2, 3]]"#,
+            "spacing 1 is -1, and must be positive",
+        ),
+        (
+            r#""spacing": [1], "rows": [[0, 1], [2, 3]]"#,
+            "invalid length 1",
+        ),
+    ] {
+        let error = refused::<Grid>(&format!(
+            r#"{{"origin": [0, 0], "periodic": false, {fields}}}"#
+        ));
+        assert!(error.starts_with(message), "{error}");
+    }
+}
+
+#[test]
+fn saved_runs_come_back() -> Result<(), Box<dyn std::error::Error>> {
+    let start = State::new([0.5], [0.25]);
+    let mut run = Integrator::new(&Plain {}, StormerVerlet::default(), start, 0.125)?
+        .observe(EnergyDrift::new());
+    run.advance(10)?;
+    let saved = run.checkpoint();
+    let text = to_value(&saved)?;
+    assert_eq!(text, json!(saved.to_bytes()));
+    let back: Checkpoint = from_str(&text.to_string())?;
+    assert_eq!(back, saved);
+    let mut again =
+        Integrator::resume(&Plain {}, StormerVerlet::default(), back)?.observe(EnergyDrift::new());
+    run.advance(10)?;
+    again.advance(10)?;
+    assert_eq!(again.state(), run.state());
+
+    // Each changed byte is found: by the first words or by the checksum.
+    let bytes = saved.to_bytes();
+    for at in 0..bytes.len() {
+        let mut bytes = bytes.clone();
+        bytes[at] ^= 1;
+        refused::<Checkpoint>(&json!(bytes).to_string());
+    }
+    for text in ["[]", "[72, 65]", "[256]", "\"HAMILTON\"", "{}"] {
+        refused::<Checkpoint>(text);
+    }
+    let damaged = refused::<Checkpoint>(&json!(bytes[..bytes.len() - 8]).to_string());
+    assert!(
+        damaged.starts_with("the saved run is damaged: its checksum is wrong"),
+        "{damaged}"
+    );
     Ok(())
 }

@@ -155,7 +155,7 @@ impl<'de, R: Fielded<'de>> DeserializeSeed<'de> for Slot<'_, 'de, R> {
 }
 
 /// A list of numbers or of lists.
-struct Collected<I>(I);
+pub(super) struct Collected<I>(pub I);
 
 impl<I: Iterator<Item: Serialize> + Clone> Serialize for Collected<I> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {

@@ -19,7 +19,8 @@ use hamiltonian_lanes::Real;
 /// The state of a run and of its observers at one step.
 ///
 /// [`Integrator::checkpoint`](crate::Integrator::checkpoint) makes one,
-/// [`Integrator::resume`](crate::Integrator::resume) goes on from it.
+/// [`Integrator::resume`](crate::Integrator::resume) goes on from it. With the feature `serde` it is written as the bytes of
+/// its file.
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]

@@ -16,7 +16,7 @@ use hamiltonian_lanes::Real;
 /// 212, 1962, doi:10.1002/sapm1962411212).
 ///
 /// Outside the grid it is NaN, so that a run that leaves the grid ends with an error; a periodic one is
-/// defined everywhere. A clone shares the data.
+/// defined everywhere. A clone shares the data. With the feature `serde` it is written as its origin, spacing and values.
 ///
 /// ```
 /// use hamiltonian::prelude::*;
@@ -45,6 +45,9 @@ struct Data {
     cells: [usize; 2],
     /// The factors of the products of B-splines, row by row: three more than there are cells.
     factors: Vec<f64>,
+    /// The values, row by row, which the factors give up to rounding only.
+    #[cfg(feature = "serde")]
+    values: Vec<f64>,
     is_periodic: bool,
     fingerprint: u64,
 }
@@ -76,6 +79,25 @@ impl Grid {
         rows: &[R],
     ) -> Result<Grid, KnotError> {
         Grid::through(origin, spacing, rows, true)
+    }
+
+    /// The origin, the spacing, the rows of values, and true if the spline is periodic: from which it was made.
+    #[cfg(feature = "serde")]
+    pub(crate) fn given(
+        &self,
+    ) -> (
+        [f64; 2],
+        [f64; 2],
+        impl Iterator<Item = &[f64]> + Clone,
+        bool,
+    ) {
+        let data = &*self.0;
+        let columns = match data.is_periodic {
+            true => data.cells[1],
+            false => data.cells[1] + 1,
+        };
+        let rows = data.values.chunks_exact(columns);
+        (data.origin, data.spacing, rows, data.is_periodic)
     }
 
     fn through<R: AsRef<[f64]>>(
@@ -134,6 +156,8 @@ impl Grid {
             spacing,
             cells: [tall - 3, wide - 3],
             factors: all,
+            #[cfg(feature = "serde")]
+            values,
             is_periodic,
             fingerprint,
         })))

@@ -9,6 +9,8 @@ mod line;
 mod spline;
 
 pub use grid::Grid;
+#[cfg(feature = "serde")]
+pub(crate) use spline::EndCondition;
 pub use spline::Spline;
 
 use crate::systems::hash::Hash;

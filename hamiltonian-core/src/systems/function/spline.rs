@@ -14,7 +14,7 @@ use hamiltonian_lanes::Real;
 /// and second derivatives (C. de Boor, *A Practical Guide to Splines*, 1978, chapter IV).
 ///
 /// Outside the knots it is NaN, so that a run that leaves them ends with an error; a periodic spline is
-/// defined everywhere. A clone shares the data.
+/// defined everywhere. A clone shares the data. With the feature `serde` it is written as its knots, values and slopes.
 ///
 /// ```
 /// use hamiltonian::prelude::*;
@@ -37,15 +37,23 @@ struct PiecewiseCubic {
     knots: Vec<f64>,
     /// The coefficients of powers of (x − left knot), the constant first.
     polynomials: Vec<[f64; 4]>,
+    /// The value at the last knot.
+    #[cfg(feature = "serde")]
+    last: f64,
+    #[cfg(feature = "serde")]
+    ends: EndCondition,
     period: Option<f64>,
     fingerprint: u64,
 }
 
 /// The condition at the ends of a spline.
 #[derive(Debug, Clone, Copy)]
-enum EndCondition {
+pub(crate) enum EndCondition {
+    /// The second derivative is 0.
     Natural,
+    /// The slopes are given.
     Clamped([f64; 2]),
+    /// The derivatives at both ends agree.
     Periodic,
 }
 
@@ -94,6 +102,21 @@ impl Spline {
         Spline::through(knots, values, EndCondition::Periodic)
     }
 
+    /// The knots, the values at them, and the condition at the ends, from which the spline was made.
+    #[cfg(feature = "serde")]
+    pub(crate) fn given(&self) -> (&[f64], Vec<f64>, EndCondition) {
+        let PiecewiseCubic {
+            knots,
+            polynomials,
+            last,
+            ends,
+            ..
+        } = &*self.0;
+        // At its left knot a polynomial is the value there.
+        let values = polynomials.iter().map(|[value, ..]| *value).chain([*last]);
+        (knots, values.collect(), *ends)
+    }
+
     #[inline]
     fn through(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Spline, KnotError> {
         if knots.len() != values.len() {
@@ -140,6 +163,10 @@ impl Spline {
             fingerprint: fingerprint(numbers.copied()),
             knots: knots.to_vec(),
             polynomials,
+            #[cfg(feature = "serde")]
+            last: values[last],
+            #[cfg(feature = "serde")]
+            ends,
             period: is_periodic.then(|| knots[last] - knots[0]),
         })))
     }

@@ -1,7 +1,8 @@
 //! The language of `hamiltonian!`: from tokens to a checked definition, and to its mathematics.
 //!
 //! tokens → [`ast`] ([`parse`]) → [`checked`] ([`check`]) → [`Lowered`](lower::Lowered) ([`lower`]).
-//! Each stage reports all of its errors in a [`report`]; the next stage runs only if there were none.
+//! [`analyse`] goes on to the [`Analysis`](analyse::Analysis): proofs, final variables, pieces with exact flows, and the
+//! programs of each system. Each stage reports all of its errors in a [`report`]; the next stage runs only if there were none.
 //! Spans are those of `proc_macro2`, so the language works in a macro and in any other program.
 //!
 //! ```
@@ -28,6 +29,7 @@
 #[doc = include_str!("../README.md")]
 mod readme {}
 
+pub mod analyse;
 pub mod ast;
 pub mod check;
 pub mod checked;

@@ -54,7 +54,9 @@ pub use algebra::{
     sort,
 };
 pub use flows::split;
-pub use programs::{count, forces, hoist, interpret, pairs, pipeline, program, schedule, support};
+pub use programs::{
+    count, forces, halves, hoist, interpret, pairs, pipeline, program, schedule, support,
+};
 pub use proofs::{bracket, facts, jumps, legendre, structure, transform};
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.

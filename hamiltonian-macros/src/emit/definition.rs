@@ -1,15 +1,16 @@
 //! The input of emission.
 //!
-//! Input: the results of the back end. Output: [`Definition`], with the proven structure and the printed text. Invariant:
+//! Input: the analysis of a definition. Output: [`Definition`], with the proven structure and the printed text. Invariant:
 //! emission proves nothing and derives nothing.
 
 use crate::emit::tokens::piece_type;
+use hamiltonian_language::analyse::structure::{FieldSource, GradientSource, Text, Verdicts};
+use hamiltonian_language::analyse::variables::Declared;
 use hamiltonian_language::ast::Header;
 use hamiltonian_language::checked::Checked;
 use hamiltonian_symbolic::dag::Node;
-use hamiltonian_symbolic::model::{Group, Model};
-use hamiltonian_symbolic::program::{Program, Purpose};
-use hamiltonian_symbolic::transform::Placement;
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::program::Program;
 use proc_macro2::{Ident, TokenStream};
 
 /// All that emission reads.
@@ -35,12 +36,14 @@ pub struct Definition<'a> {
     pub program: &'a Program,
     /// The Rust function whose third derivative is in H's second derivatives, which are then not in the program.
     pub third: Option<&'a str>,
+    /// The source of the vector field.
+    pub field: FieldSource,
     /// The source of the gradient.
-    pub gradient: Gradient,
+    pub gradient: GradientSource,
     /// The proven structure.
-    pub structure: Structure,
+    pub structure: &'a Verdicts,
     /// The printed text.
-    pub text: Text,
+    pub text: &'a Text,
 }
 
 impl Definition<'_> {
@@ -51,147 +54,4 @@ impl Definition<'_> {
             None => item.name.clone(),
         }
     }
-}
-
-/// The variables it was declared in, where it is integrated in others.
-#[derive(Debug)]
-pub struct Declared {
-    /// Their groups.
-    pub groups: Vec<Group>,
-    /// The place of each among the system's own variables.
-    pub places: Vec<Placement>,
-    /// The group of the system that is the declared time, where it has another.
-    pub time: Option<u16>,
-}
-
-/// The source of ∂H/∂q and ∂H/∂p.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Gradient {
-    /// Functions of their own, or `energy_and_gradient` of a large H.
-    Written,
-    /// The kick and the drift.
-    Halves,
-    /// The vector field.
-    Field,
-}
-
-/// The proven structure of H.
-#[derive(Debug)]
-pub struct Structure {
-    /// H = T(p, t) + V(q, t)
-    pub separable: Result<(), Reason>,
-    /// H is a sum of pieces with exact flows: those of the model, or V and T.
-    pub split: Result<(), Reason>,
-    /// V and T in the author's notation, where H is separable.
-    pub halves: [String; 2],
-    /// T = ½ pᵀM⁻¹p with constant M
-    pub quadratic_kinetic: Result<(), Reason>,
-    /// A kick V(q, t) and a piece at most quadratic in the momenta.
-    pub nystrom: Result<Nystrom, Reason>,
-    /// No force acts.
-    pub unforced: Result<(), Reason>,
-    /// The flows of all pieces are exact.
-    pub exact: Result<(), Reason>,
-    /// The kick of V, with the force, or of the force alone beside pieces of H.
-    pub kick: Option<Kick>,
-    /// H does not depend on t
-    pub autonomous: Result<(), Reason>,
-    /// Coordinates that do not appear in H.
-    pub cyclic: Vec<String>,
-    /// The growth of H, where it is finite for all finite numbers.
-    pub growth: Option<u32>,
-    /// The parts that jump at times that do not depend on the state, if any does.
-    pub jumping: Option<Jumping>,
-}
-
-impl Structure {
-    /// Returns true if T is the first piece, because V jumps in time and T does not.
-    pub fn is_drift_first(&self) -> bool {
-        (self.jumping.as_ref()).is_some_and(|jumping| jumping.halves == [true, false])
-    }
-
-    /// Returns true if the force is a piece of its own, the last one.
-    pub fn is_forced_apart(&self) -> bool {
-        self.kick.is_some() && self.separable.is_err()
-    }
-}
-
-/// The parts of H that jump at times that do not depend on the state.
-#[derive(Debug)]
-pub struct Jumping {
-    /// V with the force, and T, where H is separable.
-    pub halves: [bool; 2],
-    /// The pieces of the model, and at the end the force.
-    pub pieces: Vec<bool>,
-}
-
-/// The places of the kick and of the piece at most quadratic in the momenta.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Nystrom {
-    /// V and T.
-    Halves,
-    /// The model's pieces of these numbers.
-    Pieces([usize; 2]),
-}
-
-/// The functions that make up the kick.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kick {
-    /// The kick alone: without a force, or with one that does not depend on momenta.
-    Plain,
-    /// The part that reads momenta, and where `rest` the kick after it.
-    Damped {
-        /// True if there is a part that reads none.
-        rest: bool,
-    },
-    /// Exact by a series over the rates of momenta and their linear part: momenta push each other.
-    Coupled,
-    /// A symmetric sub-step over the rates of momenta.
-    SubStep,
-}
-
-impl Kick {
-    /// The purposes of the functions that a kick is made of.
-    #[must_use]
-    pub fn purposes(self) -> &'static [Purpose] {
-        match self {
-            Kick::Plain => &[Purpose::Kick],
-            Kick::Damped { rest: false } => &[Purpose::Push],
-            Kick::Damped { rest: true } => &[Purpose::Push, Purpose::Kick],
-            Kick::Coupled => &[Purpose::Rates, Purpose::Linear],
-            Kick::SubStep => &[Purpose::Rates],
-        }
-    }
-}
-
-/// Why a structure is not there: the words of rustc where a scheme requires it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Reason {
-    /// The property of H in the way, with the term at fault.
-    pub message: String,
-    /// The missing property.
-    pub label: String,
-    /// The alternative.
-    pub note: String,
-}
-
-/// H and Hamilton's equations as people read them.
-#[derive(Debug, Default)]
-pub struct Text {
-    /// `H(q; p) = …`
-    pub hamiltonian: String,
-    /// Hamilton's equations, one a line.
-    pub equations: Vec<String>,
-    /// H in LaTeX.
-    pub latex: String,
-    /// Hamilton's equations in LaTeX, one a line.
-    pub latex_equations: Vec<String>,
-    /// H in MathML; empty where formulas are long.
-    pub math: String,
-    /// Hamilton's equations in MathML, one a row of a table; empty where formulas are long.
-    pub math_equations: String,
-    /// Facts of H, one sentence a line.
-    pub facts: Vec<String>,
-    /// A table of the operations of value and gradient, one row a line.
-    pub operations: Vec<String>,
 }

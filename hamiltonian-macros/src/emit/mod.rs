@@ -41,9 +41,6 @@ mod tokens;
 mod traits;
 mod types;
 
-pub use definition::{
-    Declared, Definition, Gradient, Jumping, Kick, Nystrom, Reason, Structure, Text,
-};
+pub use definition::Definition;
 pub use items::generate;
 pub use names::number::closed;
-pub use tokens::piece_method;

@@ -66,8 +66,3 @@ pub fn located(tokens: TokenStream, name: Span, depth: usize) -> TokenStream {
 pub fn piece_type(item: &Header, piece: &Ident) -> Ident {
     format_ident!("{}{}", item.name, piece, span = piece.span())
 }
-
-/// The method that gives a piece.
-pub fn piece_method(piece: &str) -> String {
-    format!("piece_{}", piece.to_lowercase())
-}

@@ -8,6 +8,8 @@ use super::accepted::DEFINITIONS;
 use super::builds::built;
 use super::docs::docs;
 use super::{Stage, refuse};
+use hamiltonian_language::analyse::splits::WORDS;
+use hamiltonian_symbolic::split;
 use std::path::Path;
 
 const ACCEPTED: &[&str] = &[
@@ -241,4 +243,11 @@ fn other_pieces_are_found() {
         .replace(second, &format!("{second} {first}"));
     assert_ne!(formulas(&swapped), formulas(source));
     assert!(built(&pasted.replace("0.5*q^2*p^2", "q^2*p^2")).is_err());
+}
+
+#[test]
+fn each_row_of_exact_flows_has_words() {
+    let rows = split::ROWS.iter().map(|row| row.name);
+    let words = WORDS.iter().map(|(name, _)| *name);
+    assert!(rows.eq(words));
 }

@@ -6,8 +6,8 @@
 mod faults;
 
 use super::read;
-use crate::backend::proofs::prove;
 use faults::{CLASSES, Random};
+use hamiltonian_language::analyse::proofs::prove;
 use hamiltonian_language::lower::lower;
 
 /// The errors of a definition up to its proofs, and the number of statements in it.

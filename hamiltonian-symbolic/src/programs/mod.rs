@@ -7,6 +7,7 @@ mod balance;
 pub mod count;
 mod factor;
 pub mod forces;
+pub mod halves;
 pub mod hoist;
 pub mod interpret;
 mod listing;

@@ -5,7 +5,6 @@
 //! statement is written here.
 
 pub mod accesses;
-pub mod halves;
 pub mod inline;
 pub mod scan;
 pub mod together;

@@ -7,18 +7,18 @@
 
 use super::description;
 use super::observables;
-use crate::emit::definition::Gradient;
 use crate::emit::functions::derived;
 use crate::emit::functions::function::{Body, BodyWriter};
 use crate::emit::functions::holder::{Holder, Receiver, shape};
 use crate::emit::names::context::Context;
 use crate::emit::names::generics::Generics;
 use crate::emit::names::layout::Slice;
-use crate::emit::steps::halves::are_apart;
 use crate::emit::steps::scan::scan;
 use crate::emit::types::construct::{as_slice, set_by_new};
 use crate::emit::types::reach;
+use hamiltonian_language::analyse::structure::GradientSource;
 use hamiltonian_symbolic::dag::Array;
+use hamiltonian_symbolic::halves::are_apart;
 use hamiltonian_symbolic::model::{ParameterDeclaration, Shape, VectorUse};
 
 use hamiltonian_symbolic::program::{Function, Instruction, Purpose, Step, Target, Update, Value};
@@ -193,7 +193,7 @@ impl<'a> Emission<'a> {
             match purpose {
                 Purpose::Gradient if are_apart(context.program, purpose, halves) => {}
                 Purpose::Gradient | Purpose::GradientQ | Purpose::GradientP
-                    if context.definition.gradient != Gradient::Written => {}
+                    if context.definition.gradient != GradientSource::Written => {}
                 Purpose::TimeDerivative if is_timeless(context) => {}
                 _ => self.method(name, purpose, more, returns),
             }
@@ -223,9 +223,9 @@ impl<'a> Emission<'a> {
             false => "",
         };
         let gradient = match context.definition.gradient {
-            Gradient::Written => "",
-            Gradient::Halves => ", gradient_by_halves",
-            Gradient::Field => ", gradient_by_field",
+            GradientSource::Written => "",
+            GradientSource::Halves => ", gradient_by_halves",
+            GradientSource::Field => ", gradient_by_field",
         };
         line!(
             self,

@@ -4,8 +4,7 @@
 //! Invariant: a kick reads no coordinate it moves and moves momenta alone.
 
 use super::dynamics::Emission;
-use crate::emit::definition::{Gradient, Kick};
-use crate::emit::steps::halves::are_apart;
+use hamiltonian_language::analyse::structure::{FieldSource, Kick};
 use hamiltonian_symbolic::program::Purpose;
 use std::fmt::Write;
 
@@ -40,21 +39,16 @@ impl Emission<'_> {
 
     /// The kind of the vector field.
     pub(super) fn field_kind(&self) -> &'static str {
-        match self.context.program.function(Purpose::VectorField) {
-            _ if self.is_in_halves() => "__h::Halves",
-            Some(_) => kind(Purpose::VectorField),
-            None => "__h::OfGradient",
+        match self.context.definition.field {
+            FieldSource::Halves => "__h::Halves",
+            FieldSource::Whole => kind(Purpose::VectorField),
+            FieldSource::OfGradient => "__h::OfGradient",
         }
     }
 
     /// Returns true if the kick followed by the drift is the vector field, without shared work.
     pub(super) fn is_in_halves(&self) -> bool {
-        let structure = &self.context.definition.structure;
-        let halves = [Purpose::Kick, Purpose::Drift];
-        self.context.definition.gradient == Gradient::Halves
-            || structure.separable.is_ok()
-                && structure.kick == Some(Kick::Plain)
-                && are_apart(self.context.program, Purpose::VectorField, halves)
+        self.context.definition.field == FieldSource::Halves
     }
 
     /// The body of a vector field.

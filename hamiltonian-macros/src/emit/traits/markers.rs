@@ -4,9 +4,9 @@
 //! implemented for every system; one that does not hold has a bound that nothing satisfies,
 //! whose message is the reason, so that a scheme that needs it says what couples what.
 
-use crate::emit::definition::Reason;
 use crate::emit::names::context::Context;
 use crate::emit::types::construct::is_all_defaults;
+use hamiltonian_language::analyse::structure::Reason;
 use std::fmt::Write;
 
 /// A piece that cannot exist.

@@ -5,11 +5,11 @@
 
 use super::dynamics::{Emission, declared, with_self};
 use super::markers;
-use crate::emit::definition::{Nystrom, Reason};
 use crate::emit::functions::holder::Holder;
 use crate::emit::names::context::Access;
 use crate::emit::names::layout::Slice;
 use crate::emit::steps::scan::scan;
+use hamiltonian_language::analyse::structure::{Nystrom, Reason};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Purpose};

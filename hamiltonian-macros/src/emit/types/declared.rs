@@ -6,11 +6,11 @@
 //! system's own shape, in which the declared variables have their places; here they are only
 //! moved.
 
-use crate::emit::definition::Declared;
 use crate::emit::functions::holder::Receiver;
 use crate::emit::names::context::{Context, ZERO};
 use crate::emit::names::layout::{Layout, layout};
 use crate::emit::tokens::lex;
+use hamiltonian_language::analyse::variables::Declared;
 use hamiltonian_symbolic::model::{Shape, VectorUse};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};

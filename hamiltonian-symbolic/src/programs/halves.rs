@@ -4,8 +4,8 @@
 //! operations as the whole, and no more. Invariant: only straight-line code is compared, since a loop of the whole may
 //! serve both halves at once.
 
-use hamiltonian_symbolic::dag::Map;
-use hamiltonian_symbolic::program::{Function, Instruction, Program, Purpose, Step, Update, Value};
+use crate::dag::Map;
+use crate::program::{Function, Instruction, Program, Purpose, Step, Update, Value};
 
 /// The limit of steps to be compared.
 const MAX_STEPS: usize = 400;
@@ -58,9 +58,9 @@ fn has_stores(program: &Program, whole: &Function, half: &Function) -> bool {
 }
 
 /// Pairs of values already compared.
-type Known = Map<(Value, Value), bool>;
+type Compared = Map<(Value, Value), bool>;
 
-fn is_same_update(program: &Program, a: &Update, b: &Update, known: &mut Known) -> bool {
+fn is_same_update(program: &Program, a: &Update, b: &Update, known: &mut Compared) -> bool {
     let values = |update: &Update| {
         let mut values = Vec::new();
         update.for_operands(|value| values.push(value));
@@ -70,12 +70,12 @@ fn is_same_update(program: &Program, a: &Update, b: &Update, known: &mut Known) 
         && are_same(program, &values(a), &values(b), known)
 }
 
-fn are_same(program: &Program, a: &[Value], b: &[Value], known: &mut Known) -> bool {
+fn are_same(program: &Program, a: &[Value], b: &[Value], known: &mut Compared) -> bool {
     a.len() == b.len() && (a.iter().zip(b)).all(|(a, b)| is_same(program, *a, *b, known))
 }
 
 /// Returns true if the same operations on the same inputs compute both values.
-fn is_same(program: &Program, a: Value, b: Value, known: &mut Known) -> bool {
+fn is_same(program: &Program, a: Value, b: Value, known: &mut Compared) -> bool {
     if a == b {
         return true;
     }

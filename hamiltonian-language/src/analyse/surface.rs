@@ -1,21 +1,26 @@
 //! The surface of a system: defaults, the model of a piece, and combinations that have no meaning.
 //!
-//! Input: [`Checked`]. Output: the defaults as they are emitted, models, errors. Invariant: all
+//! Input: [`Checked`]. Output: the defaults, models, errors. Invariant: all
 //! methods of a type have different names.
 
-use crate::emit::{self, piece_method};
-use hamiltonian_language::checked::{Checked, Definition, Type};
-use hamiltonian_language::lower::constants;
-use hamiltonian_language::report::Report;
-use hamiltonian_symbolic::dag::Node;
+use crate::checked::{Checked, Definition, Type};
+use crate::lower::constants;
+use crate::report::Report;
+use hamiltonian_symbolic::dag::{Dag, Node};
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use proc_macro2::Ident;
 
-/// The defaults of the parameters, number by number, as expressions of the scalar `T`.
-pub type Defaults = Vec<Option<Vec<String>>>;
+/// The default of a parameter: expressions of numbers alone, one for each number.
+#[derive(Debug)]
+pub struct Default {
+    /// Their arena.
+    pub dag: Dag,
+    /// The expressions.
+    pub values: Vec<Node>,
+}
 
-/// The defaults as they are emitted.
-pub fn defaults(checked: &Checked, report: &mut Report) -> Option<Defaults> {
+/// The defaults of the parameters.
+pub(super) fn defaults(checked: &Checked, report: &mut Report) -> Option<Vec<Option<Default>>> {
     let mut all = Vec::with_capacity(checked.parameters.len());
     for parameter in &checked.parameters {
         let Some(roots) = &parameter.default else {
@@ -23,27 +28,21 @@ pub fn defaults(checked: &Checked, report: &mut Report) -> Option<Defaults> {
             continue;
         };
         let (dag, values) = constants(checked, roots, report)?;
-        let mut numbers = Vec::with_capacity(values.len());
-        for (value, root) in values.into_iter().zip(roots) {
+        for (value, root) in values.iter().zip(roots) {
             let spans = checked.node(*root).spans;
-            if dag.out_of_range(&[value]).is_some() {
+            if dag.out_of_range(&[*value]).is_some() {
                 let message = format!("the default of `{}` does not fit an f64", parameter.name);
                 report.error(spans, message, "write a number between 1e-323 and 1.7e308");
                 return None;
             }
-            let Some(text) = emit::closed(&dag, value) else {
-                report.internal(spans, "a default is not made of numbers alone");
-                return None;
-            };
-            numbers.push(text);
         }
-        all.push(Some(numbers));
+        all.push(Some(Default { dag, values }));
     }
     Some(all)
 }
 
 /// The model of a piece.
-pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
+pub(super) fn piece_model(model: &Model, hamiltonian: Node) -> Model {
     let mut model = model.clone();
     model.hamiltonian = Some(hamiltonian);
     // The force acts on the whole.
@@ -55,7 +54,7 @@ pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
 }
 
 /// Combinations that have no meaning.
-pub fn refuse_unsupported(checked: &Checked, report: &mut Report) {
+pub(super) fn refuse_unsupported(checked: &Checked, report: &mut Report) {
     if let (None, Some((name, _))) = (&checked.item, checked.split.first()) {
         report.error(
             name.span(),
@@ -107,4 +106,9 @@ fn refuse_same_methods(checked: &Checked, report: &mut Report) {
 }
 
 /// The piece that carries time along where `dt = g*ds` makes time a coordinate.
-pub const CLOCK: &str = "Clock";
+pub(super) const CLOCK: &str = "Clock";
+
+/// The method that gives a piece.
+pub fn piece_method(piece: &str) -> String {
+    format!("piece_{}", piece.to_lowercase())
+}

@@ -7,20 +7,32 @@
 
 use super::proofs;
 use super::surface::CLOCK;
-use crate::emit::Declared;
-use hamiltonian_language::checked::{Checked, Definition};
-use hamiltonian_language::lower::Lowered;
-use hamiltonian_language::report::Report;
+use crate::checked::{Checked, Definition};
+use crate::lower::Lowered;
+use crate::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
-use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction, VectorUse};
+use hamiltonian_symbolic::model::{
+    Group, Model, ObservableKind, VectorEntry, VectorFunction, VectorUse,
+};
 use hamiltonian_symbolic::support::support;
 use hamiltonian_symbolic::transform::{self, Chart, NoTransform, Placement};
 use proc_macro2::Ident;
 
+/// The declared variables.
+#[derive(Debug)]
+pub struct Declared {
+    /// Their groups.
+    pub groups: Vec<Group>,
+    /// The place of each among the system's own variables.
+    pub places: Vec<Placement>,
+    /// The group of the system that is the declared time, where it has another.
+    pub time: Option<u16>,
+}
+
 /// A definition in its final variables.
 #[derive(Debug)]
-pub struct System {
+pub struct Changed {
     /// H, observables and vector functions.
     pub model: Model,
     /// The pieces of a split.
@@ -30,8 +42,8 @@ pub struct System {
 }
 
 /// Carries a definition into its final variables.
-pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Option<System> {
-    let mut system = System {
+pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Option<Changed> {
+    let mut system = Changed {
         model: lowered.model,
         pieces: Vec::new(),
         declared: None,
@@ -60,7 +72,7 @@ pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
     Some(system)
 }
 
-impl System {
+impl Changed {
     fn offer(&mut self, usage: VectorUse, entries: Vec<VectorEntry>) {
         self.model.vectors.push(VectorFunction { usage, entries });
     }

@@ -4,9 +4,9 @@
 //! where one was found, a point. Invariant: `#[assume]` silences claims that could not be decided, never false
 //! ones.
 
-use hamiltonian_language::checked::Checked;
-use hamiltonian_language::lower::Lowered;
-use hamiltonian_language::report::Report;
+use crate::checked::Checked;
+use crate::lower::Lowered;
+use crate::report::Report;
 use hamiltonian_symbolic::bracket::{
     Certificate, Verdict, is_invariant, is_invariant_of_lagrangian,
 };

@@ -3,8 +3,8 @@
 //! Input: the structure of a model. Output: the verdicts that emission turns into types. Invariant: a reason
 //! names the term of the user's that is in the way.
 
-use crate::emit;
-use crate::emit::Reason;
+use super::structure::Reason;
+use super::structure::{Jumping, Kick, Nystrom, Verdicts};
 use hamiltonian_symbolic::dag::{Array, Column, Kind, Node, Side};
 use hamiltonian_symbolic::forces;
 use hamiltonian_symbolic::jumps::{force_jumps, jumps};
@@ -23,11 +23,7 @@ enum Obstacle {
 }
 
 /// The verdicts.
-pub fn verdicts(
-    model: &mut Model,
-    structure: &Structure,
-    split: Result<(), Reason>,
-) -> emit::Structure {
+pub fn verdicts(model: &mut Model, structure: &Structure, split: Result<(), Reason>) -> Verdicts {
     let name = subject(model);
     let (kick, exact) = kick(model, structure);
     let jumping = jumping(model, structure);
@@ -53,7 +49,7 @@ pub fn verdicts(
             note: note.into(),
         }
     });
-    emit::Structure {
+    Verdicts {
         separable: match &structure.separable {
             Ok(_) => Ok(()),
             Err(coupling) => Err(not_separable(model, &name, coupling)),
@@ -110,7 +106,7 @@ pub fn verdicts(
 }
 
 /// The parts that jump at times that do not depend on the state.
-fn jumping(model: &mut Model, structure: &Structure) -> Option<emit::Jumping> {
+fn jumping(model: &mut Model, structure: &Structure) -> Option<Jumping> {
     let h = model.h();
     let force: Vec<Node> = model.force.iter().map(|entry| entry.value).collect();
     let force = force_jumps(&mut model.dag, &force);
@@ -125,7 +121,7 @@ fn jumping(model: &mut Model, structure: &Structure) -> Option<emit::Jumping> {
         .pieces
         .iter()
         .map(|piece| jumps(&mut model.dag, piece.h));
-    Some(emit::Jumping {
+    Some(Jumping {
         halves: [halves[0] || force, halves[1]],
         pieces: pieces.chain([force]).collect(),
     })
@@ -136,8 +132,8 @@ fn jumping(model: &mut Model, structure: &Structure) -> Option<emit::Jumping> {
 fn nystrom(
     model: &mut Model,
     structure: &Structure,
-    kick: Option<emit::Kick>,
-) -> Result<emit::Nystrom, Obstacle> {
+    kick: Option<Kick>,
+) -> Result<Nystrom, Obstacle> {
     let of_h = Obstacle::H;
     let pieces = match model.pieces.as_slice() {
         [] => Err(of_h("it is not split into exact flows".to_owned())),
@@ -150,7 +146,7 @@ fn nystrom(
             None => match *pieces {
                 [ref first, ref second] => {
                     let parts = [first.h, second.h];
-                    let beside = kick_beside(model, parts).map(emit::Nystrom::Pieces);
+                    let beside = kick_beside(model, parts).map(Nystrom::Pieces);
                     beside.map_err(of_h)
                 }
                 [_] => Err(of_h(
@@ -164,29 +160,27 @@ fn nystrom(
         return pieces;
     };
     pieces.or_else(|_| match kick {
-        Some(emit::Kick::Plain) => {
+        Some(Kick::Plain) => {
             let beside = kick_beside(model, [split.potential, split.kinetic]);
-            beside.map(|_| emit::Nystrom::Halves).map_err(of_h)
+            beside.map(|_| Nystrom::Halves).map_err(of_h)
         }
         _ => Err(Obstacle::Force("its force depends on momenta")),
     })
 }
 
 /// The kick of V with the force, or of the force beside pieces of H, and whether that is exact.
-fn kick(model: &mut Model, structure: &Structure) -> (Option<emit::Kick>, Result<(), Reason>) {
+fn kick(model: &mut Model, structure: &Structure) -> (Option<Kick>, Result<(), Reason>) {
     if model.force.is_empty() || (structure.separable.is_err() && model.pieces.is_empty()) {
-        let kick = structure.separable.is_ok().then_some(emit::Kick::Plain);
+        let kick = structure.separable.is_ok().then_some(Kick::Plain);
         return (kick, Ok(()));
     }
     let (kick, exact) = match forces::kick_of(model) {
-        Ok(forces::KickFlow::Single { damped, .. }) if damped.is_empty() => {
-            (emit::Kick::Plain, Ok(()))
-        }
+        Ok(forces::KickFlow::Single { damped, .. }) if damped.is_empty() => (Kick::Plain, Ok(())),
         Ok(forces::KickFlow::Single { rest, .. }) => {
             let rest = !rest.is_empty();
-            (emit::Kick::Damped { rest }, Ok(()))
+            (Kick::Damped { rest }, Ok(()))
         }
-        Ok(forces::KickFlow::Coupled { .. }) => (emit::Kick::Coupled, Ok(())),
+        Ok(forces::KickFlow::Coupled { .. }) => (Kick::Coupled, Ok(())),
         Err(entry) => {
             let reason = Reason {
                 message: format!(
@@ -200,7 +194,7 @@ fn kick(model: &mut Model, structure: &Structure) -> (Option<emit::Kick>, Result
                        `ImplicitMidpoint` and its compositions take any force"
                         .into(),
             };
-            (emit::Kick::SubStep, Err(reason))
+            (Kick::SubStep, Err(reason))
         }
     };
     (Some(kick), exact)

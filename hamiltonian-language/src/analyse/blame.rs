@@ -5,9 +5,9 @@
 //! the narrowest place that is known.
 
 use super::definition;
-use hamiltonian_language::checked::{Checked, NodeId};
-use hamiltonian_language::lower::Beyond;
-use hamiltonian_language::report::{Report, Spans};
+use crate::checked::{Checked, NodeId};
+use crate::lower::Beyond;
+use crate::report::{Report, Spans};
 use hamiltonian_symbolic::model::{Model, VectorUse};
 use hamiltonian_symbolic::overflow::OutOfRange;
 use hamiltonian_symbolic::program::Purpose;

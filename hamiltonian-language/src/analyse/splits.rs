@@ -5,10 +5,10 @@
 //! each with an exact flow; V and T of a separable H need no search.
 
 use super::Part;
+use super::structure::Reason;
 use super::surface::CLOCK;
-use crate::emit::Reason;
-use hamiltonian_language::checked::{self, Checked, NodeKind, Variable};
-use hamiltonian_language::report::Report;
+use crate::checked::{self, Checked, NodeKind, Variable};
+use crate::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::jumps::jumps;
 use hamiltonian_symbolic::model::{Model, Piece};
@@ -16,16 +16,16 @@ use hamiltonian_symbolic::split::{self, NoFlow, PIECES, Splitting};
 use hamiltonian_symbolic::structure::Structure;
 
 /// The text on a splitting.
-pub struct Found {
+pub(super) struct SplitText {
     /// `Ok` if there is one, or the reason why not.
     pub verdict: Result<(), Reason>,
     /// The sentences of the docs.
     pub facts: Vec<String>,
 }
 
-impl Found {
-    fn split(facts: Vec<String>) -> Found {
-        Found {
+impl SplitText {
+    fn split(facts: Vec<String>) -> SplitText {
+        SplitText {
             verdict: Ok(()),
             facts,
         }
@@ -33,13 +33,13 @@ impl Found {
 }
 
 /// Splits the model's H, into the pieces that were declared where there are any.
-pub fn decide(
+pub(super) fn decide(
     checked: &Checked,
     model: &mut Model,
     structure: &Structure,
     part: &Part,
     report: &mut Report,
-) -> Found {
+) -> SplitText {
     let declared = part.pieces;
     let is_separable = structure.separable.is_ok();
     let is_new = |node: &checked::Node| {
@@ -55,7 +55,7 @@ pub fn decide(
         // V and T apart are no worse than a piece that moves only one of them.
         let is_closed = |found: &Splitting| found.pieces.iter().any(|p| !p.flow.rows().is_empty());
         if is_separable && !matches!(&alone, Some(Ok(found)) if is_closed(found)) {
-            return Found::split(Vec::new());
+            return SplitText::split(Vec::new());
         }
         alone.unwrap_or_else(|| split::find(model).map_err(|refusal| (0, refusal)))
     } else {
@@ -93,7 +93,7 @@ pub fn decide(
     // The kick carries the force. In other variables than those it was written in, V and T still are
     // pieces.
     if is_separable && (is_forced || is_carried_over) {
-        return Found::split(Vec::new());
+        return SplitText::split(Vec::new());
     }
     match found {
         Ok(splitting) if splitting.pieces.len() + usize::from(is_forced) > PIECES => {
@@ -132,7 +132,7 @@ pub fn decide(
                 facts.push("The force is a piece of its own, the innermost.".to_owned());
             }
             model.pieces = splitting.pieces;
-            Found::split(facts)
+            SplitText::split(facts)
         }
         Err((_, refusal)) => {
             let why = match refusal.limit {
@@ -147,7 +147,7 @@ pub fn decide(
 }
 
 /// The rows of [`split::ROWS`] in words of the language; their patterns have the notation of papers.
-const WORDS: [(&str, &str); 12] = [
+pub const WORDS: [(&str, &str); 12] = [
     ("quadratic form", "quadratic forms"),
     ("matrix exponential", "quadratic forms"),
     ("monomial", "c*q^a*p^b"),
@@ -192,9 +192,9 @@ fn alone(model: &mut Model) -> Result<Splitting, (usize, NoFlow)> {
     split::declared(model, &[(name, h)])
 }
 
-fn refused(model: &Model, why: &str) -> Found {
+fn refused(model: &Model, why: &str) -> SplitText {
     let name = super::verdicts::subject(model);
-    Found {
+    SplitText {
         verdict: Err(Reason {
             message: format!("{name} is not split into exact flows: {why}"),
             label: "needs H = A + B + … whose pieces have exact flows".into(),
@@ -253,12 +253,4 @@ fn facts(splitting: &Splitting) -> Vec<String> {
         }
     }
     facts
-}
-
-#[cfg(test)]
-#[test]
-fn each_row_has_words() {
-    let rows = split::ROWS.iter().map(|row| row.name);
-    let words = WORDS.iter().map(|(name, _)| *name);
-    assert!(rows.eq(words));
 }

@@ -4,7 +4,7 @@
 //! constants. Invariant: none of it is read by the program.
 
 use super::proofs::Certificates;
-use crate::emit::Text;
+use super::structure::Text;
 use hamiltonian_symbolic::bracket::{Place, Reason};
 use hamiltonian_symbolic::count::{self, Count, Operations};
 use hamiltonian_symbolic::legendre::Readable;

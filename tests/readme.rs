@@ -1,7 +1,7 @@
 //! The README and the book: what they print, what they link to, and the programs they promise.
 
 use hamiltonian::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -177,31 +177,71 @@ fn each_chapter_is_in_the_contents_and_tested() {
     }
 }
 
-/// Each link of the chapter `tasks.md` leads to a heading whose first listing in Rust is a program of at
-/// most 40 lines.
+/// The listings in Rust between a heading and the next one.
+fn programs_below(text: &str, heading: &str) -> Vec<String> {
+    let mut in_listing = false;
+    let mut section: Option<Vec<&str>> = None;
+    for line in text.lines() {
+        in_listing ^= line.starts_with("```");
+        let is_heading = !in_listing && line.starts_with('#');
+        match &mut section {
+            Some(_) if is_heading => break,
+            Some(lines) => lines.push(line),
+            None if is_heading && anchor(line) == heading => section = Some(vec![]),
+            None => {}
+        }
+    }
+    let (_, mut listings) = prose_and_listings(&section.unwrap_or_default().join("\n"));
+    listings.retain(|listing| listing.starts_with("```rust"));
+    listings
+}
+
+/// The programs among listings; an error for a listing of more than 40 lines.
+fn short_programs(listings: &[String]) -> Result<usize, String> {
+    for listing in listings {
+        let lines = listing.lines().count() - 1;
+        if lines > 40 {
+            return Err(format!("{lines} lines:\n{listing}"));
+        }
+    }
+    let programs = listings.iter().filter(|one| one.contains("fn main()"));
+    Ok(programs.count())
+}
+
+/// Each link of the chapter `tasks.md` leads to a heading with a program of its own, and all listings below the heading
+/// have at most 40 lines.
 #[test]
 fn tasks_are_short_programs() {
     let book = root().join("book/src");
     let tasks = links(&read(&book.join("tasks.md")));
-    assert!(tasks.len() >= 18, "{} tasks", tasks.len());
-    for task in tasks {
-        let (path, heading) = task.split_once('#').expect("a heading");
-        let text = read(&book.join(path));
-        let after = text
-            .lines()
-            .skip_while(|line| !line.starts_with('#') || anchor(line) != heading);
-        let after: Vec<&str> = after.collect();
-        let (_, listings) = prose_and_listings(&after.join("\n"));
-        let program = listings
-            .iter()
-            .find(|listing| listing.starts_with("```rust"));
-        let program = program.unwrap_or_else(|| panic!("{task} has no program"));
-        let lines = program.lines().count() - 1;
-        assert!(
-            program.contains("fn main()") && lines <= 40,
-            "{task}: {lines} lines"
-        );
+    let mut listed = BTreeMap::new();
+    for task in tasks.iter().filter(|task| task.contains(".md#")) {
+        *listed.entry(task.as_str()).or_insert(0) += 1;
     }
+    assert!(listed.len() >= 18, "{} headings", listed.len());
+    for (task, count) in listed {
+        let (path, heading) = task.split_once('#').expect("a heading");
+        let found = short_programs(&programs_below(&read(&book.join(path)), heading));
+        let found = found.unwrap_or_else(|error| panic!("{task}: {error}"));
+        assert!(found >= count, "{task}: {found} programs for {count} tasks");
+    }
+}
+
+#[test]
+fn long_listings_are_found_wherever_they_stand() {
+    let program =
+        |lines: usize| format!("```rust\nfn main() {{}}\n{}```\n", "# \n".repeat(lines - 1));
+    let page = |second| {
+        format!(
+            "## One\n{}text\n{}## Two\n{}",
+            program(1),
+            program(second),
+            program(99)
+        )
+    };
+    assert_eq!(short_programs(&programs_below(&page(40), "one")), Ok(2));
+    assert!(short_programs(&programs_below(&page(41), "one")).is_err());
+    assert!(programs_below(&page(40), "three").is_empty());
 }
 
 /// Each example has its picture, of at most 50 KB, in the book and in the API pages, under the same words, and

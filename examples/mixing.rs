@@ -132,7 +132,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut now = begin.clone();
     for t in [2.0, 5.0, 10.0, 50.0, 100.0] {
         let steps = (t / STEP).round() as u64;
-        swarm.watch(steps - swarm.steps(), 500, |swarm| {
+        swarm.advance_watched(steps - swarm.steps(), 500, |swarm| {
             eprint!("\r{} of {} steps", swarm.steps(), (100.0 / STEP).round());
         });
         now = places(&swarm)?;

@@ -116,7 +116,10 @@ fn messages_are_those_of_the_phase() {
     };
     let mut swarm = Ensemble::new(2, start, StormerVerlet::default(), 0.1).expect("two members");
     swarm.advance(1);
-    let error = swarm.at(1).expect("two members").expect_err("a bad start");
+    let error = swarm
+        .state_of(1)
+        .expect("two members")
+        .expect_err("a bad start");
     let text = "the start is not finite: t = 0, q = [NaN], p = [0.0]";
     assert_eq!(error.to_string(), format!("member 1: {text}"));
     let source = error.source().expect("the error of the member");

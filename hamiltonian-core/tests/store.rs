@@ -144,13 +144,13 @@ fn chunks_are_read_as_they_were_written() {
         let path = place.path(&format!("deep/below/{number}.zarr"));
         let store = Store::open_or_create(&path, &layout).unwrap();
         assert_eq!(
-            store.complete().unwrap().to_string(),
+            store.completeness().unwrap().to_string(),
             "3 of 3 chunks are missing: 0 to 2"
         );
         assert_eq!(store.read(1).unwrap(), None);
         store.write(1, &data(&layout, 1)).unwrap();
         assert!(store.present(1).unwrap() && !store.present(0).unwrap());
-        let after = store.complete().unwrap();
+        let after = store.completeness().unwrap();
         assert_eq!(after.to_string(), "2 of 3 chunks are missing: 0, 2");
         // Others open it meanwhile, and write what is missing in any order.
         let again = Store::open_or_create(&path, &layout).unwrap();
@@ -160,7 +160,10 @@ fn chunks_are_read_as_they_were_written() {
         for chunk in 0..3 {
             assert_same(&store.read(chunk).unwrap().unwrap(), &data(&layout, chunk));
         }
-        assert_eq!(store.complete().unwrap().to_string(), "complete (3 chunks)");
+        assert_eq!(
+            store.completeness().unwrap().to_string(),
+            "complete (3 chunks)"
+        );
         // A chunk that is present stays as it is.
         let before = tree(&path);
         let mut other = data(&layout, 0);
@@ -173,7 +176,7 @@ fn chunks_are_read_as_they_were_written() {
         for chunk in 0..3 {
             straight.write(chunk, &data(&layout, chunk)).unwrap();
         }
-        assert!(straight.complete().unwrap().is_complete());
+        assert!(straight.completeness().unwrap().is_complete());
         assert_eq!(tree(&twin), before);
     }
 }
@@ -346,7 +349,7 @@ fn a_chunk_without_its_status_is_written_again() {
         for chunk in 0..3 {
             store.write(chunk, &data(&layout, chunk)).unwrap();
         }
-        store.complete().unwrap();
+        store.completeness().unwrap();
         let expected = tree(&whole);
         for (removed, _) in expected.iter() {
             // A process writes the metadata of the group after all other metadata, and before chunks;
@@ -374,7 +377,7 @@ fn a_chunk_without_its_status_is_written_again() {
             for chunk in 0..3 {
                 again.write(chunk, &data(&layout, chunk)).unwrap();
             }
-            assert!(again.complete().unwrap().is_complete());
+            assert!(again.completeness().unwrap().is_complete());
             assert_eq!(tree(&whole), expected, "without {}", removed.display());
         }
     }

@@ -166,11 +166,11 @@ where
     /// Scratch for the states that observers of signs receive between stops.
     passed: CarriedIn<T, S, P, M>,
     passed_rows: Vec<T>,
-    /// The lanes whose drift begins at their present state.
+    /// The lanes whose drift begins at their current state.
     attach: Option<MaskIn<T, P>>,
     /// The steps after which the observers of lanes receive states, if the lanes differ.
     schedule: LaneSchedule<T::Over<P>>,
-    /// True if the map was prepared for the present occupants before they were loaded into the lanes.
+    /// True if the map was prepared for the current occupants before they were loaded into the lanes.
     is_prepared: bool,
     /// The step of each lane for which the map was prepared.
     steps: Vec<T>,

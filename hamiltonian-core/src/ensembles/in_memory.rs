@@ -23,10 +23,11 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-/// Many members of one system and one scheme, which advance together in the lanes of packs and on threads.
+/// Integrates many members of one system with one scheme, and keeps their states in memory.
 ///
 /// Each member has its own start and its own parameters. A member that fails keeps its error, and the others
-/// continue.
+/// continue. [`Sweep`](crate::Sweep) is for members of which only numbers at their ends, or at given times, are wanted:
+/// its members need no memory.
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
@@ -42,10 +43,11 @@ use core::ops::ControlFlow;
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// # Bits
-/// The bits of a member depend on neither the number of threads nor the other members. By default, products and sums
-/// are fused if the CPU has such instructions. With [`reproducible`](Ensemble::reproducible) they are not fused, and a
-/// member has the bits of a single [`Integrator`](crate::Integrator) on every CPU.
+/// # Reproducibility
+/// By default, results depend on the CPU, but not on the number of threads or on other members. Members are computed in
+/// packs, a few CPU registers whose numbers, the lanes, belong to one member each. Products and sums are fused, `a·b + c`
+/// rounded once, if the CPU has such instructions. A [`reproducible`](Ensemble::reproducible) ensemble does not fuse
+/// them, and its members have the bits of a single [`Integrator`](crate::Integrator) on every CPU.
 ///
 /// The rounding is a type, so that a program contains the code of the ensembles that it advances, and no other:
 /// `Ensemble<S, M>` fuses, `Ensemble<S, M, (), Unfused>` is reproducible.
@@ -65,10 +67,30 @@ const LANES: usize = 192;
 const CHUNK: usize = 10 * LANES;
 
 impl<S: System, M: Scheme<S>> Ensemble<S, M> {
-    /// Creates an ensemble of `count` members. `make` makes the system and the start of each. All members have the step
-    /// `step`, which is negative to integrate backwards.
+    /// Creates an ensemble of `count` members with the step size `step`, which is negative to integrate backwards. `make`
+    /// makes the system and the start of each member.
     ///
-    /// An invalid start is the error of its member, see [`states`](Ensemble::states).
+    /// A member that cannot start has its error in [`states`](Ensemble::states): an invalid start, a panic of `make`
+    /// ([`SweepError::Panicked`]), or a system of other sizes than the first ([`SweepError::OtherSizes`]).
+    ///
+    /// [`Member::seed`] is a seed for random numbers. For other seeds, write `Member::new(member.index, 1).seed`:
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// /// A number from 0 to 1; a generator of random numbers would be made from the seed here.
+    /// fn random(seed: u64) -> f64 {
+    ///     seed as f64 / u64::MAX as f64
+    /// }
+    /// let start = |member: Member| {
+    ///     let other = Member::new(member.index, 1);
+    ///     (Oscillator {}, State::new([random(member.seed)], [random(other.seed)]))
+    /// };
+    /// let swarm = Ensemble::new(1_000, start, ImplicitMidpoint::default(), 1e-3)?;
+    /// let sum = swarm.states().try_fold(0.0, |sum, state| Ok::<_, Error>(sum + state?.q[0]))?;
+    /// assert!((sum / 1e3 - 0.5).abs() < 0.05);
+    /// # Ok::<(), Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`SweepError::NoMembers`], [`StartError::Step`](crate::errors::StartError::Step).
@@ -81,8 +103,24 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
         Self::try_new(count, |member| Ok(make(member)), scheme, step)
     }
 
-    /// Does the same as [`new`](Ensemble::new) with a closure that returns a `Result`. Its error becomes that of the
-    /// member.
+    /// Creates an ensemble as [`new`](Ensemble::new) does, with a closure that returns a `Result`. Its error becomes that
+    /// of the member.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    /// use hamiltonian::analysis::{Branch, momentum_from_energy};
+    ///
+    /// // Starts of the energy 1/2. There are none at |q| > 1.
+    /// let start = |member: Member| {
+    ///     let guess = State::new([0.5 * member.index as f64], [0.0]);
+    ///     let start = momentum_from_energy(&Oscillator {}, &guess, 0, 0.5, Branch::Forward)?;
+    ///     Ok((Oscillator {}, start))
+    /// };
+    /// let swarm = Ensemble::try_new(4, start, ImplicitMidpoint::default(), 1e-3)?;
+    /// assert!(swarm.state_of(1).is_some_and(|state| state.is_ok()));
+    /// assert!(swarm.state_of(3).is_some_and(|state| state.is_err()));
+    /// # Ok::<(), Error>(())
+    /// ```
     ///
     /// # Errors
     /// Those of [`new`](Ensemble::new).
@@ -156,10 +194,109 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
     }
 }
 
+impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<S, M, O, A> {
+    /// Makes `n` steps of every member that has neither failed nor been ended by its observer.
+    ///
+    /// This returns no error: [`states`](Ensemble::states) has the error of a member in its place.
+    pub fn advance(&mut self, n: u64) -> &mut Self {
+        let target = self.common.steps.saturating_add(n);
+        if target == self.common.steps {
+            return self;
+        }
+        self.drive(target, false, |_, observer, view| observe(observer, view));
+        self.common.steps = target;
+        self
+    }
+
+    /// Makes `n` steps, and calls a closure with the whole ensemble after every `every` steps (0 counts as 1) and at the
+    /// end. The closure returns `()`, or a [`ControlFlow<()>`](ControlFlow) whose `Break` ends this call.
+    ///
+    /// The closure may draw pictures, report progress or check a condition on all members.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |_| (Oscillator {}, State::new([0.1], [0.0]));
+    /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 1e-3)?;
+    /// let mut seen = vec![];
+    /// swarm.advance_watched(25, 10, |swarm| seen.push(swarm.steps()));
+    /// assert_eq!(seen, [10, 20, 25]);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn advance_watched<V: Verdict>(
+        &mut self,
+        n: u64,
+        every: u64,
+        mut closure: impl FnMut(&Self) -> V,
+    ) {
+        let mut left = n;
+        while left > 0 {
+            let some = every.max(1).min(left);
+            self.advance(some);
+            left -= some;
+            if closure(self).control().is_break() {
+                return;
+            }
+        }
+    }
+}
+
+impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
+    /// The number of members.
+    #[allow(clippy::len_without_is_empty)] // An ensemble has at least one member.
+    pub fn len(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.count).sum()
+    }
+
+    /// The number of steps made by the members that have neither failed nor been ended.
+    pub fn steps(&self) -> u64 {
+        self.common.steps
+    }
+
+    /// The members' observers, in the order of the index.
+    pub fn observers(&self) -> impl Iterator<Item = &O> {
+        self.chunks.iter().flat_map(|chunk| &chunk.observers)
+    }
+
+    /// Returns the state of each member, in the order of the index: its current state, the one at which its observer
+    /// ended it, or its error. Members do not advance.
+    ///
+    /// # Errors
+    /// [`SweepError::Member`] with the index and the error of the member.
+    pub fn states(&self) -> impl Iterator<Item = Result<State<VectorOf<S>>, Error>> {
+        (0..self.chunks.len()).flat_map(|number| self.closed(number, 0..usize::MAX, None))
+    }
+
+    /// Returns the state of one member, see [`states`](Ensemble::states); `None` if there is no such index. Each call
+    /// computes it from the carried value of the scheme.
+    ///
+    /// # Errors
+    /// [`SweepError::Member`] with the index and the error of the member.
+    pub fn state_of(&self, index: usize) -> Option<Result<State<VectorOf<S>>, Error>> {
+        let number = self
+            .chunks
+            .partition_point(|chunk| chunk.first + chunk.count <= index);
+        let key = index - self.chunks.get(number)?.first;
+        self.closed(number, key..key + 1, None).pop()
+    }
+
+    /// The number of steps that one member has made; `None` if there is no such index.
+    pub fn steps_of(&self, index: usize) -> Option<u64> {
+        let number = self
+            .chunks
+            .partition_point(|chunk| chunk.first + chunk.count <= index);
+        let chunk = self.chunks.get(number)?;
+        Some(match chunk.finished.get(&(index - chunk.first)) {
+            Some(Finished::Failed(_, steps) | Finished::Ended(_, steps)) => *steps,
+            None => self.common.steps,
+        })
+    }
+}
+
 impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
     /// Attaches an observer to each member, made from its index.
     ///
-    /// An observer receives the present state at once, and from then on the states of its member as in a single run. An
+    /// An observer receives the current state at once, and from then on the states of its member as in a single run. An
     /// observer that ends its member ends no other.
     ///
     /// ```
@@ -235,23 +372,13 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
 }
 
 impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<S, M, O, A> {
-    /// Makes `n` steps of every member that has neither failed nor been ended by its observer.
-    pub fn advance(&mut self, n: u64) -> &mut Self {
-        let target = self.common.steps.saturating_add(n);
-        if target == self.common.steps {
-            return self;
-        }
-        self.drive(target, false, |_, observer, view| observe(observer, view));
-        self.common.steps = target;
-        self
-    }
-
     /// Changes the states of members between two steps, for example by kicks. The closure receives each member that has
-    /// neither failed nor been ended, with its present state, whose time it must keep.
+    /// neither failed nor been ended, with its current state, whose time it must keep. It is called on this thread, in
+    /// the order of the index.
     ///
     /// A member that is changed goes on as a single run after [`set_state`](crate::Integrator::set_state): its steps,
     /// times and observer stay. A member that is not changed keeps its bits. A state that cannot be a start is the error
-    /// of its member.
+    /// of its member. Parameters and the step size cannot be changed.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -310,45 +437,18 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
         }
         self
     }
-
-    /// Makes `n` steps, and calls a closure with the whole ensemble after every `steps` steps (0 counts as 1) and at
-    /// the end. [`ControlFlow::Break`] stops the ensemble.
-    ///
-    /// The closure may draw pictures, report progress or check a condition on all members.
-    ///
-    /// ```
-    #[doc = include_str!("../doc/oscillator.md")]
-    ///
-    /// let start = |_| (Oscillator {}, State::new([0.1], [0.0]));
-    /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 1e-3)?;
-    /// let mut seen = vec![];
-    /// swarm.watch(25, 10, |swarm| seen.push(swarm.steps()));
-    /// assert_eq!(seen, [10, 20, 25]);
-    /// # Ok::<(), Error>(())
-    /// ```
-    pub fn watch<V: Verdict>(&mut self, n: u64, steps: u64, mut closure: impl FnMut(&Self) -> V) {
-        let mut left = n;
-        while left > 0 {
-            let some = steps.max(1).min(left);
-            self.advance(some);
-            left -= some;
-            if closure(self).control().is_break() {
-                return;
-            }
-        }
-    }
 }
 
 impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
-    /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
-    /// in a rayon pool gets those of the pool, and no others.
+    /// Sets the number of threads (0 counts as 1). The default is the number that the machine runs at once. In a rayon
+    /// pool, the ensemble has the threads of the pool.
     #[must_use]
     pub fn with_threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }
 
-    /// Does not fuse products and sums, so that each member has the bits of its single run on every CPU.
+    /// Turns fused products and sums off, so that each member has the bits of its single run on every CPU.
     #[must_use]
     pub fn reproducible(self) -> Ensemble<S, M, O, Unfused> {
         Ensemble {
@@ -366,53 +466,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         &*self.scheme
     }
 
-    /// The number of members.
-    #[allow(clippy::len_without_is_empty)] // An ensemble has at least one member.
-    pub fn len(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.count).sum()
-    }
-
-    /// The number of steps made by the members that have neither failed nor been ended.
-    pub fn steps(&self) -> u64 {
-        self.common.steps
-    }
-
-    /// The members' observers, in the order of the index.
-    pub fn observers(&self) -> impl Iterator<Item = &O> {
-        self.chunks.iter().flat_map(|chunk| &chunk.observers)
-    }
-
-    /// The state of each member, in the order of the index: the present state, or the one at which its observer ended
-    /// it, or its error.
-    ///
-    /// # Errors
-    /// [`SweepError::Member`] with the index and the error of the member.
-    pub fn states(&self) -> impl Iterator<Item = Result<State<VectorOf<S>>, Error>> {
-        (0..self.chunks.len()).flat_map(|number| self.closed(number, 0..usize::MAX, None))
-    }
-
-    /// The state of one member, see [`states`](Ensemble::states); `None` if there is no such index.
-    pub fn at(&self, index: usize) -> Option<Result<State<VectorOf<S>>, Error>> {
-        let number = self
-            .chunks
-            .partition_point(|chunk| chunk.first + chunk.count <= index);
-        let key = index - self.chunks.get(number)?.first;
-        self.closed(number, key..key + 1, None).pop()
-    }
-
-    /// The number of steps that one member has made; `None` if there is no such index.
-    pub fn steps_of(&self, index: usize) -> Option<u64> {
-        let number = self
-            .chunks
-            .partition_point(|chunk| chunk.first + chunk.count <= index);
-        let chunk = self.chunks.get(number)?;
-        Some(match chunk.finished.get(&(index - chunk.first)) {
-            Some(Finished::Failed(_, steps) | Finished::Ended(_, steps)) => *steps,
-            None => self.common.steps,
-        })
-    }
-
-    /// Returns states of some members of a chunk: the present ones, or those at a time less than a step later.
+    /// Returns states of some members of a chunk: the current ones, or those at a time less than a step later.
     pub(super) fn closed(
         &self,
         number: usize,

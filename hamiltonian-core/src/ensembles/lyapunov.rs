@@ -53,9 +53,9 @@ type D = Dual<f64>;
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// # Bits
-/// As for an [`Ensemble`](crate::Ensemble), neither the number of threads nor the other members change a bit of a
-/// member. With [`reproducible`](Lyapunov::reproducible), each member has the bits of a single
+/// # Reproducibility
+/// As for an [`Ensemble`](crate::Ensemble#reproducibility), results depend by default on the CPU, but not on the number of
+/// threads or on other members. With [`reproducible`](Lyapunov::reproducible), each member has the bits of a single
 /// [`Tangent`](crate::analysis::Tangent) on every CPU.
 pub struct Lyapunov<'a, S: System, M, A = Fused> {
     count: usize,
@@ -83,8 +83,8 @@ impl<'a, S: System, M: Scheme<S>> Lyapunov<'a, S, M> {
         Self::try_new(count, move |member| Ok(make(member)), scheme, step)
     }
 
-    /// Does the same as [`new`](Lyapunov::new) with a closure that returns a `Result`. Its error becomes that of the
-    /// member.
+    /// Describes a computation as [`new`](Lyapunov::new) does, with a closure that returns a `Result`. Its error becomes
+    /// that of the member.
     pub fn try_new(
         count: usize,
         make: impl Fn(Member) -> Result<(S, State<VectorOf<S>>), Error> + Send + Sync + 'a,
@@ -118,8 +118,8 @@ impl<'a, S: System, M: Scheme<S>, A: Rounding> Lyapunov<'a, S, M, A> {
     /// Sets the number of steps after which deviations are made orthonormal, or for GALI normalised (0 counts as 1).
     /// The default is 10 steps. About once per time unit is often enough.
     #[must_use]
-    pub fn with_interval(mut self, steps: u64) -> Self {
-        self.every = steps.max(1);
+    pub fn with_interval(mut self, every: u64) -> Self {
+        self.every = every.max(1);
         self
     }
 

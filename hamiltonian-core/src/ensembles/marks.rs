@@ -32,7 +32,7 @@ pub(crate) struct Marks<C, M> {
     ring: LastThree<C>,
     /// The index of the newest value in the ring.
     newest: usize,
-    /// The lanes in which the present step will be marked.
+    /// The lanes in which the current step will be marked.
     pub(crate) to_mark: M,
     /// The marked steps, and the lanes for which they are marked.
     pub(crate) steps: Vec<(u64, M)>,

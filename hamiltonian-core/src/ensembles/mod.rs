@@ -11,8 +11,8 @@
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`rounding`]: whether products and sums are fused, as a type;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
-//! - [`chunk`], [`in_memory`], [`until`]: members in memory;
-//! - [`sweep`], `sweep::host`, [`record`]: members that are run to their ends and recorded;
+//! - [`chunk`], [`in_memory`], [`until`], [`saved`]: members in memory;
+//! - [`sweep`], `sweep::host`, [`record`], [`collected`], `stored`: members that are run to their ends and recorded;
 //! - [`lyapunov`], `drive::deviations`: indicators of chaos of members.
 
 mod block;
@@ -23,19 +23,27 @@ mod close;
 mod drive;
 mod guard;
 mod host;
-mod in_memory;
-mod lyapunov;
 mod marks;
 mod occupants;
 mod ordered;
 mod record;
 mod rounding;
+mod threads;
+
+// The documentation shows the methods in the order of these modules.
+mod in_memory;
+
+mod until;
+
 mod saved;
+
+mod sweep;
+
+mod collected;
 #[cfg(feature = "std")]
 mod stored;
-mod sweep;
-mod threads;
-mod until;
+
+mod lyapunov;
 
 pub use in_memory::Ensemble;
 pub use lyapunov::Lyapunov;
@@ -63,7 +71,8 @@ use alloc::boxed::Box;
 pub struct Member {
     /// Its index, from 0.
     pub index: usize,
-    /// A seed for random number generators. It depends only on the index and the seed of the ensemble.
+    /// A seed for random number generators. It depends only on the index and on the seed of
+    /// [`Sweep::with_seed`](crate::Sweep::with_seed), which is 0 by default and in an [`Ensemble`].
     pub seed: u64,
 }
 

@@ -403,7 +403,7 @@ impl<T: Real, S: System> Occupants<T, S> {
         self.change.get_or_insert_default();
     }
 
-    /// Loads the carried values of the running members that were changed at the present step.
+    /// Loads the carried values of the running members that were changed at the current step.
     pub(crate) fn reload(&mut self) {
         for (run, status) in self.runs.iter().zip(&mut self.status) {
             let is_moved = |run: &MemberRun<T, S>| run.began == run.made;

@@ -61,7 +61,8 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
 }
 
 impl<S: System, M: Scheme<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O, A> {
-    /// Returns a checkpoint of the ensemble and its observers.
+    /// Returns a checkpoint of the ensemble and of the data of its observers, for [`resume`](Ensemble::resume).
+    /// [`Checkpoint::save`] writes it to a file.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
         numbers.number(self.common.step);
@@ -108,10 +109,13 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O
 }
 
 impl<S: System, M: Scheme<S>> Ensemble<S, M> {
-    /// Continues a saved ensemble with the same bits. The same closure must make its members.
+    /// Continues a saved ensemble. `make` makes the same systems and starts as before, the step size and the states come
+    /// from the checkpoint. The bits are the same on a CPU with the same instructions; on every CPU, if the ensemble was
+    /// [`reproducible`](Ensemble::reproducible) and [`resume_reproducible`](Ensemble::resume_reproducible) continues it.
     ///
-    /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. A member
-    /// that had failed has the error [`SweepError::Before`].
+    /// [`observe`](Ensemble::observe) attaches observers as before, and restores the data that they saved. Call
+    /// [`with_threads`](Ensemble::with_threads) again. A member that had failed has the error [`SweepError::Before`]. A
+    /// member whose closure returned an error to [`try_new`](Ensemble::try_new) may panic here: both are its failure.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -130,10 +134,9 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
     /// ```
     ///
     /// # Errors
-    /// [`CheckpointError::Other`] for other members, another scheme or another number of them;
-    /// [`CheckpointError::Damaged`] for numbers that do not fit; those of [`new`](Ensemble::new).
-    /// [`CheckpointError::Other`] also if the ensemble was [`reproducible`](Ensemble::reproducible), which
-    /// [`resume_reproducible`](Ensemble::resume_reproducible) continues.
+    /// [`CheckpointError::Other`] if the system, the number of members, a parameter, the time of a start, the scheme or
+    /// the rounding differs; [`CheckpointError::Damaged`] if the checkpoint does not have the numbers of these members;
+    /// those of [`new`](Ensemble::new). If an observer differs, its member fails with [`CheckpointError::Other`].
     pub fn resume(
         count: usize,
         make: impl FnMut(Member) -> (S, State<VectorOf<S>>),
@@ -144,7 +147,7 @@ impl<S: System, M: Scheme<S>> Ensemble<S, M> {
         Self::new(count, make, scheme, step)?.restored(checkpoint)
     }
 
-    /// Does the same as [`resume`](Ensemble::resume) for a [`reproducible`](Ensemble::reproducible) ensemble.
+    /// Continues a saved [`reproducible`](Ensemble::reproducible) ensemble, as [`resume`](Ensemble::resume) does others.
     ///
     /// # Errors
     /// Those of [`resume`](Ensemble::resume); [`CheckpointError::Other`] if the ensemble was not reproducible.

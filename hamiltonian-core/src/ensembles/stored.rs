@@ -29,18 +29,35 @@ where
     A: Rounding,
     O: Observer<f64, S>,
 {
-    /// Runs the chunks of this shard that are missing in the store at `path`, and writes each when it is done.
+    /// Runs the chunks of this shard that are missing in the store at `path`, writes each when it is done, and returns the
+    /// chunks that are still missing, for example those of other shards.
     ///
-    /// The store is a Zarr v3 directory, which zarr-python and xarray open; it is created if there is none. A sweep
-    /// that was killed continues with the first missing chunk. Processes with different shards write to one store
-    /// without coordination.
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let path = std::env::temp_dir().join("example-sweep.zarr");
+    /// # let _ = std::fs::remove_dir_all(&path);
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
+    /// let left = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
+    ///     .with_steps(10)
+    ///     .with_shard(Shard::from_env()?)
+    ///     .record(["q"], |end| [end.state.q[0]])
+    ///     .store(&path)?;
+    /// assert!(left.is_complete());
+    /// # std::fs::remove_dir_all(path)?;
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// The store is a Zarr v3 directory, which zarr-python and xarray open, and [`Store`] reads. It is created if there is
+    /// none. A sweep that was killed continues with the first missing chunk. Processes with different shards write to
+    /// one store without coordination.
     ///
     /// The store has one array per column. Further arrays have each member's `status` (see [`Status`]), the `time` of
     /// its end and its number of `steps`. With [`record_at`](Sweep::record_at), columns have a second dimension `t`.
-    /// With [`rows`](Sweep::rows), each chunk has a group with its rows and the `member` of each row.
+    /// With [`record_rows`](Sweep::record_rows), each chunk has a group with its rows and the `member` of each row.
     ///
-    /// Unless the sweep is [`reproducible`](Sweep::reproducible), all chunks of a store must be computed at the same
-    /// CPU level.
+    /// Unless the sweep is [`reproducible`](Sweep::reproducible), all chunks of a store must be computed on CPUs with the
+    /// same instructions.
     ///
     /// # Errors
     /// [`SweepError::NoMembers`](crate::errors::SweepError::NoMembers),
@@ -58,7 +75,7 @@ where
                 Ok(ControlFlow::Continue(()))
             })?;
         }
-        store.complete()
+        store.completeness()
     }
 
     /// Finds the chunks of the whole sweep that are missing in the store at `path`, without running any.
@@ -76,16 +93,16 @@ where
     ///     .with_steps(10)
     ///     .with_chunk(50)
     ///     .record(["q"], |end| [end.state.q[0]]);
-    /// assert_eq!(sweep.complete(&path)?.to_string(), "2 of 2 chunks are missing: 0 to 1");
+    /// assert_eq!(sweep.completeness(&path)?.to_string(), "2 of 2 chunks are missing: 0 to 1");
     /// sweep.store(&path)?;
-    /// assert!(sweep.complete(&path)?.is_complete());
+    /// assert!(sweep.completeness(&path)?.is_complete());
     /// # std::fs::remove_dir_all(path)?;
     /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
     /// Those of [`store`](Sweep::store), except errors of writing.
-    pub fn complete(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
+    pub fn completeness(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
         self.check()?;
         let layout = self.layout();
         let Some(store) = Store::open(path, &layout)? else {
@@ -95,7 +112,7 @@ where
             });
         };
         self.missing(&store)?;
-        store.complete()
+        store.completeness()
     }
 
     /// Returns the members of the missing chunks of this shard, and checks the chunks that are present.

@@ -6,16 +6,13 @@
 mod host;
 
 use super::bound::ErasedScheme;
-use super::guard::guard;
-use super::ordered::in_order;
-use super::record::{Batch, End, Record, Row};
+use super::record::{End, Record};
 use super::rounding::{Fused, Rounding, Unfused};
 use super::threads;
 use super::{MakeMember, Member};
-use crate::errors::{Error, SweepError, TimeError};
+use crate::errors::Error;
 use crate::observers::observe::{Observer, Unobserved};
 use crate::results::shard::Shard;
-use crate::results::table::Table;
 use crate::schemes::scheme::Scheme;
 use crate::systems::state::State;
 use crate::systems::system::{System, VectorOf};
@@ -24,9 +21,9 @@ use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
-use core::ops::{ControlFlow, Range};
+use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
-use host::SweepHost;
+pub(super) use host::SweepHost;
 
 /// A closure that returns a number for each member.
 type PerMember<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
@@ -46,11 +43,10 @@ pub(crate) enum EndPoint<'a> {
     Each(PerMember<'a>),
 }
 
-/// Members that are made from their index, run to their end and recorded. Their states are not kept, so memory does
-/// not limit their number.
+/// Makes members from their index, runs each to its end, and records numbers of it.
 ///
-/// The methods first describe the sweep: its end, an observer, the record. [`collect`](Sweep::collect),
-/// [`fold`](Sweep::fold) and [`try_fold`](Sweep::try_fold) run it, on all cores.
+/// The states of members are not kept, so that memory does not limit their number.
+/// [`Ensemble`](crate::Ensemble) keeps them.
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
@@ -66,11 +62,20 @@ pub(crate) enum EndPoint<'a> {
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// # Bits
-/// As for an [`Ensemble`](crate::Ensemble), the bits of a member depend on neither threads nor chunks nor shards. With
-/// [`reproducible`](Sweep::reproducible), a member has the bits of a single run on every CPU. The part of a step before
-/// the end is computed over `f64` without fused products, in both modes. So are the values of observers, except those
-/// of [`EnergyDrift`](crate::observers::EnergyDrift) and [`Monitors`](crate::observers::Monitors).
+/// | in this order | methods |
+/// |---|---|
+/// | attach observers, if any | [`observe`](Sweep::observe) |
+/// | choose what is recorded: one of these, once | [`record`](Sweep::record), [`record_at`](Sweep::record_at), [`record_rows`](Sweep::record_rows) |
+/// | run, on all cores | [`collect`](Sweep::collect) to a table, [`fold`](Sweep::fold) and [`try_fold`](Sweep::try_fold) row by row, `store` to a Zarr directory |
+///
+/// The other methods set options, anywhere before the run. The closure that records a member receives an
+/// [`End`](crate::End): the state, the observer, the number of steps, the energy and the observables.
+///
+/// # Reproducibility
+/// As for an [`Ensemble`](crate::Ensemble#reproducibility), results depend by default on the CPU, but not on threads,
+/// chunks or shards. With [`reproducible`](Sweep::reproducible), a member has the bits of a single run on every CPU. The
+/// part of a step before the end never fuses products and sums. Nor do observers, except
+/// [`EnergyDrift`](crate::observers::EnergyDrift) and [`Monitors`](crate::observers::Monitors).
 pub struct Sweep<'a, S: System, M, O = (), R = (), A = Fused> {
     pub(crate) count: usize,
     pub(crate) scheme: M,
@@ -83,12 +88,12 @@ pub struct Sweep<'a, S: System, M, O = (), R = (), A = Fused> {
     pub(crate) observer: Arc<dyn Fn(Member) -> O + Send + Sync + 'a>,
     pub(crate) record: R,
     pub(crate) seed: u64,
-    chunk: Option<usize>,
-    shard: Option<Shard>,
-    threads: usize,
+    pub(crate) chunk: Option<usize>,
+    pub(crate) shard: Option<Shard>,
+    pub(crate) threads: usize,
     rounding: PhantomData<A>,
-    cancel: Option<&'a AtomicBool>,
-    progress: Option<Box<dyn Fn(usize, usize) + Send + Sync + 'a>>,
+    pub(crate) cancel: Option<&'a AtomicBool>,
+    pub(crate) progress: Option<Box<dyn Fn(usize, usize) + Send + Sync + 'a>>,
 }
 
 /// The largest default number of members in a chunk: a multiple of the lanes of every pack.
@@ -97,8 +102,10 @@ const CHUNK: usize = 4800;
 const LANES: usize = 80;
 
 impl<'a, S: System, M: Scheme<S>> Sweep<'a, S, M> {
-    /// Describes a sweep over `count` members with the step `step`, which still needs an end and a record. `make` makes
+    /// Describes a sweep over `count` members with the step size `step`. It still needs an end and a record. `make` makes
     /// the system and the start of a member, on any thread.
+    ///
+    /// A member whose start or step size is invalid fails with this error; the others run.
     pub fn new(
         count: usize,
         make: impl Fn(Member) -> (S, State<VectorOf<S>>) + Send + Sync + 'a,
@@ -108,8 +115,8 @@ impl<'a, S: System, M: Scheme<S>> Sweep<'a, S, M> {
         Self::try_new(count, move |member| Ok(make(member)), scheme, step)
     }
 
-    /// Does the same as [`new`](Sweep::new) with a closure that returns a `Result`. Its error becomes that of the
-    /// member.
+    /// Describes a sweep as [`new`](Sweep::new) does, with a closure that returns a `Result`. Its error becomes that of
+    /// the member.
     pub fn try_new(
         count: usize,
         make: impl Fn(Member) -> Result<(S, State<VectorOf<S>>), Error> + Send + Sync + 'a,
@@ -137,6 +144,39 @@ impl<'a, S: System, M: Scheme<S>> Sweep<'a, S, M> {
     }
 }
 
+impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
+    /// Ends members after `n` steps. The last call of this method, [`with_end`](Sweep::with_end) and
+    /// [`with_end_each`](Sweep::with_end_each) counts.
+    #[must_use]
+    pub fn with_steps(mut self, n: u64) -> Self {
+        self.end = EndPoint::Steps(n);
+        self
+    }
+
+    /// Ends members at the time `t`. A state between two steps is made by one shorter step, as in
+    /// [`advance_until`](crate::Integrator::advance_until). A member that starts later fails with
+    /// [`TimeError::Behind`](crate::errors::TimeError::Behind).
+    #[must_use]
+    pub fn with_end(mut self, t: f64) -> Self {
+        self.end = EndPoint::Until(t);
+        self
+    }
+
+    /// Ends each member at its own time, as [`with_end`](Sweep::with_end) does for all.
+    #[must_use]
+    pub fn with_end_each(mut self, t: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
+        self.end = EndPoint::Each(Box::new(t));
+        self
+    }
+
+    /// Sets a step size for each member, instead of a common one.
+    #[must_use]
+    pub fn with_step_each(mut self, step: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
+        self.step_each = Some(Box::new(step));
+        self
+    }
+}
+
 impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
     /// Attaches an observer to each member, as in a single run. An observer that ends its member ends no other.
     ///
@@ -151,8 +191,8 @@ impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
         self.with(Arc::new(observer), ())
     }
 
-    /// Records one row per member: the numbers that the closure computes at its end, in columns of these names. A
-    /// member that failed has NaN in its row.
+    /// Records one row per member, at its end: the numbers that the closure returns, in columns of these names. A member
+    /// that failed has NaN in its row.
     pub fn record<const N: usize>(
         self,
         columns: [&str; N],
@@ -164,9 +204,25 @@ impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
 
     /// Records one row per member and time. The closure receives the member at each time.
     ///
-    /// The times are in the direction of the run, and members end at the last one. A member with a time before its
-    /// start fails with [`TimeError::Behind`]. A member that failed has NaN in the rows of the times that it did not
-    /// reach. If its observer ended a member, the row of the next time has its last state, and later rows have NaN.
+    /// The table has no column for the time: record it as another number. Members end at the last time, whatever other
+    /// end is set.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
+    /// let table = Sweep::new(10, start, ImplicitMidpoint::default(), 0.01)
+    ///     .record_at([0.5, 1.0], ["t", "q"], |end| [end.state.t, end.state.q[0]])
+    ///     .collect()?;
+    /// assert_eq!(table.columns(), ["member", "t", "q", "status"]);
+    /// assert_eq!(table.rows(), 20);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// The times are in the direction of the run. A member with a time before its start fails with
+    /// [`TimeError::Behind`](crate::errors::TimeError::Behind). A member that failed has NaN in the rows of the times that
+    /// it did not reach. If its observer ended a member, the row of the next time has its last state, and later rows have
+    /// NaN.
     pub fn record_at<const N: usize>(
         self,
         times: impl IntoIterator<Item = f64>,
@@ -178,9 +234,9 @@ impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
         self.recorded(&columns, true, Some(times), Box::new(write))
     }
 
-    /// Records any number of rows per member, for example the states of a section. A member that failed has one row of
-    /// NaN in a table, and none in a store.
-    pub fn rows<const N: usize, I: IntoIterator<Item = [f64; N]>>(
+    /// Records any number of rows per member, at its end, for example the states of a section. A member that failed has
+    /// one row of NaN in a table, and none in a store.
+    pub fn record_rows<const N: usize, I: IntoIterator<Item = [f64; N]>>(
         self,
         columns: [&str; N],
         rows: impl Fn(&End<'_, S, O>) -> I + Send + Sync + 'a,
@@ -210,57 +266,11 @@ impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
 }
 
 impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
-    /// Replaces the observer and the record.
-    fn with<N, Q>(
-        self,
-        observer: Arc<dyn Fn(Member) -> N + Send + Sync + 'a>,
-        record: Q,
-    ) -> Sweep<'a, S, M, N, Q, A> {
-        Sweep {
-            count: self.count,
-            scheme: self.scheme,
-            make: self.make,
-            step: self.step,
-            step_each: self.step_each,
-            end: self.end,
-            each: self.each,
-            observer,
-            record,
-            seed: self.seed,
-            chunk: self.chunk,
-            shard: self.shard,
-            threads: self.threads,
-            rounding: PhantomData,
-            cancel: self.cancel,
-            progress: self.progress,
-        }
-    }
-
-    /// Ends members after `n` steps.
-    #[must_use]
-    pub fn with_steps(mut self, n: u64) -> Self {
-        self.end = EndPoint::Steps(n);
-        self
-    }
-
-    /// Ends members at the time `t`. A state between two steps is computed by a part of a step, as in
-    /// [`advance_until`](crate::Integrator::advance_until).
-    #[must_use]
-    pub fn with_end(mut self, t: f64) -> Self {
-        self.end = EndPoint::Until(t);
-        self
-    }
-
-    /// Ends each member at its own time.
-    #[must_use]
-    pub fn with_end_each(mut self, t: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
-        self.end = EndPoint::Each(Box::new(t));
-        self
-    }
-
-    /// Changes each member after every `n` steps (0 counts as 1), but for its last state: the closure receives the member
-    /// and its state, whose time it must keep. A member that is changed goes on as a single run after
-    /// [`set_state`](crate::Integrator::set_state). A state that cannot be a start is the error of its member.
+    /// Changes the state of each member after every `every` steps (0 counts as 1), except its last state. The closure
+    /// receives the member and its state, whose time it must keep.
+    ///
+    /// A member that is changed goes on as a single run after [`set_state`](crate::Integrator::set_state). A state that
+    /// cannot be a start is the error of its member.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -278,17 +288,10 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     #[must_use]
     pub fn each(
         mut self,
-        n: u64,
+        every: u64,
         change: impl Fn(Member, &mut State<VectorOf<S>>) + Send + Sync + 'a,
     ) -> Self {
-        self.each = Some((n.max(1), Box::new(change)));
-        self
-    }
-
-    /// Sets a step for each member, instead of a common one.
-    #[must_use]
-    pub fn with_step_each(mut self, step: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
-        self.step_each = Some(Box::new(step));
+        self.each = Some((every.max(1), Box::new(change)));
         self
     }
 
@@ -299,30 +302,34 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
         self
     }
 
-    /// Sets the number of members in a chunk (0 counts as 1). A chunk is the unit of work of a thread, and has a file
-    /// per array in a store.
+    /// Sets the number of members in a chunk (0 counts as 1). A thread computes one chunk at a time, a store has a file
+    /// for each chunk and array, and [`with_shard`](Sweep::with_shard) divides the chunks among processes.
+    ///
+    /// By default there are about 64 chunks of at most 4800 members. A sweep that continues a store has the chunks of
+    /// that store.
     #[must_use]
     pub fn with_chunk(mut self, members: usize) -> Self {
         self.chunk = Some(members.max(1));
         self
     }
 
-    /// Computes only the chunks of this shard.
+    /// Computes only the chunks of this shard. `Shard::from_env()?` is the shard of a process that MPI, Slurm or
+    /// HyperQueue has started.
     #[must_use]
     pub fn with_shard(mut self, shard: Shard) -> Self {
         self.shard = Some(shard);
         self
     }
 
-    /// Sets the number of threads (0 counts as 1). By default it is the number that the machine runs at once. A caller
-    /// in a rayon pool gets those of the pool, and no others.
+    /// Sets the number of threads (0 counts as 1). The default is the number that the machine runs at once. In a rayon
+    /// pool, the sweep has the threads of the pool.
     #[must_use]
     pub fn with_threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
         self
     }
 
-    /// Does not fuse products and sums, so that each member has the bits of its single run on every CPU.
+    /// Turns fused products and sums off, so that each member has the bits of its single run on every CPU.
     #[must_use]
     pub fn reproducible(self) -> Sweep<'a, S, M, O, R, Unfused> {
         Sweep {
@@ -350,7 +357,9 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
         &self.scheme
     }
 
-    /// Stops the sweep with [`SweepError::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
+    /// Stops the sweep with [`SweepError::Cancelled`](crate::errors::SweepError::Cancelled) once the flag is set, for
+    /// example by a handler of Ctrl-C. The flag is read between blocks of steps. A store keeps the chunks that were
+    /// finished, and the next `store` computes the others.
     #[must_use]
     pub fn with_cancel(mut self, flag: &'a AtomicBool) -> Self {
         self.cancel = Some(flag);
@@ -389,169 +398,31 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
         let members = chunks.map(|chunk| chunk * size..self.count.min((chunk + 1) * size));
         members.collect()
     }
-}
 
-impl<'a, S, M, O, A> Sweep<'a, S, M, O, Record<'a, S, O>, A>
-where
-    S: System,
-    M: Scheme<S>,
-    A: Rounding,
-    O: Observer<f64, S>,
-{
-    /// Runs the sweep and passes its rows to a closure, one by one in the order of the index, on this thread.
-    ///
-    /// ```
-    #[doc = include_str!("../doc/oscillator.md")]
-    ///
-    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
-    /// let largest = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
-    ///     .with_steps(100)
-    ///     .record(["q"], |end| [end.state.q[0]])
-    ///     .fold(0.0_f64, |largest, row| largest.max(row.values[0]))?;
-    /// assert!((largest - (9.9 * 1_f64.cos() + 0.5 * 1_f64.sin())).abs() < 1e-3);
-    /// # Ok::<(), Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`SweepError::NoMembers`], [`SweepError::NoEnd`], [`SweepError::Cancelled`]; for the times of
-    /// [`record_at`](Sweep::record_at), [`TimeError::Unreachable`] if one is NaN or infinite, and
-    /// [`TimeError::Behind`] if one comes before the previous one. The error of a member is in its row.
-    pub fn fold<U>(&self, init: U, mut take: impl FnMut(U, &Row<'_>) -> U) -> Result<U, Error> {
-        self.try_fold(init, |all, row| ControlFlow::Continue(take(all, row)))
-    }
-
-    /// Does the same as [`fold`](Sweep::fold) until the closure breaks. The rows that it receives do not depend on the
-    /// number of threads: later chunks are dropped.
-    ///
-    /// # Errors
-    /// Those of [`fold`](Sweep::fold).
-    pub fn try_fold<U>(
-        &self,
-        init: U,
-        mut take: impl FnMut(U, &Row<'_>) -> ControlFlow<U, U>,
-    ) -> Result<U, Error> {
-        let mut all = Some(init);
-        self.each_batch(self.chunks(), false, |batch| {
-            for row in batch.rows() {
-                match all.take().map(|so_far| take(so_far, &row)) {
-                    Some(ControlFlow::Continue(so_far)) => all = Some(so_far),
-                    Some(ControlFlow::Break(last)) => {
-                        all = Some(last);
-                        return Ok(ControlFlow::Break(()));
-                    }
-                    None => {}
-                }
-            }
-            Ok(ControlFlow::Continue(()))
-        })?;
-        all.ok_or(SweepError::NoMembers.into())
-    }
-
-    /// Runs the sweep and collects the rows into a table. The first column, `member`, has the index of the member. The
-    /// last column, `status`, says how the member ended, see [`Status`](crate::Status).
-    ///
-    /// # Errors
-    /// Those of [`fold`](Sweep::fold); [`TableError::Twice`](crate::errors::TableError::Twice) for a name that
-    /// occurs twice, or is `member` or `status`.
-    pub fn collect(&self) -> Result<Table, Error> {
-        let columns = self.record.columns.iter().map(String::as_str);
-        let mut table = Table::with_index("member", columns.chain(["status"]))?;
-        let any = self.record.rows_each().is_none();
-        let mut line = Vec::new();
-        self.each_batch(self.chunks(), false, |batch| {
-            for row in batch.rows() {
-                if row.values.is_empty() && any {
-                    continue;
-                }
-                line.clear();
-                line.push(row.index as f64);
-                line.extend_from_slice(row.values);
-                line.push(f64::from(row.status as u8));
-                table.push(&line)?;
-            }
-            Ok(ControlFlow::Continue(()))
-        })?;
-        Ok(table)
-    }
-
-    /// Checks that the sweep has members, that they have ends, and that the times of its record are in order.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        if self.count == 0 {
-            return Err(SweepError::NoMembers.into());
+    /// Replaces the observer and the record.
+    fn with<N, Q>(
+        self,
+        observer: Arc<dyn Fn(Member) -> N + Send + Sync + 'a>,
+        record: Q,
+    ) -> Sweep<'a, S, M, N, Q, A> {
+        Sweep {
+            count: self.count,
+            scheme: self.scheme,
+            make: self.make,
+            step: self.step,
+            step_each: self.step_each,
+            end: self.end,
+            each: self.each,
+            observer,
+            record,
+            seed: self.seed,
+            chunk: self.chunk,
+            shard: self.shard,
+            threads: self.threads,
+            rounding: PhantomData,
+            cancel: self.cancel,
+            progress: self.progress,
         }
-        match (&self.record.times, &self.end) {
-            (Some(times), _) if times.is_empty() => Err(SweepError::NoEnd.into()),
-            (None, EndPoint::Unknown) => Err(SweepError::NoEnd.into()),
-            (Some(times), _) => Ok(self.check_times(times)?),
-            _ => Ok(()),
-        }
-    }
-
-    /// Makes the system of the first member that can be made.
-    pub(crate) fn first_system(&self) -> Option<S> {
-        let made = |index| guard(|| (self.make)(Member::new(index, self.seed)));
-        let mut systems = (0..self.count).filter_map(|index| made(index).ok()?.ok());
-        systems.next().map(|(system, _)| system)
-    }
-
-    /// Checks that times are finite, and in the direction of the common step. If each member has its own step, any
-    /// direction is accepted here, and members that run in the other one fail.
-    fn check_times(&self, times: &[f64]) -> Result<(), TimeError> {
-        let clock = || {
-            let system = self.first_system();
-            let clock = system
-                .as_ref()
-                .map_or("t", |system| system.description().clock());
-            clock.into()
-        };
-        if let Some(&target) = times.iter().find(|t| !t.is_finite()) {
-            let clock = clock();
-            return Err(TimeError::Unreachable { clock, target });
-        }
-        let direction = match self.step_each {
-            Some(_) => times[times.len() - 1] - times[0],
-            None => self.step,
-        };
-        let is_behind =
-            |pair: &&[f64]| (pair[1] < pair[0]) != (pair[1] != pair[0] && direction < 0.0);
-        match times.windows(2).find(is_behind) {
-            Some(pair) => Err(TimeError::Behind {
-                clock: clock(),
-                target: pair[1],
-                now: pair[0],
-            }),
-            None => Ok(()),
-        }
-    }
-
-    /// Runs chunks and passes their batches to a closure in order; `hashes` is true if members are hashed for a store.
-    pub(crate) fn each_batch(
-        &self,
-        chunks: Vec<Range<usize>>,
-        hashes: bool,
-        mut take: impl FnMut(Batch) -> Result<ControlFlow<()>, Error>,
-    ) -> Result<(), Error> {
-        self.check()?;
-        let of = chunks.iter().map(Range::len).sum();
-        let mut done = 0;
-        let mut result = Ok(());
-        let work = |job: usize| SweepHost::new(self, chunks[job].clone(), hashes).batch();
-        in_order(chunks.len(), self.threads, work, |_, batch| {
-            if batch.cancelled {
-                result = Err(SweepError::Cancelled { done, of }.into());
-                return ControlFlow::Break(());
-            }
-            done += batch.outcomes.len();
-            let taken = take(batch);
-            if let Some(progress) = &self.progress {
-                progress(done, of);
-            }
-            taken.unwrap_or_else(|error| {
-                result = Err(error);
-                ControlFlow::Break(())
-            })
-        });
-        result
     }
 }
 

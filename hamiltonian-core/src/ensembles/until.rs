@@ -1,7 +1,7 @@
 //! Members in memory, advanced to a time.
 //!
 //! Input: an ensemble and a time. Output: the states of its members at that time. Invariant: only whole steps change
-//! members. A state between two steps is computed on a copy, by a part of a step.
+//! members. A state between two steps is computed by a part of a step of a temporary run.
 
 use super::chunk::Shared;
 use super::in_memory::Ensemble;
@@ -14,8 +14,8 @@ use crate::systems::state::State;
 use crate::systems::system::{Description, System, VectorOf};
 
 impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<S, M, O, A> {
-    /// Advances all members to the time `t` by a whole number of steps, as
-    /// [`Integrator::advance_to`](crate::Integrator::advance_to) does.
+    /// Advances all members to the time `t`, which is a whole number of steps from the current time. For any other time,
+    /// use [`advance_until`](Ensemble::advance_until).
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -47,13 +47,13 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
         }
     }
 
-    /// Advances by the whole steps that do not pass `t`, and returns the state of each member at `t`.
+    /// Advances all members by the whole steps up to `t`, and returns the state of each member at `t`, in the order of
+    /// the index. `t` is any later time.
     ///
-    /// `t` is any time ahead, and states are in the order of the index. The remaining part of a step is made on a copy,
-    /// as in [`Integrator::advance_until`](crate::Integrator::advance_until). A member that its observer has ended has
+    /// The states at `t` are made by one shorter step of temporary runs, as in
+    /// [`Integrator::advance_until`](crate::Integrator::advance_until): [`states`](Ensemble::states) remain those after
+    /// the last whole step. The shorter step does not fuse products and sums. A member that its observer has ended has
     /// the state of its end.
-    ///
-    /// The part of a step is computed over `f64` without fused products, in both modes of [bits](Ensemble#bits).
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]

@@ -87,7 +87,7 @@ pub enum StartError {
         clock: Box<str>,
         /// The time of the state.
         time: f64,
-        /// The present time of the run.
+        /// The current time of the run.
         now: f64,
     },
     /// A mean rate over no steps.

@@ -8,7 +8,7 @@ use core::fmt::{self, Display, Formatter};
 #[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum TimeError {
-    /// Whole steps from the present time do not meet the target.
+    /// Whole steps from the current time do not meet the target.
     #[non_exhaustive]
     OffGrid {
         /// The name of the run's time: `t`, in another time the one that it has there.
@@ -35,20 +35,20 @@ pub enum TimeError {
         clock: Box<str>,
         /// The target time.
         target: f64,
-        /// The present time.
+        /// The current time.
         now: f64,
     },
     /// The steps of the scheme vary in time, so no number of them is known to lead to a time.
     #[non_exhaustive]
     Uneven,
-    /// The target is more than one step from the present time.
+    /// The target is more than one step from the current time.
     #[non_exhaustive]
     Far {
         /// The name of the run's time: `t`, in another time the one that it has there.
         clock: Box<str>,
         /// The target time.
         target: f64,
-        /// One step back from the present time.
+        /// One step back from the current time.
         from: f64,
         /// One step on.
         to: f64,

@@ -245,7 +245,7 @@ pub enum Either<A, B> {
     Second(B),
 }
 
-/// Calls the same method of the present map.
+/// Calls the same method of the chosen map.
 macro_rules! either {
     ($self:ident.$method:ident($($argument:expr),*; $work:ident)) => {
         match $self {

@@ -233,7 +233,7 @@ impl<V: Vector> Events<V> {
         .into()
     }
 
-    /// Locates the events of a step from `before` to the present state, in the order of time.
+    /// Locates the events of a step from `before` to the current state, in the order of time.
     fn step<S: System<Shape: Shape<Vector<V::Scalar> = V>>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
@@ -242,8 +242,8 @@ impl<V: Vector> Events<V> {
         let time = view.between.between(before.t, view.state.t);
         let (zero, one) = (V::Scalar::zero(), V::Scalar::one());
         // A part of a step begins from a state, without further values that a scheme carries. Therefore the part that
-        // is a whole step may not end at the present state; for schemes that carry only the state, the difference is
-        // due to rounding. It is added in proportion to the time, so that a whole step ends at the present state.
+        // is a whole step may not end at the current state; for schemes that carry only the state, the difference is
+        // due to rounding. It is added in proportion to the time, so that a whole step ends at the current state.
         let missed = OnceCell::new();
         let part = |theta: V::Scalar| -> Result<State<V>, Error> {
             let mut state = view.between.part(before, theta * time)?;

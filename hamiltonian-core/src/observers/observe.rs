@@ -40,7 +40,7 @@ pub struct View<'a, T: Real, S: System> {
     pub(crate) between: &'a dyn Between<VectorOf<S, T>>,
 }
 
-/// States at other times near the present one, computed by a part of a step.
+/// States at other times near the current one, computed by a part of a step.
 pub(crate) trait Between<V: Vector> {
     /// Returns the state at the time `t`.
     fn state_at(&self, t: V::Scalar) -> Result<State<V>, Error>;
@@ -125,7 +125,7 @@ pub trait Observer<T: Real, S: System> {
         to.begin("");
     }
     /// Reads what [`save`](Observer::save) wrote. For a resumed run this replaces [`attach`](Observer::attach); the
-    /// view is the present state of the run.
+    /// view is the current state of the run.
     ///
     /// # Errors
     /// [`CheckpointError::Other`](crate::errors::CheckpointError::Other) if another observer wrote it,
@@ -148,7 +148,7 @@ pub trait Observer<T: Real, S: System> {
     message = "this run has an observer: `{Self}`",
     label = "a run takes one observer",
     note = "pass several as a tuple, `.observe((EnergyDrift::new(), Recorder::new()))`; for the members of an ensemble or a sweep `.observe(|_| (EnergyDrift::new(), Recorder::new()))`",
-    note = "attach closures to a single run after it, `.watch(steps, |view| …)`"
+    note = "attach closures to a single run after it, `.watch(every, |view| …)`"
 )]
 pub trait Unobserved {}
 

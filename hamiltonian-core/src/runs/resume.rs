@@ -25,7 +25,11 @@ const FUSED: u64 = 2;
 const SCALAR: u64 = 4;
 
 impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// Returns a checkpoint of the run and the data of its observers. Closures have no data.
+    /// Returns a checkpoint of the run and of the data of its observers, for [`resume`](Integrator::resume). Closures have
+    /// no data.
+    ///
+    /// [`Checkpoint::save`] writes it to a file, and [`Checkpoint::to_bytes`] returns the bytes of that file.
+    /// [`with_checkpoints`](Integrator::with_checkpoints) saves a run as it advances.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
         for scalar in [self.clock.start, self.step] {
@@ -55,8 +59,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
 
 #[cfg(feature = "std")]
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// Saves the run to `path` after every `steps` steps (0 counts as 1), counted from its start,
-    /// after observers have received the state. A file is replaced when the new one is complete.
+    /// Saves the run to `path` after every `every` steps (0 counts as 1), counted from its start, after observers have
+    /// received the state. A file is replaced when the new one is complete.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -77,21 +81,26 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// This method returns none. If the file cannot be written, [`advance`](Integrator::advance)
     /// returns [`CheckpointError::File`] after the step, and the run can continue.
     #[must_use]
-    pub fn with_checkpoints(mut self, steps: u64, path: impl AsRef<std::path::Path>) -> Self {
-        self.saving = Some((steps.max(1), path.as_ref().to_path_buf()));
+    pub fn with_checkpoints(mut self, every: u64, path: impl AsRef<std::path::Path>) -> Self {
+        self.saving = Some((every.max(1), path.as_ref().to_path_buf()));
         self
     }
 }
 
 impl<S: System, R: MapOf<f64, S>> Integrator<f64, S, R> {
-    /// Resumes a saved run with the same bits, also in another process of the same binary (for a
-    /// [`fused`](Integrator::fused) run, on the same kind of processor). Attach its observers in
-    /// the same order by [`observe`](Integrator::observe) and [`watch`](Integrator::watch); their
-    /// data are restored. If an observer differs, [`advance`](Integrator::advance) returns an
-    /// error.
+    /// Resumes a saved run with the same bits, from [`Checkpoint::load`] or [`Checkpoint::from_bytes`]. The step size, the
+    /// state and the number of steps come from the checkpoint.
     ///
-    /// For other scalars than `f64` there is [`resume_over`](Integrator::resume_over), because
-    /// rustc cannot infer the scalar.
+    /// Pass the system and the scheme of the saved run; after [`set_system`](Integrator::set_system), the system that
+    /// was set. Attach the same observers in the same order by [`observe`](Integrator::observe) and
+    /// [`watch`](Integrator::watch): their data are restored. If an observer differs, [`advance`](Integrator::advance)
+    /// returns an error. Call `with_threads` and [`with_checkpoints`](Integrator::with_checkpoints) again, since
+    /// checkpoints do not contain them.
+    ///
+    /// Another process of the same binary computes the same bits, a [`fused`](Integrator::fused) run on the same kind of
+    /// CPU. Another binary resumes the run too, if all that is compared is equal; its last bits may differ.
+    ///
+    /// Scalars other than `f64` need [`resume_over`](Integrator::resume_over), because rustc cannot infer the scalar.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -121,8 +130,8 @@ impl<S: System, R: MapOf<f64, S>> Integrator<f64, S, R> {
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
-    /// Resumes a saved run over another scalar, `Integrator::<DoubleDouble, _, _>::resume_over(…)`,
-    /// like [`resume`](Integrator::resume).
+    /// Resumes a saved run over any scalar, as [`resume`](Integrator::resume) does over `f64`:
+    /// `Integrator::<DoubleDouble, _, _>::resume_over(…)`.
     ///
     /// # Errors
     /// Those of [`resume`](Integrator::resume).

@@ -148,40 +148,119 @@ pub trait Listed: Clone + Debug + Send + Sync + 'static {
 pub type CarriedBy<M, S, T = f64> =
     <<M as Scheme<S>>::Carried as CarriedShape<<S as System>::Shape>>::Of<T>;
 
-/// A scheme for the system `S`, over every scalar.
+/// A one-step integration scheme for the system `S`: it makes the map of a step, z → Φₕ(z), over any scalar.
 ///
-/// The bounds of the implementation state what the scheme requires of a system, so a wrong pairing is a
-/// compile error in the call that makes the run. Code that is generic over systems and schemes needs these bounds only:
+/// The bounds of an implementation are the requirements on the system, so that a scheme on a system without the
+/// structure does not compile. Code that is generic over systems and schemes repeats these bounds:
 ///
 /// ```
-/// use hamiltonian::{Separable, prelude::*};
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian::schemes::Yoshida4;
-/// use hamiltonian::analysis::monodromy;
 ///
-/// fn study<S: Separable, M: Scheme<S>>(system: &S, scheme: M, start: StateOf<S>) -> Result<f64, Error> {
-///     let run = Integrator::new(system, scheme.clone(), start.clone(), 0.01)?;
-///     let mut run = run.observe(EnergyDrift::new());
+/// fn drift<S: Separable, M: Scheme<S>>(system: &S, scheme: M, start: StateOf<S>) -> Result<f64, Error> {
+///     let mut run = Integrator::new(system, scheme, start, 0.01)?.observe(EnergyDrift::new());
 ///     run.advance(100)?;
-///     // A run over dual numbers for each deviation.
-///     let matrix = monodromy(system, scheme, start, 1.0, 100)?;
-///     assert!(symplectic_defect(&matrix) < 1e-9);
 ///     Ok(run.observer().max_relative())
 /// }
-/// assert!(study(&Oscillator {}, Yoshida4, State::new([1.0], [0.0]))? < 1e-8);
+/// assert!(drift(&Oscillator {}, BlanesMoan4, State::new([1.0], [0.0]))? < 1e-8);
 /// # Ok::<(), Error>(())
 /// ```
+///
+/// # Schemes of your own
+/// A scheme implements [`Listed`], which describes it, [`prepare`](Scheme::prepare), which makes the [`Map`] of a step,
+/// and [`start`](Scheme::start). The other methods are provided. Compositions of the scheme also require [`OneStep`],
+/// and some of them [`Symmetric`]. [`schemes::author`](crate::schemes::author) has all that an implementation names. The
+/// chapter "Extending" of the guide continues this example:
+///
+/// ```
+/// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::author::{Dynamics, Entry, Form, Listed, Map, Needs, Point, Step, VectorField};
+/// use hamiltonian::VectorOf;
+/// use std::marker::PhantomData;
+///
+/// hamiltonian! {
+///     /// A mass on a spring.
+///     pub struct Oscillator {}
+///     H(q; p) = p^2/2 + q^2/2
+/// }
+///
+/// /// Runge's explicit midpoint rule, z ← z + h J∇H(z + h/2 J∇H(z)).
+/// #[derive(Debug, Clone)]
+/// struct Runge;
+///
+/// impl Listed for Runge {
+///     fn entry(&self) -> Entry {
+///         Entry {
+///             name: "Runge",
+///             variant: "",
+///             equations: "",
+///             order: 2,
+///             duration: 1,
+///             needs: Needs::ANY,
+///             preserves: Form::Nothing,
+///             source: "C. Runge, Math. Ann. 46 (1895) 167, doi:10.1007/BF01446807",
+///         }
+///     }
+/// }
+///
+/// impl<S: System> Scheme<S> for Runge {
+///     type Carried = Point<S::Shape>;
+///     type Map<T: Real> = Midpoint<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
+///     #[inline(always)]
+///     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+///         let half = step.h * T::constant(0.5, 0.0);
+///         Midpoint { half: prepared.field(half), whole: prepared.field(step.h), vector: PhantomData }
+///     }
+///     #[inline(always)]
+///     fn start<T: Real>(&self, _: &S::Prepared<T>, state: &StateOf<S, T>, _: T) -> Point<VectorOf<S, T>> {
+///         state.point()
+///     }
+/// }
+///
+/// /// J∇H times half a step, and times a step.
+/// struct Midpoint<V, F> {
+///     half: F,
+///     whole: F,
+///     vector: PhantomData<V>,
+/// }
+///
+/// impl<V: Vector, F: VectorField<V>> Map for Midpoint<V, F> {
+///     type Carried = Point<V>;
+///     type Work = Point<V>;
+///     #[inline(always)]
+///     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Point<V>, middle: &mut Point<V>) {
+///         middle.copy_from(z);
+///         self.half.add(t, &z.q, &z.p, &mut middle.q, &mut middle.p);
+///         let t = (t + end) * V::Scalar::constant(0.5, 0.0);
+///         self.whole.add(t, &middle.q, &middle.p, &mut z.q, &mut z.p);
+///     }
+/// }
+///
+/// let mut run = Integrator::new(&Oscillator {}, Runge, State::new([1.0], [0.0]), 1e-3)?;
+/// assert!((run.advance(1_000)?.q[0] - 1_f64.cos()).abs() < 1e-6);
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// Mark the methods of `Scheme` and `Map` `#[inline(always)]`: the members of an ensemble lie in the lanes of packs, and
+/// the compiler uses vector instructions only in functions that it inlines. Otherwise results are the same, and ensembles
+/// many times slower.
 pub trait Scheme<S: System>: Listed {
-    /// What is carried from step to step, over each scalar: the [`Point`](crate::schemes::author::Point) of most
-    /// schemes is `Point<S::Shape>` here.
+    /// The shape of the value that is carried from step to step: for most schemes `Point<S::Shape>`, the coordinates and
+    /// momenta of a [`Point`](crate::schemes::author::Point). A scheme with a second point carries a
+    /// [`Pair`](crate::schemes::author::Pair).
     type Carried: CarriedShape<S::Shape>;
-    /// The map: the scheme with the system's flows and all coefficients folded in.
+    /// The map of a step: the system's flows or fields, with all coefficients multiplied in.
     type Map<T: Real>: Map<Carried = CarriedBy<Self, S, T>>;
-    /// Folds the step into the flows. This does not allocate.
+    /// Makes the map for steps of the size `step.h`. Products of coefficients, parameters and the step size are computed
+    /// here, once for all steps. [`Paced`](crate::schemes::Paced) makes maps within its steps, so that `prepare` should
+    /// not allocate.
+    ///
+    /// `step.before` is another size in compositions alone: that of the step whose closing piece [`Map::join`] applies.
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T>;
-    /// One step of size `h` from `t` to `end`, with the bits of [`Map::step`] of the map for this step. [`Paced`]
-    /// calls it in each step. The provided method prepares the map. A splitting of several stages makes each flow where
-    /// it applies it, by [`Zigzag::once`](crate::schemes::author::Zigzag::once), which stores no stages.
+    /// Makes one step of the size `h`, from the time `t` to `end`: changes the carried value `z`, with the scratch `work`
+    /// of the map. The result has the bits of [`Map::step`] of the map for this step.
+    ///
+    /// [`Paced`] calls it in each step. The provided method prepares the map. A splitting of several stages makes each
+    /// flow where it applies it, by [`Zigzag::once`](crate::schemes::author::Zigzag::once), which stores no stages.
     ///
     /// [`Paced`]: crate::schemes::Paced
     #[inline(always)]
@@ -195,22 +274,30 @@ pub trait Scheme<S: System>: Listed {
     ) {
         self.prepare(prepared, Step::of(h)).step(t, end, z, work);
     }
-    /// The first and the last time at which a step evaluates parts of H that [jump](Description::jumps), in units of its
-    /// duration. Systems with such parts require times inside of the step. The provided method returns the ends of the
-    /// step, so that they are refused.
+    /// Returns the first and the last time at which a step evaluates parts of H that [jump](Description::jumps) in time.
+    /// 0 is the beginning of the step and 1 its end.
+    ///
+    /// A run of a system with such parts requires that both lie between 0 and 1, so that steps may end at the jumps;
+    /// otherwise [`Integrator::new`](crate::Integrator::new) returns
+    /// [`StartError::Jumps`](crate::errors::StartError::Jumps). The provided method returns 0 and 1. A splitting returns
+    /// `self.times_on(system.jumping_pieces())`.
     fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         [0.0, 1.0]
     }
-    /// Returns an error if the scheme cannot integrate this system from this state for a reason
-    /// that the bounds of the implementation do not express. The provided method returns none.
+    /// Checks whether the scheme can integrate this system from this state, for reasons that the bounds of the
+    /// implementation do not express. [`Integrator::new`](crate::Integrator::new),
+    /// [`set_state`](crate::Integrator::set_state), [`set_system`](crate::Integrator::set_system) and the members of
+    /// ensembles call it. The provided method accepts all.
     ///
     /// # Errors
+    /// Any error, for example by [`Error::other`]. The schemes of this crate return
     /// [`StartError::MonitorOfMomenta`](crate::errors::StartError::MonitorOfMomenta).
     fn check<T: Real>(&self, _: &S::Prepared<T>, _: &State<VectorOf<S, T>>) -> Result<(), Error> {
         Ok(())
     }
-    /// Prepares a map that follows a step of `before`, a scheme with other settings: the closing
-    /// piece that [`Map::join`] absorbs is that of `before`. `None` if the two cannot be joined.
+    /// Makes the map of a step that follows a step of `before`, the same scheme with other settings, in a
+    /// [`Composition`](crate::schemes::Composition). Its [`Map::join`] applies the closing piece of `before`. `None` if
+    /// the two cannot be joined; each step then is a whole one. The provided method joins equal schemes.
     #[inline(always)]
     fn prepare_after<T: Real>(
         &self,
@@ -223,15 +310,17 @@ pub trait Scheme<S: System>: Listed {
     {
         (self == before).then(|| self.prepare(prepared, step))
     }
-    /// The carried value at the beginning of steps of size `h` from a state.
+    /// Returns the carried value for a run of steps of the size `h` from a state, for example
+    /// [`State::point`](crate::State::point).
     fn start<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> CarriedBy<Self, S, T>;
-    /// The carried value for a single step, a part of a step of a run: a second point that the
-    /// scheme's own start computes to first order is computed to second order here.
+    /// Returns the carried value for one step alone, as [`state_at`](crate::Integrator::state_at) makes it for states
+    /// between two steps. The provided method is [`start`](Scheme::start). A scheme with a second point that `start`
+    /// computes to first order computes it to second order here.
     fn start_alone<T: Real>(
         &self,
         prepared: &S::Prepared<T>,

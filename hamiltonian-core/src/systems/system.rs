@@ -6,14 +6,16 @@
 //! the field or the flow is made; what remains per evaluation depends on (t, q, p) or, such as 1/m\[i\], on
 //! an element of a parameter array.
 
-use crate::errors::{Error, InputError};
-use crate::systems::flow::{Piece, Pieces, VectorField};
 mod description;
 pub mod gather;
+mod structure;
 
 pub use description::{Description, Group, NamedPiece, Observable, ObservableKind, Text};
+pub use structure::{Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, Unforced};
 
-use crate::systems::state::{Gradient, Point, State};
+use crate::errors::{Error, InputError};
+use crate::systems::flow::VectorField;
+use crate::systems::state::{Gradient, State};
 use crate::systems::uneven::same_part;
 use crate::systems::vector::{Shape, Vector};
 use gather::{InPack, Kept};
@@ -22,77 +24,122 @@ use hamiltonian_lanes::{Dual, Pack, Real};
 /// The coordinates of a system over a scalar, and its momenta, which have the same shape.
 pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
 
-/// A Hamiltonian H(q, p, t) with its parameters, over every scalar of states: `f64`, dual numbers, lanes of packs.
+/// A Hamiltonian H(q, p, t) with its parameters.
 ///
-/// Signs: q̇ = ∂H/∂p, ṗ = −∂H/∂q. Units are the caller's. A bound `S: System` serves every scalar; a parameter may be
-/// of any type that is a [`Parameter`](hamiltonian_lanes::Parameter).
+/// The equations of motion are q̇ = ∂H/∂p and ṗ = −∂H/∂q + f, where f is the [force](System::force_at), if there is
+/// one. Any consistent system of units serves. `hamiltonian!` implements this trait for every definition.
 ///
-/// The macro implements it for every definition. A system written by hand is generic over its scalar too:
+/// The trait is generic over the scalar of states, so that a bound `S: System` serves all of them: `f64`, dual numbers
+/// for derivatives, double-double numbers, and packs, whose lanes hold the members of an ensemble.
+///
+/// Schemes that take any H, such as [`Gauss`](crate::schemes::Gauss), require `System` alone. Others also require
+/// [`Separable`], [`Split`], [`Exact`], [`Nystrom`], [`QuadraticKinetic`], [`Autonomous`] or [`Unforced`]. The table in
+/// [`schemes`](crate::schemes) lists the requirements of each scheme.
+///
+/// # Systems written by hand
+/// A system written by hand consists of three implementations: `System` (parameters and shape), [`Dynamics`] for the
+/// prepared system (H and its derivatives), and [`VectorField`] for J∇H. `T::constant(x, 0.0)` makes a scalar of the
+/// number `x`; the second argument is the part of the constant below the precision of `f64`.
 ///
 /// ```
-/// use hamiltonian::{Unforced, VectorOf, schemes::author::{Description, Dynamics, Group, InPack, Kept, VectorField, gather}};
 /// use hamiltonian::lanes::Pack;
 /// use hamiltonian::nalgebra::SVector;
 /// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::author::{Description, Dynamics, Group, VectorField, gather};
+/// use hamiltonian::Unforced;
+/// use std::fmt;
 ///
 /// const GROUPS: &[Group] = &[Group::scalar("q", "p", 0)];
 /// const SPRING: &Description = &Description::new("Spring", GROUPS);
+/// type Coordinates<T> = SVector<T, 1>;
 ///
-/// /// H = ½(p² + ω²q²)
+/// /// H = (p² + ω²q²)/2
 /// struct Spring {
 ///     omega: f64,
 /// }
-/// /// It, prepared.
+///
+/// /// ω² over the scalar of the states.
 /// #[derive(Debug, Clone)]
-/// struct Ready<T> {
+/// struct Prepared<T> {
 ///     omega_squared: T,
 /// }
 ///
 /// impl System for Spring {
 ///     type Shape = SVector<(), 1>;
-///     type Prepared<T: Real> = Ready<T>;
+///     type Prepared<T: Real> = Prepared<T>;
 ///     fn description(&self) -> &Description {
 ///         SPRING
 ///     }
-///     fn prepare<T: Real>(&self) -> Ready<T> {
-///         Ready { omega_squared: T::constant(self.omega * self.omega, 0.0) }
+///     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+///         writeln!(to, "omega = {:?}", self.omega)
 ///     }
-///     fn zeros<T: Real>(&self) -> SVector<T, 1> {
+///     fn prepare<T: Real>(&self) -> Prepared<T> {
+///         Prepared { omega_squared: T::constant(self.omega * self.omega, 0.0) }
+///     }
+///     fn zeros<T: Real>(&self) -> Coordinates<T> {
 ///         SVector::from_element(T::zero())
 ///     }
-///     fn gather<T: Real, P: Pack>(members: &[&Ready<T>]) -> Ready<T::Over<P>> {
-///         Ready { omega_squared: gather::number::<T, P, _>(members, |one| one.omega_squared) }
+///     fn gather<T: Real, P: Pack>(members: &[&Prepared<T>]) -> Prepared<T::Over<P>> {
+///         Prepared { omega_squared: gather::number::<T, P, _>(members, |one| one.omega_squared) }
 ///     }
-///     fn fits<T: Real>(_: &Ready<T>, _: &Ready<T>) -> bool {
+///     fn fits<T: Real>(_: &Prepared<T>, _: &Prepared<T>) -> bool {
 ///         true // no sizes that could differ
 ///     }
-///     fn equals<T: Real>(a: &Ready<T>, b: &Ready<T>) -> bool {
+///     fn equals<T: Real>(a: &Prepared<T>, b: &Prepared<T>) -> bool {
 ///         a.omega_squared == b.omega_squared
 ///     }
 /// }
+///
+/// impl<T: Real> Dynamics<T> for Prepared<T> {
+///     type Vector = Coordinates<T>;
+///     type Field = Field<T>;
+///     fn description(&self) -> &Description {
+///         SPRING
+///     }
+///     fn energy(&self, _t: T, q: &Coordinates<T>, p: &Coordinates<T>) -> T {
+///         (p[0] * p[0] + self.omega_squared * q[0] * q[0]) * T::constant(0.5, 0.0)
+///     }
+///     fn gradient_q(&self, _t: T, q: &Coordinates<T>, _p: &Coordinates<T>, out: &mut Coordinates<T>) {
+///         out[0] = self.omega_squared * q[0];
+///     }
+///     fn gradient_p(&self, _t: T, _q: &Coordinates<T>, p: &Coordinates<T>, out: &mut Coordinates<T>) {
+///         out[0] = p[0];
+///     }
+///     fn time_derivative(&self, _t: T, _q: &Coordinates<T>, _p: &Coordinates<T>) -> T {
+///         T::zero()
+///     }
+///     fn hessian_vector(
+///         &self, _t: T, _q: &Coordinates<T>, _p: &Coordinates<T>, vq: &Coordinates<T>, vp: &Coordinates<T>,
+///         out_q: &mut Coordinates<T>, out_p: &mut Coordinates<T>,
+///     ) {
+///         out_q[0] = self.omega_squared * vq[0];
+///         out_p[0] = vp[0];
+///     }
+///     fn field(&self, c: T) -> Field<T> {
+///         Field { c, minus_c_omega_squared: -c * self.omega_squared }
+///     }
+/// }
+///
+/// /// c·J∇H = (c·p, −c·ω²q).
+/// #[derive(Debug, Clone)]
+/// struct Field<T> {
+///     c: T,
+///     minus_c_omega_squared: T,
+/// }
+///
+/// impl<T: Real> VectorField<Coordinates<T>> for Field<T> {
+///     #[inline(always)]
+///     fn add(
+///         &self, _t: T, q: &Coordinates<T>, p: &Coordinates<T>,
+///         into_q: &mut Coordinates<T>, into_p: &mut Coordinates<T>,
+///     ) {
+///         into_q[0] += self.c * p[0];
+///         into_p[0] += self.minus_c_omega_squared * q[0];
+///     }
+/// }
+///
+/// /// No force acts, so that schemes without forces integrate it.
 /// impl Unforced for Spring {}
-/// # impl<T: Real> Dynamics<T> for Ready<T> {
-/// #     type Vector = SVector<T, 1>;
-/// #     type Field = Scaled<T>;
-/// #     fn description(&self) -> &Description { SPRING }
-/// #     fn energy(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> T { (p[0] * p[0] + self.omega_squared * q[0] * q[0]) * T::constant(0.5, 0.0) }
-/// #     fn gradient_q(&self, _: T, q: &SVector<T, 1>, _: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = self.omega_squared * q[0]; }
-/// #     fn gradient_p(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>, out: &mut SVector<T, 1>) { out[0] = p[0]; }
-/// #     fn time_derivative(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
-/// #     fn hessian_vector(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, vq: &SVector<T, 1>, vp: &SVector<T, 1>, out_q: &mut SVector<T, 1>, out_p: &mut SVector<T, 1>) { out_q[0] = self.omega_squared * vq[0]; out_p[0] = vp[0]; }
-/// #     fn field(&self, c: T) -> Scaled<T> { Scaled(self.clone(), c) }
-/// #     fn in_pack<P: Pack, K: InPack<T, SVector<T, 1>, P>>(&self, kept: &mut Kept, kernel: K) -> Option<K::Output> {
-/// #         gather::in_pack::<T, Spring, P, K>(self, kept, kernel)
-/// #     }
-/// # }
-/// # #[derive(Debug, Clone)]
-/// # struct Scaled<T>(Ready<T>, T);
-/// # impl<T: Real> VectorField<SVector<T, 1>> for Scaled<T> {
-/// #     fn add(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>, into_q: &mut SVector<T, 1>, into_p: &mut SVector<T, 1>) {
-/// #         into_q[0] += self.1 * p[0];
-/// #         into_p[0] -= self.1 * self.0.omega_squared * q[0];
-/// #     }
-/// # }
 ///
 /// let start = |member: Member| {
 ///     let omega = 1.0 + member.index as f64;
@@ -112,17 +159,20 @@ pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
     note = "`new` of a system whose sizes are set at run time returns a `Result`: write `Name::new(…)?`"
 )]
 pub trait System {
-    /// The shape of the coordinates, and of the momenta: `SVector<(), 2>` for coordinates `SVector<T, 2>` over `T`.
+    /// The shape of the coordinates, and of the momenta: their vector type with `()` in place of the scalar, for example
+    /// `SVector<(), 2>` or `DVector<()>`. [`Vector`] lists the types.
     type Shape: Shape;
-    /// The prepared system over a scalar, with all that depends on parameters alone computed.
+    /// The prepared system over a scalar: the values that depend on parameters alone.
     type Prepared<T: Real>: Dynamics<T, Vector = VectorOf<Self, T>> + Send + Sync + 'static;
 
     /// The description of the system; for a definition it is a constant.
     fn description(&self) -> &Description;
 
-    /// The number of dual numbers inside each other in its parameters: 1 for parameters `Dual<f64>`. Derivatives by
-    /// coordinates are outside of these. They need as many dual numbers in the scalar of the states, or do not compile:
-    /// the two derivatives would be one number. It is a constant, since rustc refuses what does not fit it.
+    /// The nesting depth of dual numbers in the parameters: 0 for `f64`, 1 for `Dual<f64>`. A system written by hand with
+    /// parameters of a type `P: Parameter` has [`P::DUALS`](hamiltonian_lanes::Parameter::DUALS).
+    ///
+    /// Derivatives by coordinates are taken in one more dual number. Over states of a smaller depth than that of the
+    /// parameters they would be added to the derivatives by parameters, which is a compile error:
     ///
     /// ```compile_fail,E0080
     /// use hamiltonian::prelude::*;
@@ -132,7 +182,7 @@ pub trait System {
     /// // ∂v/∂x + ∂v/∂k would come out.
     /// spring.observable_gradient("v", &State::new([0.5], [1.0]));
     /// ```
-    /// Over the scalar of the parameters, both are there:
+    /// Over the scalar of the parameters, both are computed:
     /// ```
     /// # use hamiltonian::prelude::*;
     /// # let k = Dual::variable(4.0);
@@ -143,9 +193,11 @@ pub trait System {
     /// ```
     const DUALS: u32 = 0;
 
-    /// Writes the parameters with their values, all digits of them, each on a line, `m = 1.5`; by
-    /// them a saved run is recognised, and the members of a stored sweep. Without them a sweep recognises its members
-    /// by the `Debug` text of what [`prepare`](System::prepare) returns.
+    /// Writes each parameter with its value and all its digits, one per line, `m = 1.5`.
+    ///
+    /// [`resume`](crate::Integrator::resume) compares these lines with those of the saved run. The provided method writes
+    /// nothing, so that `resume` accepts a system with other parameters. Stores of sweeps then compare the `Debug` text
+    /// of the prepared system.
     ///
     /// # Errors
     /// Those of the writer.
@@ -153,17 +205,23 @@ pub trait System {
         Ok(())
     }
 
-    /// Does all work that depends on parameters alone.
+    /// Computes the values that depend on parameters alone.
     fn prepare<T: Real>(&self) -> Self::Prepared<T>;
     /// The zero vector of this system's shape.
     fn zeros<T: Real>(&self) -> VectorOf<Self, T>;
 
-    /// One prepared system with member k in lane k of the pack, and the last in the lanes that are left. There are at
-    /// least one and at most [`MAX_MEMBERS`](gather::MAX_MEMBERS) members, and all of them [fit](System::fits) the first.
+    /// Copies the prepared systems of members into the lanes of one: member k into lane k, the last member into the
+    /// remaining lanes. Ensembles advance the members of this system together.
+    ///
+    /// [`gather::number`], [`gather::numbers`] and [`gather::vectors`] copy one field each. There are 1 to
+    /// [`MAX_MEMBERS`](gather::MAX_MEMBERS) members, and all of them [fit](System::fits) the first. A wrong lane is a
+    /// wrong trajectory in ensembles.
     fn gather<T: Real, P: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<P>>;
-    /// Returns true if both may be in one pack: sizes set at run time are equal.
+    /// Returns true if both may be in one pack: sizes set at run time are equal. An ensemble refuses a member that does
+    /// not fit the first. Return true if the system has no such sizes.
     fn fits<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool;
-    /// Returns true if every parameter is equal in both.
+    /// Returns true if every parameter is equal in both. Ensembles store equal systems once: if this is true for unequal
+    /// ones, members have wrong parameters; if it is false for equal ones, only memory is lost.
     fn equals<T: Real>(a: &Self::Prepared<T>, b: &Self::Prepared<T>) -> bool;
 
     /// Checks that a state has the shape of the system. With sizes set at run time, a state of another length has the
@@ -177,11 +235,23 @@ pub trait System {
         check_shape_like(self.description(), [&zeros, &zeros], state)
     }
 
-    /// H at a state.
+    /// Returns H at a state.
+    ///
+    /// This method and those below prepare the system in each call. In a loop, prepare it once:
+    /// `system.prepare::<f64>().energy(t, &q, &p)`.
+    ///
+    /// For a time-transformed system (`dt = g*ds`), it is g·(h + p_t), which vanishes on orbits;
+    /// [`Integrator::energy`](crate::Integrator::energy) returns the declared h.
+    ///
+    /// # Panics
+    /// If the state has another length, see [`check_shape`](System::check_shape).
     fn energy<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> T {
         self.prepare::<T>().energy(state.t, &state.q, &state.p)
     }
-    /// ∂H/∂q and ∂H/∂p at a state.
+    /// Returns ∂H/∂q and ∂H/∂p at a state. For a time-transformed system they are those of g·(h + p_t).
+    ///
+    /// # Panics
+    /// If the state has another length.
     fn gradient<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> Gradient<VectorOf<Self, T>> {
         let mut gradient = Gradient {
             q: self.zeros(),
@@ -197,7 +267,10 @@ pub trait System {
         gradient
     }
 
-    /// The force f on the momenta at a state, dp/dt = −∂H/∂q + f; zero if there is none.
+    /// Returns the force f on the momenta at a state, ṗ = −∂H/∂q + f; zero if there is none.
+    ///
+    /// # Panics
+    /// If the state has another length.
     fn force_at<T: Real>(&self, state: &State<VectorOf<Self, T>>) -> VectorOf<Self, T> {
         let mut force = self.zeros();
         let prepared = self.prepare::<T>();
@@ -205,23 +278,36 @@ pub trait System {
         force
     }
 
-    /// The observable of that name at a state; `None` if there is none.
+    /// Returns the observable of that name (a monitor, an invariant or an event) at a state; `None` if there is none.
     ///
     /// ```
-    #[doc = include_str!("../doc/oscillator.md")]
+    /// use hamiltonian::prelude::*;
     ///
-    /// let (oscillator, state) = (Oscillator {}, State::new([1.0], [0.0]));
-    /// // The oscillator declares none.
-    /// assert_eq!(oscillator.observable_named("height", &state), None);
+    /// hamiltonian! {
+    ///     /// A ball above the ground.
+    ///     pub struct Ball { g = 9.81 }
+    ///     H(z; p) = p^2/2 + g*z;
+    ///     monitor height_of_turn = z + p^2/(2*g)
+    /// }
+    ///
+    /// let (ball, state) = (Ball { g: 10.0 }, State::new([1.0], [4.0]));
+    /// assert_eq!(ball.observable_named("height_of_turn", &state), Some(1.8));
+    /// assert_eq!(ball.observable_named("speed", &state), None);
     /// ```
+    ///
+    /// # Panics
+    /// If the state has another length.
     fn observable_named<T: Real>(&self, name: &str, state: &State<VectorOf<Self, T>>) -> Option<T> {
         let index = self.description().observable_index(name)?;
         let prepared = self.prepare::<T>();
         Some(prepared.observable(index, state.t, &state.q, &state.p))
     }
 
-    /// The derivatives of the observable of that name by all coordinates and momenta at a state; `None` if there is
-    /// none. The observable is evaluated over dual numbers, once for each coordinate and momentum.
+    /// Returns the derivatives of the observable of that name by all coordinates and momenta at a state; `None` if there
+    /// is none. The observable is evaluated over dual numbers, once for each coordinate and momentum.
+    ///
+    /// # Panics
+    /// If the state has another length.
     fn observable_gradient<T: Real>(
         &self,
         name: &str,
@@ -443,103 +529,6 @@ pub(crate) fn declared_energy_at<T: Real, S: System>(
     prepared.gradient_p(t, q, p, &mut velocities);
     energy / velocities.component(last) - p.component(last)
 }
-
-/// H is a sum of pieces with exact flows. Splittings require it.
-///
-/// Every [`Separable`] system implements it, with kick and drift as its pieces. So does every definition with declared
-/// pieces, `split { A = …; B = …; }`, or for which the macro finds pieces. A force is part of the kick. Beside other
-/// pieces, the force is a piece of its own, the innermost, `force`.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not known to split into pieces with exact flows",
-    label = "this scheme composes the flows of pieces of H",
-    note = "in generic code bound the system, `S: Split`; every `S: Separable` splits too",
-    note = "a system written by hand implements `Split`"
-)]
-pub trait Split: System {
-    /// The pieces, the outermost first, in the order of [`Description::pieces`].
-    type Pieces<T: Real>: Pieces<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
-    /// The pieces.
-    fn pieces<T: Real>() -> Self::Pieces<T>;
-}
-
-/// H = T(p, t) + V(q, t), proven at compile time.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not known to be separable",
-    label = "this scheme takes H = T(p, t) + V(q, t)",
-    note = "in generic code bound the system, `S: Separable`",
-    note = "a system written by hand implements `Separable`"
-)]
-pub trait Separable: System {
-    /// V: its flow is `p −= c·∂V/∂q(q, t)`; with a force, `p += c·(f − ∂V/∂q)`.
-    type Kick<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
-    /// T: its flow is `q += c·∂T/∂p(p, t)`.
-    type Drift<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
-    /// The kick.
-    fn kick<T: Real>() -> Self::Kick<T>;
-    /// The drift.
-    fn drift<T: Real>() -> Self::Drift<T>;
-}
-
-/// H = A(q, p) + V(q, t), with A at most quadratic in p and with an exact flow. Nyström schemes require it: then
-/// {V, {V, {V, A}}} = 0.
-///
-/// The macro implements it if the two are the pieces of [`Split`], in either order, and if H is [`Separable`] with such
-/// a T. Examples are T + V, and a potential with a uniform magnetic field or in a rotating frame. If H is separable, a
-/// force that does not depend on p is part of the kick.
-#[diagnostic::on_unimplemented(
-    message = "H of `{Self}` is not known to be at most quadratic in p beside V(q, t)",
-    label = "this scheme takes H = A(q, p) + V(q, t), with A at most quadratic in p",
-    note = "in generic code bound the system, `S: Nystrom`",
-    note = "a system written by hand implements `Nystrom`"
-)]
-pub trait Nystrom: System {
-    /// V: its flow is `p −= c·∂V/∂q(q, t)`.
-    type Kick<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
-    /// A.
-    type Quadratic<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
-    /// The kick.
-    fn kick<T: Real>() -> Self::Kick<T>;
-    /// The piece that is at most quadratic in p.
-    fn quadratic<T: Real>() -> Self::Quadratic<T>;
-}
-
-/// No force acts besides −∂H/∂q. Schemes that cannot integrate a force require it.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not known to be without forces",
-    label = "this scheme integrates H alone",
-    note = "in generic code bound the system, `S: Unforced`",
-    note = "for a system written by hand without a force: `impl Unforced for … {{}}`"
-)]
-pub trait Unforced {}
-
-/// The flows of all pieces are exact. Splittings with a table of coefficients require it. A force that is not
-/// affine in p has no exact flow: [`Strang`](crate::schemes::Strang) and its like integrate it by a symmetric sub-step
-/// of order 2.
-#[diagnostic::on_unimplemented(
-    message = "the pieces of `{Self}` are not known to have exact flows",
-    label = "this scheme has an order above 2 with exact flows alone",
-    note = "in generic code bound the system, `S: Exact`",
-    note = "for a system written by hand whose flows are exact: `impl Exact for … {{}}`"
-)]
-pub trait Exact {}
-
-/// T = ½ pᵀM⁻¹p with constant M, proven at compile time.
-#[diagnostic::on_unimplemented(
-    message = "T of `{Self}` is not known to be ½ pᵀM⁻¹p with constant M",
-    label = "this scheme integrates second-order equations",
-    note = "in generic code bound the system, `S: QuadraticKinetic`",
-    note = "for a system written by hand: `impl QuadraticKinetic for … {{}}`"
-)]
-pub trait QuadraticKinetic {}
-
-/// H does not depend on t, proven at compile time.
-#[diagnostic::on_unimplemented(
-    message = "H of `{Self}` is not known to be independent of t",
-    label = "this needs an H that does not depend on t",
-    note = "in generic code bound the system, `S: Autonomous`",
-    note = "for a system written by hand: `impl Autonomous for … {{}}`"
-)]
-pub trait Autonomous {}
 
 /// Returns an error for a state of another shape than these coordinates and momenta.
 pub(crate) fn check_shape_like<V: Vector>(

@@ -104,7 +104,7 @@ fn neighbours_of_events_change_no_bit() {
         Sweep::new(COUNT, swinging, BlanesMoan4, 0.05)
             .with_end_each(|member| 20.0 + 30.0 * part(member.index))
             .observe(sought)
-            .rows(["event", "t", "q", "p"], |end| {
+            .record_rows(["event", "t", "q", "p"], |end| {
                 let located = end.observer.located().iter().map(|located| {
                     let State { t, q, p } = &located.state;
                     [located.event as f64, *t, q[0], p[0]]

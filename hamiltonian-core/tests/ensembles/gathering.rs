@@ -189,8 +189,15 @@ fn stores_of_systems_by_hand_recognise_parameters() {
             .record(["q"], |end| [end.state.q[0]])
     };
     assert!(sweep(1.0).store(&path).expect("a store").is_complete());
-    assert!(sweep(1.0).complete(&path).expect("a store").is_complete());
-    let other = sweep(1.5).complete(&path).expect_err("other parameters");
+    assert!(
+        sweep(1.0)
+            .completeness(&path)
+            .expect("a store")
+            .is_complete()
+    );
+    let other = sweep(1.5)
+        .completeness(&path)
+        .expect_err("other parameters");
     assert!(other.to_string().contains("chunk 0"), "{other}");
     std::fs::remove_dir_all(&path).expect("it is there");
 }

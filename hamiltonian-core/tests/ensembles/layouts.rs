@@ -169,7 +169,7 @@ fn a_sweep_has_an_end() {
     assert!(has_no_end(none.fold(0, |n, _| n + 1).err()));
     let path = place("no-end");
     assert!(has_no_end(none.store(&path).err()));
-    assert!(has_no_end(none.complete(&path).err()));
+    assert!(has_no_end(none.completeness(&path).err()));
     assert!(!path.exists());
     let none = sweep().record_at([], ["q"], |end| [end.state.q[0]]);
     assert!(has_no_end(none.collect().err()));

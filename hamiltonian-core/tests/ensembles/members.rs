@@ -69,7 +69,7 @@ fn neither_threads_nor_calls_nor_neighbours_change_a_bit() {
             .expect("there are members");
         let mut other = swarm.clone();
         other.advance(1500);
-        let one = other.at(77).expect("there is one").expect("finite");
+        let one = other.state_of(77).expect("there is one").expect("finite");
         assert_eq!(all[77], bits(&one));
         assert_eq!(swarm.steps(), 0, "the clone is another ensemble");
     });

@@ -64,7 +64,7 @@ fn closures_of_an_ensemble() {
             .expect("a good start")
             .observe(every(2, Recorder::new()));
         let expected = run.advance(10).expect("finite").clone();
-        let found = swarm.at(index).expect("a member").expect("finite");
+        let found = swarm.state_of(index).expect("a member").expect("finite");
         assert_eq!(bits(&found), bits(&expected), "member {index}");
         assert_eq!(recorder.inner.rows(), 6);
         let rows = recorder.inner.iter().flatten();
@@ -110,7 +110,7 @@ fn closures_of_a_sweep() {
     });
     let found = one.fold(vec![], errors).expect("there are members");
     assert_eq!(panicked(found.into_iter()), [5, 6, 7, 8, 9, 10]);
-    let any = sweep().rows(["q"], |end| {
+    let any = sweep().record_rows(["q"], |end| {
         not(11, end.member);
         [[end.state.q[0]]; 2]
     });
@@ -145,7 +145,7 @@ fn chunks_written_before_a_panic_are_intact() {
     let panics = sweep().with_progress(|done, _| assert!(done < 60, "enough"));
     let store = AssertUnwindSafe(|| panics.store(&disturbed));
     assert!(catch_unwind(store).is_err());
-    let left = sweep().complete(&disturbed).expect("a store");
+    let left = sweep().completeness(&disturbed).expect("a store");
     assert_eq!(left.to_string(), "8 of 11 chunks are missing: 3 to 10");
     let (written, all) = (files(&disturbed), files(&calm));
     let chunks = written.iter().filter(|(path, _)| path.starts_with("q/c"));

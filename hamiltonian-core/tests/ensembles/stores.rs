@@ -66,7 +66,7 @@ fn shards_of_two_levels_share_a_reproducible_store_alone() {
     Cpu::limit_to(best);
     let (second, opened) = (
         sweep().with_shard(shard(1)).store(&fused),
-        sweep().complete(&fused),
+        sweep().completeness(&fused),
     );
     let last = sweep().reproducible().with_shard(shard(1)).store(&unfused);
     sweep().reproducible().store(&calm).expect("a store");
@@ -104,7 +104,10 @@ fn members_that_failed_are_stored_with_the_kind_of_their_failure() {
         .with_chunk(20)
         .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
     assert_eq!(
-        sweep.complete(&path).expect("nothing is wrong").to_string(),
+        sweep
+            .completeness(&path)
+            .expect("nothing is wrong")
+            .to_string(),
         "1 of 1 chunks are missing: 0"
     );
     assert!(!path.exists(), "asking creates a store");
@@ -217,7 +220,7 @@ fn killed_processes_lose_and_double_nothing() {
     for mut child in [start(0), start(1)] {
         assert!(child.wait().expect("it ends").success());
     }
-    let complete = killed(all).complete(&disturbed).expect("a store");
+    let complete = killed(all).completeness(&disturbed).expect("a store");
     assert!(complete.is_complete(), "{complete}");
     killed(all).store(&whole).expect("a store");
     assert!(files(&disturbed) == files(&whole), "the stores differ");

@@ -229,7 +229,7 @@ fn every_record_has_members_and_states_of_their_ends() {
             .eq((0..MEMBERS).map(|k| k as f64))
     );
     // Two rows of each member that ended, and one of each that failed.
-    let rows = sweep().rows(["q"], |end| [[end.state.q[0]]; 2]);
+    let rows = sweep().record_rows(["q"], |end| [[end.state.q[0]]; 2]);
     let rows = rows.collect().expect("rows");
     assert_eq!(rows.columns(), ["member", "q", "status"]);
     let mut found = rows.iter();
@@ -244,7 +244,7 @@ fn every_record_has_members_and_states_of_their_ends() {
     }
     assert!(found.next().is_none());
     // Members without rows that did not fail have none.
-    let none = sweep().rows(["q"], |_| Vec::<[f64; 1]>::new());
+    let none = sweep().record_rows(["q"], |_| Vec::<[f64; 1]>::new());
     let none = none.collect().expect("rows");
     assert!(none.rows() < MEMBERS && none.column("q").expect("a column").all(f64::is_nan));
     let twice = sweep().record(["member"], |_| [0.0]);

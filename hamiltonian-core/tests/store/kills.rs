@@ -58,7 +58,7 @@ fn a_hundred_kills_lose_and_double_nothing() {
         assert!(
             Store::open_or_create(&calm, &layout)
                 .unwrap()
-                .complete()
+                .completeness()
                 .unwrap()
                 .is_complete()
         );
@@ -116,7 +116,7 @@ fn a_hundred_kills_lose_and_double_nothing() {
         go_on(&path, 0, rows_of(&path));
         go_on(&path, 1, rows_of(&path));
         let store = Store::open_or_create(&path, &layout).unwrap();
-        assert!(store.complete().unwrap().is_complete());
+        assert!(store.completeness().unwrap().is_complete());
         assert!(tree(&path) == calm, "another store after {killed} kills");
     }
 }

@@ -56,7 +56,7 @@ use std::path::{Path, PathBuf};
 ///             ..ChunkData::default()
 ///         })?;
 ///     }
-///     assert!(store.complete()?.is_complete());
+///     assert!(store.completeness()?.is_complete());
 ///     let last = store.read(1)?.expect("it was written");
 ///     assert_eq!(last.columns, [[1.0]]);
 ///     std::fs::remove_dir_all(path)?;
@@ -331,7 +331,7 @@ impl Store {
     /// # Errors
     /// [`StoreError::File`].
     #[inline]
-    pub fn complete(&self) -> Result<Completeness, Error> {
+    pub fn completeness(&self) -> Result<Completeness, Error> {
         let mut missing: Vec<Range<u64>> = Vec::new();
         for chunk in 0..self.layout.chunks() {
             if self.present(chunk)? {

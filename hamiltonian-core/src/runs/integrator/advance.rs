@@ -31,10 +31,16 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// Makes `n` steps and returns the state after them. If an observer ends the run, there are fewer steps.
     ///
     /// # Errors
-    /// [`StepError::NotFinite`](crate::errors::StepError::NotFinite),
-    /// [`StepError::Unsolved`](crate::errors::StepError::Unsolved). Then [`state`](Integrator::state) is the last
-    /// finite state. H is evaluated at the end of blocks, see [Blocks](Integrator#blocks). For a resumed run,
-    /// [`Error::Checkpoint`] if its observers are not those that were saved.
+    /// - [`StepError::NotFinite`](crate::errors::StepError::NotFinite) if a state or its H is not finite, and
+    ///   [`StepError::Unsolved`](crate::errors::StepError::Unsolved) if an implicit step was not solved. The run is then
+    ///   at the state before that step. To continue, [change the step](Integrator::change_step) and advance again.
+    /// - The error of an observer that cannot continue. Later calls return it again.
+    /// - [`CheckpointError::File`](crate::errors::CheckpointError::File) if
+    ///   [`with_checkpoints`](Integrator::with_checkpoints) cannot write its file. The run has made the step and can
+    ///   continue.
+    /// - [`CheckpointError::Other`](crate::errors::CheckpointError::Other) and
+    ///   [`CheckpointError::Damaged`](crate::errors::CheckpointError::Damaged) for a resumed run whose observers are not
+    ///   those that were saved.
     pub fn advance(&mut self, n: u64) -> Result<&State<VectorOf<S, T>>, Error> {
         if let Some(error) = &self.refused {
             return Err(error.clone());
@@ -174,16 +180,6 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The states after `every`, 2·`every`, … further steps (0 counts as 1). The iterator ends when an observer ends
-    /// the run; otherwise it is infinite. The first error is the last item.
-    pub fn states(&mut self, every: u64) -> States<'_, T, S, R, O> {
-        States {
-            run: self,
-            every: every.max(1),
-            failed: false,
-        }
-    }
-
     /// Writes the state after the `made` steps of the map. Returns true if everything is finite.
     #[inline(always)]
     pub(super) fn arrives(&mut self, steps: u64) -> bool {
@@ -253,25 +249,5 @@ impl<R: Map> Steps<'_, R> {
         self.state.p.copy_from(&point.p);
         self.state.t = self.shown.time(t);
         self.state.t.is_finite() && self.shown.is_finite() && self.carried.is_finite()
-    }
-}
-
-/// The iterator of [`Integrator::states`].
-pub struct States<'a, T: Real, S: System, R: MapOf<T, S>, O> {
-    run: &'a mut Integrator<T, S, R, O>,
-    every: u64,
-    failed: bool,
-}
-
-impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Iterator for States<'_, T, S, R, O> {
-    type Item = Result<State<VectorOf<S, T>>, Error>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.failed || self.run.has_ended() {
-            return None;
-        }
-        let state = self.run.advance(self.every).cloned();
-        self.failed = state.is_err();
-        Some(state)
     }
 }

@@ -14,36 +14,20 @@ use crate::systems::system::{Dynamics, System, VectorOf};
 use alloc::string::String;
 use hamiltonian_lanes::{Mask, Real};
 
-impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// Continues with another step: the scheme starts anew at the current state and makes the other
-    /// carried values again, for example the second point of (25), (26) and (33).
-    ///
-    /// # Errors
-    /// [`StartError::Step`](crate::errors::StartError::Step) for a zero, NaN or infinite step.
-    pub fn change_step(&mut self, step: T) -> Result<(), Error> {
-        check_step(step)?;
-        self.carried = self.recipe.start(&self.prepared, &self.state, step);
-        self.map = self.recipe.prepare(&self.prepared, Step::of(step));
-        self.clock = Clock::new(self.state.t, step * duration(&self.entry));
-        self.step = step;
-        self.began = self.steps;
-        // The second copy that can be observed is the one of the new start.
-        self.arrives(self.steps);
-        Ok(())
-    }
-}
-
 impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// Replaces the state between two steps, for example by a kick or a thermostat. The scheme, the step, the number of
-    /// steps, the times and the observers stay. The state has the time of the run.
+    /// Replaces the state between two steps, for example by a kick or a thermostat. The scheme, the step size, the number
+    /// of steps, the times and the observers stay.
     ///
-    /// The scheme starts anew at the state, as in [`change_step`](Integrator::change_step). Observers receive the
-    /// change by [`Observer::change`]: [`EnergyDrift`](crate::observers::EnergyDrift) does not count it as a drift, and
-    /// [`Events`](crate::observers::Events) locate no event in it. After the end of a run by an observer,
-    /// [`go_on`](Integrator::go_on) continues from the new state.
+    /// The new state has the time of the run: change a clone of [`state`](Integrator::state), or write
+    /// `State::new(q, p).at(run.time())`.
     ///
-    /// In another time, `dt = g*ds`, the momentum of time becomes p_t = −h of the new state, whatever the state has: orbits
-    /// are those of h on the shell H = 0 alone.
+    /// The scheme starts anew at the state. Observers receive the change by [`Observer::change`]:
+    /// [`EnergyDrift`](crate::observers::EnergyDrift) does not count it as a drift, and
+    /// [`Events`](crate::observers::Events) locate no event in it. If an observer has ended the run,
+    /// [`go_on`](Integrator::go_on) allows further steps, from the new state.
+    ///
+    /// In a time-transformed system (`dt = g*ds`), the momentum of time becomes p_t = −h of the new state, whatever the
+    /// state has: orbits are those of h on the shell H = 0 alone.
     ///
     /// ```
     #[doc = include_str!("../../doc/oscillator.md")]
@@ -66,8 +50,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// [`StartError::OtherTime`](crate::errors::StartError::OtherTime) if the state has another time than the run;
     /// [`InputError::Shape`](crate::errors::InputError::Shape),
     /// [`StartError::NotFinite`](crate::errors::StartError::NotFinite),
-    /// [`StartError::Values`](crate::errors::StartError::Values) as for a [new](Integrator::new) run. The run then is
-    /// as before.
+    /// [`StartError::Values`](crate::errors::StartError::Values) and those of [`Scheme::check`](crate::Scheme::check) as
+    /// for a [new](Integrator::new) run; the error of an observer that cannot continue. The run then is as before.
     pub fn set_state(&mut self, state: impl IntoStart<VectorOf<S, T>>) -> Result<(), Error> {
         let mut state = state.into_start(self.prepared.description().first_names())?;
         check_change::<T, S>(&self.prepared, &self.state, &mut state)?;
@@ -75,9 +59,9 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     }
 
     /// Replaces the system between two steps by one with other parameters, for example for a slider or the elements of a
-    /// ring. The state, the scheme, the step, the number of steps, the times and the observers stay, and observers
-    /// receive the change as that of a [state](Integrator::set_state). In another time, the momentum of time becomes −h of
-    /// the new system.
+    /// ring. The state, the scheme, the step size, the number of steps, the times and the observers stay, and
+    /// observers receive the change as that of a [state](Integrator::set_state). In a time-transformed system, the
+    /// momentum of time becomes −h of the new system.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
@@ -99,8 +83,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     ///
     /// # Errors
     /// [`InputError::Shape`](crate::errors::InputError::Shape) for a system of other sizes;
-    /// [`StartError::Values`](crate::errors::StartError::Values) as for a [new](Integrator::new) run. The run then is
-    /// as before.
+    /// [`StartError::Values`](crate::errors::StartError::Values) and those of [`Scheme::check`](crate::Scheme::check) as
+    /// for a [new](Integrator::new) run; the error of an observer that cannot continue. The run then is as before.
     pub fn set_system(&mut self, system: &S) -> Result<(), Error> {
         system.check_shape(&self.state)?;
         let mut prepared = system.prepare();
@@ -110,7 +94,44 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         prepared.set_arithmetic(self.prepared.arithmetic());
         self.go_on_from(prepared, parameters(system), state)
     }
+}
 
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// Replaces the step size. The scheme starts anew at the current state.
+    ///
+    /// The times of steps are then multiples of the new step from the current time, also for
+    /// [`advance_to`](Integrator::advance_to). Observers are not informed. Frequent changes destroy the long-term
+    /// behaviour of symplectic and reversible schemes: for steps of varying length, use
+    /// [`Paced`](crate::schemes::Paced).
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
+    /// run.advance(100)?;
+    /// run.change_step(0.001)?;
+    /// run.advance_to(1.005)?;
+    /// assert_eq!(run.steps(), 105);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StartError::Step`](crate::errors::StartError::Step) for a zero, NaN or infinite step.
+    pub fn change_step(&mut self, step: T) -> Result<(), Error> {
+        check_step(step)?;
+        self.carried = self.recipe.start(&self.prepared, &self.state, step);
+        self.map = self.recipe.prepare(&self.prepared, Step::of(step));
+        self.clock = Clock::new(self.state.t, step * duration(&self.entry));
+        self.step = step;
+        self.began = self.steps;
+        // The second copy that can be observed is the one of the new start.
+        self.arrives(self.steps);
+        Ok(())
+    }
+}
+
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// Goes on with this system from this state, which has the time of the run.
     fn go_on_from(
         &mut self,

@@ -43,9 +43,9 @@ fn extrapolated(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// Estimates the error of the next `n` steps. It makes them on a copy, then 2n steps of half the size and 4n
-    /// of a quarter, all from the present state. This takes seven times as long as the steps themselves. The run does
-    /// not change.
+    /// Estimates the error of the next `n` steps. Temporary runs make them, then 2n steps of half the size and 4n of a
+    /// quarter, all from the current state. This takes seven times as long as the steps themselves. The run does not
+    /// change.
     ///
     /// With the end points z(h), z(h/2), z(h/4) and the differences a = |z(h) − z(h/2)| and
     /// b = |z(h/2) − z(h/4)| in the maximum norm, the observed order is log₂(a/b) and the error of z(h)
@@ -98,7 +98,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         })
     }
 
-    /// A run of the same scheme from the present state with another step and without observers.
+    /// A run of the same scheme from the current state with another step and without observers.
     fn restarted(&self, step: T) -> Integrator<T, S, R> {
         let carried = self.recipe.start(&self.prepared, &self.state, step);
         Integrator {

@@ -1,6 +1,6 @@
 //! Properties of a run.
 //!
-//! Input: a run. Output: its state, clock, energy, second copy and observer. Invariant: nothing here
+//! Input: a run. Output: its state, clock, energy, observer and second copy. Invariant: nothing here
 //! changes a run.
 
 use super::{Integrator, MapOf};
@@ -18,7 +18,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         &self.state
     }
 
-    /// The current time.
+    /// The current time: `state().t`. In a time-transformed system (`dt = g*ds`,
+    /// [`TimeTransformed`](crate::TimeTransformed)) it is s, and the physical time t is the last coordinate.
     pub fn time(&self) -> T {
         self.state.t
     }
@@ -28,62 +29,64 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.steps
     }
 
-    /// The step size.
+    /// The step size Δt, negative for a backward run. To make one step, call [`advance(1)`](Integrator::advance).
     pub fn step(&self) -> T {
         self.step
     }
 
-    /// The time that one step advances: the step size, or twice the step size for
+    /// The duration of one step: the step size, or twice the step size for
     /// [`ConsecutiveSubTrajectories`](crate::schemes::ConsecutiveSubTrajectories).
     pub fn duration(&self) -> T {
         self.clock.interval
     }
 
-    /// The declared H at the current state: in another time, `dt = g*ds`, without g and the
-    /// momentum of time.
+    /// H at the current state. For a time-transformed system (`dt = g*ds`), it is the declared h, not g·(h + p_t).
     pub fn energy(&self) -> T {
         declared_energy::<T, S>(&self.prepared, &self.state)
     }
 
-    /// The observable of that name, a monitor, an invariant or an event, at the current state;
-    /// `None` if there is none.
+    /// The observable of that name (a monitor, an invariant or an event) at the current state; `None` if there is none.
     pub fn observable_named(&self, name: &str) -> Option<T> {
         let index = self.prepared.description().observable_index(name)?;
         let State { t, q, p } = &self.state;
         Some(self.prepared.observable(index, *t, q, p))
     }
 
-    /// The prepared system.
-    pub fn prepared(&self) -> &S::Prepared<T> {
-        &self.prepared
-    }
-
-    /// The scheme's entry in the catalogue.
-    pub fn entry(&self) -> Entry {
-        self.entry
-    }
-
-    /// The value that the scheme carries, before the closing piece of the last step.
-    pub fn carried(&self) -> &R::Carried {
-        &self.carried
-    }
-
-    /// The observer.
+    /// The attached observer; `()` if there is none.
     pub fn observer(&self) -> &O {
         &self.observer
     }
 
-    /// Ends the run and returns the observer.
+    /// Consumes the run and returns the attached observer.
     pub fn into_observer(self) -> O {
         self.observer
     }
+
+    /// The system with all that depends on parameters alone computed: H, its derivatives and its observables at any
+    /// (t, q, p), see [`Dynamics`].
+    pub fn prepared(&self) -> &S::Prepared<T> {
+        &self.prepared
+    }
+
+    /// The facts about the scheme: its name, order, requirements and source.
+    pub fn entry(&self) -> Entry {
+        self.entry
+    }
+
+    /// The value that the scheme carries from step to step. It is not the state: the closing piece of the last step is
+    /// not yet applied to it, see [`Map`].
+    pub fn carried(&self) -> &R::Carried {
+        &self.carried
+    }
 }
+
 impl<T: Real, S: System, R, O> Integrator<T, S, R, O>
 where
     R: MapOf<T, S> + Map<Carried = Copies<VectorOf<S, T>>>,
 {
-    /// The second copy (q̃, p̃) at the current time, or the second point of a scheme that carries
-    /// two; the first is [`state`](Integrator::state).
+    /// The second copy (q̃, p̃) at the current time, for example of [`Pihajoki`](crate::schemes::Pihajoki) and
+    /// [`Tao`](crate::schemes::Tao), or the second point, for example of
+    /// [`TwoStepMidpoint`](crate::schemes::TwoStepMidpoint). The first is [`state`](Integrator::state).
     pub fn copy(&self) -> Point<VectorOf<S, T>> {
         self.shown.y.clone()
     }

@@ -3,10 +3,10 @@
 //! Input: the current state of a run and a time. Output: the state at that time, by one step of
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
-use super::{Integrator, MapOf, check_scheme, numbers};
+use super::{MapOf, check_scheme, numbers};
 use crate::errors::{Error, StepError, TimeError};
 use crate::flows::map::{Clock, Map, Step};
-use crate::observers::observe::{Between, Observer, View};
+use crate::observers::observe::{Between, View};
 use crate::runs::failed::Failed;
 use crate::schemes::scheme::Scheme;
 use crate::systems::domain;
@@ -263,150 +263,5 @@ impl<T: Real> Clock<T> {
         }
         let before = (count as u64).max(made);
         Ok((Some(before - made), before + 1 - made))
-    }
-}
-
-impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The state at a time at most one step before or after the present one, by a shorter step of a copy. Its error
-    /// has the order of the scheme, and the run does not change.
-    ///
-    /// ```
-    #[doc = include_str!("../../doc/oscillator.md")]
-    ///
-    /// let start = State::new([1.0], [0.0]);
-    /// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
-    /// let state = run.state_at(0.004)?;
-    /// assert!((state.q[0] - 0.004_f64.cos()).abs() < 1e-8);
-    /// assert!(run.state_at(0.02).is_err());
-    /// # Ok::<(), Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`TimeError::Far`] for a time further away; [`StepError::NotFinite`] and [`StepError::Unsolved`], in which the
-    /// step has the number 1.
-    pub fn state_at(&self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
-        self.part().state_at(t)
-    }
-}
-
-impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// Makes all whole steps up to `t`, and returns the state at `t`, which may be any later time. The rest of the time is
-    /// one shorter step on a copy. Observers receive the states after whole steps only. An event in the shorter step is
-    /// located by the next whole step.
-    ///
-    /// If the length of steps varies in time, the run itself makes the step that passes `t`, since the length of a step
-    /// is known only after it.
-    ///
-    /// If an observer ends the run before `t`, the state at which it did is returned; see
-    /// [`has_ended`](Integrator::has_ended).
-    ///
-    /// # Errors
-    /// [`TimeError::Behind`], [`TimeError::Unreachable`]; those of
-    /// [`advance`](Integrator::advance) and of [`state_at`](Integrator::state_at).
-    pub fn advance_until(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
-        if self.varies() {
-            return self.past(t);
-        }
-        let (before, after) = self.whole_steps(t)?;
-        self.advance(before.unwrap_or(after))?;
-        match before {
-            // The end is a step of the grid, or the state at which an observer ended the run.
-            _ if self.ended => Ok(self.state.clone()),
-            None => Ok(self.state.clone()),
-            Some(_) => self.state_at(t),
-        }
-    }
-
-    /// Returns true if steps differ in time.
-    fn varies(&self) -> bool {
-        self.carried.duration(self.clock.interval).is_some()
-    }
-
-    /// Makes steps of unknown duration until `t` is passed.
-    fn past(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
-        if !t.is_finite() {
-            return Err(TimeError::Unreachable {
-                clock: self.prepared.description().clock().into(),
-                target: t.to_f64(),
-            }
-            .into());
-        }
-        let is_forward = T::zero().lt(self.clock.interval).all();
-        while !self.ended {
-            let (behind, ahead) = match is_forward {
-                true => (self.state.t, t),
-                false => (t, self.state.t),
-            };
-            if !behind.lt(ahead).any() {
-                return self.state_at(t);
-            }
-            self.advance(1)?;
-        }
-        Ok(self.state.clone())
-    }
-
-    /// Makes the whole number of steps that leads to the time `t`.
-    ///
-    /// The step size does not change. If no whole number of steps leads to `t`, up to the rounding of `t`, of the step
-    /// and of the start, this is an error and no step is made. [`advance_until`](Integrator::advance_until) takes any
-    /// time.
-    ///
-    /// # Errors
-    /// [`TimeError::OffGrid`] with the reachable times on both sides, [`TimeError::Behind`],
-    /// [`TimeError::Unreachable`], [`TimeError::Uneven`] where steps have no known duration; those of
-    /// [`advance`](Integrator::advance).
-    pub fn advance_to(&mut self, t: T) -> Result<&State<VectorOf<S, T>>, Error> {
-        if self.varies() {
-            return Err(TimeError::Uneven.into());
-        }
-        match self.whole_steps(t)? {
-            (None, steps) => self.advance(steps),
-            (Some(before), after) => {
-                let made = self.steps - self.began;
-                Err(TimeError::OffGrid {
-                    clock: self.prepared.description().clock().into(),
-                    target: t.to_f64(),
-                    before: self.clock.at(made + before).to_f64(),
-                    after: self.clock.at(made + after).to_f64(),
-                }
-                .into())
-            }
-        }
-    }
-
-    /// The number of steps to `t`, as in [`Clock::whole_steps`].
-    fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), TimeError> {
-        let clock = self.prepared.description().clock();
-        (self.clock).whole_steps(self.steps - self.began, t, clock)
-    }
-
-    /// The states at the given times, which are in the order of the run, independent of the step. The iterator ends if an
-    /// observer ends the run. The first error is the last item.
-    ///
-    /// ```
-    #[doc = include_str!("../../doc/oscillator.md")]
-    ///
-    /// let start = State::new([1.0], [0.0]);
-    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.03)?;
-    /// for state in run.states_at([0.1, 0.2, 1.0]) {
-    ///     let state = state?;
-    ///     assert!((state.q[0] - state.t.cos()).abs() < 1e-4);
-    /// }
-    /// # Ok::<(), Error>(())
-    /// ```
-    pub fn states_at<I: IntoIterator<Item = T>>(
-        &mut self,
-        times: I,
-    ) -> impl Iterator<Item = Result<State<VectorOf<S, T>>, Error>> {
-        let mut times = times.into_iter();
-        let mut failed = false;
-        core::iter::from_fn(move || {
-            if failed || self.ended {
-                return None;
-            }
-            let state = self.advance_until(times.next()?);
-            failed = state.is_err();
-            Some(state)
-        })
     }
 }

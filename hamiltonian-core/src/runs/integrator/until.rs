@@ -1,0 +1,224 @@
+//! Runs to a time, and their states at times.
+//!
+//! Input: a run and times. Output: the run at or near a time, and states at times. Invariant: only whole steps change
+//! the run; a state between two steps is made by a part of a step.
+
+use super::{Integrator, MapOf};
+use crate::errors::{Error, TimeError};
+use crate::observers::observe::{Between, Observer};
+use crate::systems::state::{Carried, State};
+use crate::systems::system::{Dynamics, System, VectorOf};
+use hamiltonian_lanes::{Mask, Real};
+
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+    /// Advances the run to the time `t`, which is a whole number of steps from the current time.
+    ///
+    /// For any other time, use [`advance_until`](Integrator::advance_until). Times are compared up to the rounding of
+    /// `t`, of the step and of the start. The step size does not change.
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
+    /// run.advance_to(0.3)?;
+    /// assert_eq!(run.steps(), 30);
+    /// assert!(matches!(run.advance_to(0.305), Err(Error::Time(_))));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TimeError::OffGrid`] with the reachable times on both sides, [`TimeError::Behind`],
+    /// [`TimeError::Unreachable`], [`TimeError::Uneven`] if steps vary in time; no step is then made. Those of
+    /// [`advance`](Integrator::advance).
+    pub fn advance_to(&mut self, t: T) -> Result<&State<VectorOf<S, T>>, Error> {
+        if self.varies() {
+            return Err(TimeError::Uneven.into());
+        }
+        match self.whole_steps(t)? {
+            (None, steps) => self.advance(steps),
+            (Some(before), after) => {
+                let made = self.steps - self.began;
+                Err(TimeError::OffGrid {
+                    clock: self.prepared.description().clock().into(),
+                    target: t.to_f64(),
+                    before: self.clock.at(made + before).to_f64(),
+                    after: self.clock.at(made + after).to_f64(),
+                }
+                .into())
+            }
+        }
+    }
+
+    /// Advances the run by the whole steps up to `t`, and returns the state at `t`, which may be any later time.
+    ///
+    /// The state at `t` is made by one shorter step of a temporary run. [`state`](Integrator::state) remains the one
+    /// after the last whole step. Observers receive the states after whole steps only, and an event in the shorter step
+    /// is located by the next whole step.
+    ///
+    /// If steps vary in time, the run makes the step that passes `t` too, since its duration is known only after it. If
+    /// an observer ends the run before `t`, the state of that end is returned, see [`has_ended`](Integrator::has_ended).
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
+    /// let state = run.advance_until(0.305)?;
+    /// assert_eq!((state.t, run.time()), (0.305, 0.3));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TimeError::Behind`], [`TimeError::Unreachable`]; those of
+    /// [`advance`](Integrator::advance) and of [`state_at`](Integrator::state_at).
+    pub fn advance_until(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
+        if self.varies() {
+            return self.past(t);
+        }
+        let (before, after) = self.whole_steps(t)?;
+        self.advance(before.unwrap_or(after))?;
+        match before {
+            // The end is a step of the grid, or the state at which an observer ended the run.
+            _ if self.ended => Ok(self.state.clone()),
+            None => Ok(self.state.clone()),
+            Some(_) => self.state_at(t),
+        }
+    }
+
+    /// Advances the run in a loop: returns the states after `every`, 2·`every`, … further steps (0 counts as 1).
+    ///
+    /// The iterator ends when an observer ends the run; otherwise it is infinite. The first error is the last item.
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
+    /// for state in run.states(10).take(3) {
+    ///     let state = state?;
+    ///     println!("{} {}", state.t, state.q[0]);
+    /// }
+    /// assert_eq!(run.steps(), 30);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn states(&mut self, every: u64) -> States<'_, T, S, R, O> {
+        States {
+            run: self,
+            every: every.max(1),
+            failed: false,
+        }
+    }
+
+    /// Advances the run in a loop: returns the states at the given times, as
+    /// [`advance_until`](Integrator::advance_until) does.
+    ///
+    /// The times are in the order of the run, and need not be multiples of the step. The iterator ends if an observer
+    /// ends the run. The first error is the last item.
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.03)?;
+    /// for state in run.states_at([0.1, 0.2, 1.0]) {
+    ///     let state = state?;
+    ///     assert!((state.q[0] - state.t.cos()).abs() < 1e-4);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn states_at<I: IntoIterator<Item = T>>(
+        &mut self,
+        times: I,
+    ) -> impl Iterator<Item = Result<State<VectorOf<S, T>>, Error>> {
+        let mut times = times.into_iter();
+        let mut failed = false;
+        core::iter::from_fn(move || {
+            if failed || self.ended {
+                return None;
+            }
+            let state = self.advance_until(times.next()?);
+            failed = state.is_err();
+            Some(state)
+        })
+    }
+
+    /// Returns true if steps differ in time.
+    fn varies(&self) -> bool {
+        self.carried.duration(self.clock.interval).is_some()
+    }
+
+    /// Makes steps of unknown duration until `t` is passed.
+    fn past(&mut self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
+        if !t.is_finite() {
+            return Err(TimeError::Unreachable {
+                clock: self.prepared.description().clock().into(),
+                target: t.to_f64(),
+            }
+            .into());
+        }
+        let is_forward = T::zero().lt(self.clock.interval).all();
+        while !self.ended {
+            let (behind, ahead) = match is_forward {
+                true => (self.state.t, t),
+                false => (t, self.state.t),
+            };
+            if !behind.lt(ahead).any() {
+                return self.state_at(t);
+            }
+            self.advance(1)?;
+        }
+        Ok(self.state.clone())
+    }
+
+    /// The number of steps to `t`, as in [`Clock::whole_steps`].
+    fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), TimeError> {
+        let clock = self.prepared.description().clock();
+        (self.clock).whole_steps(self.steps - self.began, t, clock)
+    }
+}
+
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// Returns the state at a time at most one step before or after the current one. The run does not change.
+    ///
+    /// The state is made by one shorter step of a temporary run. Its error has the order of the scheme.
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
+    /// let state = run.state_at(0.004)?;
+    /// assert!((state.q[0] - 0.004_f64.cos()).abs() < 1e-8);
+    /// assert!(run.state_at(0.02).is_err());
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TimeError::Far`] for a time further away; [`StepError::NotFinite`](crate::errors::StepError::NotFinite) and
+    /// [`StepError::Unsolved`](crate::errors::StepError::Unsolved), in which the
+    /// step has the number 1.
+    pub fn state_at(&self, t: T) -> Result<State<VectorOf<S, T>>, Error> {
+        self.part().state_at(t)
+    }
+}
+
+/// The iterator of [`Integrator::states`].
+pub struct States<'a, T: Real, S: System, R: MapOf<T, S>, O> {
+    run: &'a mut Integrator<T, S, R, O>,
+    every: u64,
+    failed: bool,
+}
+
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Iterator for States<'_, T, S, R, O> {
+    type Item = Result<State<VectorOf<S, T>>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.failed || self.run.has_ended() {
+            return None;
+        }
+        let state = self.run.advance(self.every).cloned();
+        self.failed = state.is_err();
+        Some(state)
+    }
+}

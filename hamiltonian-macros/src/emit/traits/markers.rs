@@ -7,6 +7,7 @@
 use crate::emit::names::context::Context;
 use crate::emit::types::construct::is_all_defaults;
 use hamiltonian_language::analyse::structure::Reason;
+use proc_macro2::Ident;
 use std::fmt::Write;
 
 /// A piece that cannot exist.
@@ -91,27 +92,45 @@ pub fn implementations(context: Context) -> String {
     out
 }
 
-/// The bound of `Default` that names the parameters without a default, if nothing but numbers is missing. Other systems
-/// have no `Default`, so that users may implement it.
+/// The bound of `Default` that names what has no default: sizes set at run time, functions and parameters, in the order of
+/// the arguments of `new`.
 fn without_default(out: &mut String, context: Context) -> String {
-    if context.has_run_time_sizes() || !context.generics.functions.is_empty() {
-        return String::new();
-    }
     let checked = context.definition.checked;
+    let sizes = context
+        .run_time_sizes()
+        .map(|size| &checked.sizes[size].name);
+    let functions = checked.functions.iter().map(|function| &function.name);
     let parameters = checked.parameters.iter().zip(context.definition.defaults);
-    let missing = parameters.filter(|(_, default)| default.is_none());
-    let missing: Vec<String> = missing.map(|(p, _)| p.name.to_string()).collect();
+    let parameters = parameters.filter(|(_, default)| default.is_none());
+    let parameters = parameters.map(|(parameter, _)| &parameter.name);
+    let kinds: [(&str, Vec<String>); 3] = [
+        ("size", sizes.map(Ident::to_string).collect()),
+        ("function", functions.map(Ident::to_string).collect()),
+        ("parameter", parameters.map(Ident::to_string).collect()),
+    ];
+    let groups = kinds.iter().filter(|(_, names)| !names.is_empty());
+    let groups = groups.map(|(noun, names)| {
+        let plural = if names.len() == 1 { "" } else { "s" };
+        format!("its {noun}{plural} `{}`", names.join("`, `"))
+    });
+    let groups = groups.collect::<Vec<_>>().join(" and ");
+    let missing = kinds.each_ref().map(|(_, names)| names.as_slice()).concat();
     let (first, name) = (&missing[0], &context.generics.name);
-    let (noun, verb) = match missing.len() {
-        1 => ("parameter", "has"),
-        _ => ("parameters", "have"),
+    let verb = match missing.len() {
+        1 => "has",
+        _ => "have",
     };
-    let names = missing.join("`, `");
+    // Only numbers can have a default.
+    let (question, alternative) = match missing.len() == kinds[2].1.len() {
+        true => ("", ", or declare a default for each parameter"),
+        false if context.has_run_time_sizes() => ("?", ""),
+        false => ("", ""),
+    };
     let reason = Reason {
-        message: format!("`{name}` has no `Default`: its {noun} `{names}` {verb} no default"),
+        message: format!("`{name}` has no `Default`: {groups} {verb} no default"),
         label: format!("`{first}` has no value"),
         note: format!(
-            "write `{name}::new({})`, or declare a default for each parameter",
+            "write `{name}::new({}){question}`{alternative}",
             missing.join(", ")
         ),
     };

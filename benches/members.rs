@@ -199,7 +199,7 @@ fn main() {
         let mut most = vec![0.0; COUNT];
         let mut least = [f64::INFINITY; 11];
         let mut drifts = swarm(&plain).observe(|_| EnergyDrift::new());
-        let section = |_| Events::new([Event::named("bottom").rising()]);
+        let section = |_| Events::new([Event::named("bottom").with_direction(1)]);
         let mut sections = swarm(&plain).observe(section);
         let system = black_box(Pendulum::default());
         for _ in 0..5 {

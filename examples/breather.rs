@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     checks.compare(
         "max |ΔH/H₀|",
-        run.observer().inner.max_relative(),
+        run.observer().inner().max_relative(),
         0.0,
         2e-3,
     );

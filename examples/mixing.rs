@@ -144,7 +144,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut checks = Checks::default();
     let drift = swarm.observers().map(|drift| {
         drift
-            .inner
+            .inner()
             .drift()
             .map_or(f64::NAN, |drift| drift.max_absolute())
     });

@@ -131,7 +131,7 @@ fn collapse(n: usize, checks: &mut Checks) -> Result<(), Box<dyn std::error::Err
         .observe(every(8, (EnergyDrift::new(), Recorder::new())));
     run.advance_to(8.0)?;
 
-    let (drift, record) = &run.observer().inner;
+    let (drift, record) = run.observer().inner();
     let column = |name| record.column(name).ok_or(format!("no column {name}"));
     let radius: Vec<_> = column("t")?.zip(column("radius")?).collect();
     let (fall, _) =

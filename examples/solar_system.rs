@@ -133,7 +133,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         _ => f64::NAN,
     };
     checks.compare("period of that swing in years", swing, 20_000.0, 500.0);
-    let (drift, monitors) = &run.observer().inner;
+    let (drift, monitors) = run.observer().inner();
     checks.compare("max |ΔH/H₀|", drift.max_relative(), 0.0, 1e-4);
     for monitor in monitors.all() {
         checks.compare(

@@ -148,7 +148,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     picture(run.state(), n).write("target/stars/merger.svg")?;
     run.advance(END - PICTURE)?;
 
-    let (drift, record) = &run.observer().1.inner;
+    let (drift, record) = run.observer().1.inner();
     let column = |name| record.column(name).ok_or(format!("no column {name}"));
     // −V = T − H.
     let late: Vec<f64> = column("t")?

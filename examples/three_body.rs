@@ -94,7 +94,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .observe(every(10, EnergyDrift::new()));
         let end = run.advance(steps)?;
         off = (end.q - start.q).norm().max((end.p - start.p).norm());
-        let drift = run.observer().inner.max_relative();
+        let drift = run.observer().inner().max_relative();
         println!("{steps:>10} {off:>22.1e} {drift:>14.1e}");
     }
     checks.compare("off after one period, 40 000 steps", off, 0.0, 5e-7);

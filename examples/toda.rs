@@ -155,7 +155,7 @@ fn two_hundred(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error>> {
         let alone = soliton.x + slower * soliton.speed() * END;
         checks.compare(name, soliton.find(&last, alone) - alone, known, 4e-3);
     }
-    let (drift, monitors) = &run.observer().inner;
+    let (drift, monitors) = run.observer().inner();
     let momentum = monitors
         .get("total_momentum")
         .map_or(f64::NAN, |m| m.max_absolute());

@@ -36,7 +36,7 @@ fn regular() -> StateOf<HenonHeiles> {
 #[test]
 fn henon_heiles_crosses_the_meridian_306_times() {
     let new = || Integrator::new(&HenonHeiles {}, BlanesMoan6, regular(), 0.1).unwrap();
-    let mut run = new().observe(Events::new([Event::named("meridian").rising()]));
+    let mut run = new().observe(Events::new([Event::named("meridian").with_direction(1)]));
     run.advance_to(2000.0).unwrap();
     let events = run.observer();
     assert_eq!(events.count("meridian"), 306);
@@ -105,7 +105,7 @@ fn arenstorfs_orbit_closes() {
     let start: StateOf<Arenstorf> = State::new([x, 0.0], [0.0, v + x]);
     const STEPS: u64 = 10_000;
     let step = period / STEPS as f64;
-    let axis = Event::named("axis").falling();
+    let axis = Event::named("axis").with_direction(-1);
     let system = Arenstorf::default();
     let run = Integrator::new(&system, Gauss::<8>::default(), start.clone(), step);
     let mut run = run.unwrap().observe(Events::new([axis]));

@@ -207,7 +207,7 @@ fn correctors_make_the_error_of_planets_a_hundred_times_smaller() {
         let run = Integrator::new(system, scheme, start.clone(), STEP).unwrap();
         let mut run = run.observe(every(10, EnergyDrift::new()));
         let end = run.advance(STEPS).unwrap().clone();
-        (end, run.observer().inner.max_relative())
+        (end, run.observer().inner().max_relative())
     }
     let plain = run(&system, &start, Strang);
     let corrected = run(&system, &start, WisdomHolman17::default());

@@ -17,7 +17,7 @@ fn main() -> Result<(), Error> {
     let half = |p_y: f64| -> Result<(f64, f64), Error> {
         let start = State::new([0.5, 0.0], [0.0, p_y]);
         let mut run = Integrator::new(&system, scheme(), start, 1e-2)?
-            .observe(Events::new([Event::named("axis").ending_after(2)]));
+            .observe(Events::new([Event::named("axis").with_end_after(2)]));
         run.advance(1_000)?;
         let located = run.observer().located();
         Ok(located

@@ -264,7 +264,7 @@ fn a_recorder_with_the_energy() {
         .unwrap()
         .observe(every(50, Recorder::new().with_energy()));
     run.advance(100).unwrap();
-    let recorder = &run.observer().inner;
+    let recorder = run.observer().inner();
     assert_eq!(recorder.columns(), ["t", "x", "y", "p_x", "p_y", "H"]);
     let energies: Vec<f64> = recorder.column("H").unwrap().collect();
     assert_eq!(energies[2], run.energy());

@@ -133,7 +133,7 @@ fn the_drift_of_energy_leaves_out_the_change() {
     assert!(given.abs() > 1e-2, "the kicks change H: {given}");
     let drift = run.observer().0.drift().unwrap();
     assert!(drift.max_absolute() < 2e-4, "{}", drift.max_absolute());
-    assert!(run.observer().1.inner.drift().unwrap().max_absolute() < 2e-4);
+    assert!(run.observer().1.inner().drift().unwrap().max_absolute() < 2e-4);
     assert!((drift.start() - energy(&start()) - given).abs() < 1e-15);
     assert!((drift.mean() - sum / count).abs() < 1e-14);
     // Without the hook the kicks would be a drift.
@@ -206,8 +206,8 @@ fn no_event_is_sought_in_a_change() {
 fn a_run_that_an_event_ended_goes_on_from_the_change() {
     let system = pendulum(true);
     let wall = Event::of("wall", |state: &State<SVector<f64, 1>>| state.q[0] - 0.2)
-        .rising()
-        .ending();
+        .with_direction(1)
+        .with_end_after(1);
     let mut run = Integrator::new(
         &system,
         StormerVerlet::default(),
@@ -250,7 +250,7 @@ fn states_at_times_lie_on_their_side_of_a_change() {
     run.advance(10).unwrap();
     let p = run
         .observer()
-        .inner
+        .inner()
         .column("p_x")
         .unwrap()
         .collect::<Vec<_>>();
@@ -275,7 +275,7 @@ fn times_before_a_change_are_not_lost() {
     let system = pendulum(true);
     let run = |from: f64| {
         let wall = Event::of("wall", |state: &State<SVector<f64, 1>>| state.q[0] - 0.2);
-        let events = Events::new([wall.rising().ending()]);
+        let events = Events::new([wall.with_direction(1).with_end_after(1)]);
         let start = State::new([-0.5], [0.0]);
         let times = at_times([from], Recorder::new());
         Integrator::new(&system, StormerVerlet::default(), start, 0.1)
@@ -296,7 +296,7 @@ fn times_before_a_change_are_not_lost() {
     run.set_state(back).unwrap();
     run.go_on();
     run.advance(3).unwrap();
-    let recorder = &run.observer().1.inner.inner;
+    let recorder = run.observer().1.inner().inner();
     let [theta, p] = ["theta", "p"].map(|name| recorder.column(name).unwrap().next().unwrap());
     assert!(theta < 0.2 && p > 0.0, "before the wall: {theta} {p}");
 }

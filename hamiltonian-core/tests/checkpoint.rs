@@ -185,10 +185,10 @@ fn another_run_is_refused() {
     let zero = || Event::of("zero", |state: &StateOf<Hand<Pendulum, 1>>| state.q[0]);
     let events = [
         zero(),
-        zero().rising(),
-        zero().falling(),
-        zero().modulo(6.0),
-        zero().ending_after(5),
+        zero().with_direction(1),
+        zero().with_direction(-1),
+        zero().with_period(6.0),
+        zero().with_end_after(5),
     ]
     .map(|event| Events::new([event]));
     for other in 1..4 {
@@ -441,6 +441,6 @@ mod kills {
         assert_eq!(again.state(), whole.state());
         assert_eq!(again.carried(), whole.carried());
         assert_eq!(again.observer().0, whole.observer().0);
-        assert_eq!(again.observer().1.inner, whole.observer().1.inner);
+        assert_eq!(again.observer().1.inner(), whole.observer().1.inner());
     }
 }

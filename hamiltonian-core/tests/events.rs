@@ -19,9 +19,9 @@ fn begin() -> State<Plane> {
 /// x = 0 rising, y = 0 both ways, and y at its extremes.
 fn events() -> Events<Plane> {
     Events::new([
-        Event::of("x", |state: &State<Plane>| state.q[0]).rising(),
+        Event::of("x", |state: &State<Plane>| state.q[0]).with_direction(1),
         Event::of("y", |state: &State<Plane>| state.q[1]),
-        Event::of("turn", |state: &State<Plane>| state.p[1]).falling(),
+        Event::of("turn", |state: &State<Plane>| state.p[1]).with_direction(-1),
     ])
 }
 
@@ -110,7 +110,7 @@ fn several_events_in_a_step_come_in_the_order_of_time() {
         at("a", |t| 1.01 - t),
         at("b", |t| t * t * t - 1.05 * 1.05 * 1.05),
         at("on the grid", |t| t - 1.125),
-        at("rising", |t| 1.03 - t).rising(),
+        at("rising", |t| 1.03 - t).with_direction(1),
     ]));
     run.advance(16).unwrap();
     let expected = [
@@ -159,10 +159,12 @@ fn starts_on_an_event_touches_and_poles_are_none() {
 fn angles_are_counted_modulo_their_period() {
     let wrapped = |t: f64| (3.0 * t).sin().atan2((3.0 * t).cos());
     let mut run = clock(Events::new([
-        at("grows", |t| 3.0 * t - 1.0).modulo(TAU),
-        at("jumps", move |t| wrapped(t) - 1.0).modulo(TAU),
+        at("grows", |t| 3.0 * t - 1.0).with_period(TAU),
+        at("jumps", move |t| wrapped(t) - 1.0).with_period(TAU),
         at("jumps as it is", wrapped),
-        at("back", |t| 1.0 - 3.0 * t).modulo(TAU).falling(),
+        at("back", |t| 1.0 - 3.0 * t)
+            .with_period(TAU)
+            .with_direction(-1),
     ]));
     run.advance(80).unwrap();
     let turns =
@@ -190,10 +192,10 @@ fn angles_are_counted_modulo_their_period() {
 fn an_event_may_end_the_run_and_the_run_may_go_on() {
     let events = || {
         Events::new([
-            at("a", |t| (t - 1.01) * (t - 2.3)).ending(),
-            at("b", |t| t - 1.05).ending(),
+            at("a", |t| (t - 1.01) * (t - 2.3)).with_end_after(1),
+            at("b", |t| t - 1.05).with_end_after(1),
             at("c", |t| t - 1.08),
-            at("d", |t| (3.0 * t).sin()).ending_after(4),
+            at("d", |t| (3.0 * t).sin()).with_end_after(4),
         ])
     };
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
@@ -245,8 +247,8 @@ fn events_run_backwards_and_in_double_doubles() {
     let mut run = Integrator::new(&Hand(HenonHeiles), scheme, begin(), -0.125)
         .unwrap()
         .observe(Events::new([
-            at("x", |t| t + 0.3).falling(),
-            at("y", |t| t + 0.8).rising(),
+            at("x", |t| t + 0.3).with_direction(-1),
+            at("y", |t| t + 0.8).with_direction(1),
         ]));
     run.advance(16).unwrap();
     assert_times(run.observer(), &[(0, false, -0.3)]);
@@ -288,7 +290,7 @@ fn events_that_cannot_be_located_are_errors() {
     let mut run = swing.unwrap().observe(Events::new([Event::named("hight")]));
     let error = text(run.advance(1).unwrap_err());
     assert!(error.ends_with("help: it declares `height`"), "{error}");
-    let mut run = new().observe(Events::new([at("t", |t| t).modulo(-1.0)]));
+    let mut run = new().observe(Events::new([at("t", |t| t).with_period(-1.0)]));
     let error = run.advance(1).unwrap_err();
     assert_eq!(
         text(error),
@@ -323,7 +325,7 @@ fn outputs_at_times_are_those_of_the_run() {
     let watch = || (EnergyDrift::new(), at_times(grid(), Recorder::new()));
     let mut run = new().observe(watch());
     run.advance(80).unwrap();
-    let recorder = &run.observer().1.inner;
+    let recorder = run.observer().1.inner();
     let mut plain = new();
     let expected = plain.states_at(grid().take_while(|t| *t <= 10.0));
     let mut rows = recorder.iter();
@@ -344,7 +346,7 @@ fn outputs_at_times_are_those_of_the_run() {
         let again = Integrator::resume(&Hand(HenonHeiles), scheme, saved).unwrap();
         let mut again = again.observe(watch());
         again.advance(80 - made).unwrap();
-        assert_eq!(again.observer().1.inner, *recorder);
+        assert_eq!(again.observer().1.inner(), recorder);
         assert_eq!(again.state(), run.state());
     }
     // A time behind the start is an error.

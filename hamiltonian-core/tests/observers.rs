@@ -35,7 +35,7 @@ fn the_start_and_every_multiple_are_seen_on_every_path() {
         let mut run = run().observe((every(4, Steps::default()), every(6, Steps::default())));
         drive(&mut run);
         let (fours, sixes) = run.into_observer();
-        (fours.inner.0, sixes.inner.0)
+        (fours.into_inner().0, sixes.into_inner().0)
     };
     let expected = (vec![0, 4, 8, 12, 16], vec![0, 6, 12]);
     assert_eq!(
@@ -63,7 +63,7 @@ fn the_start_and_every_multiple_are_seen_on_every_path() {
     late.advance(5).unwrap();
     let mut late = late.observe(every(4, Steps::default()));
     late.advance(8).unwrap();
-    assert_eq!(late.observer().inner.0, [5, 8, 12]);
+    assert_eq!(late.observer().inner().0, [5, 8, 12]);
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn drifts_are_those_of_the_states() {
 fn csv_reads_back_to_the_same_bits() {
     let mut run = run().observe(every(100, Recorder::new()));
     run.advance(300).unwrap();
-    let recorder = &run.observer().inner;
+    let recorder = run.observer().inner();
     let mut csv = Vec::new();
     recorder.write_csv(&mut csv).unwrap();
     let csv = String::from_utf8(csv).unwrap();

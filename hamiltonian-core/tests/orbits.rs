@@ -339,7 +339,7 @@ impl Restricted {
         let system = Hand(Planar::Restricted(self.clone()));
         let crossing = |p_y: f64| {
             let start = State::new([x, 0.0], [0.0, p_y]);
-            let axis = Events::new([Event::named("axis").ending()]);
+            let axis = Events::new([Event::named("axis").with_end_after(1)]);
             let mut run = Integrator::new(&system, Gauss::<4>::default(), start, 0.004)
                 .expect("a good start")
                 .observe(axis);

@@ -139,8 +139,8 @@ fn what_lies_between_zeros_on_steps_is_found_and_no_pole_is_a_root() {
         let expected = product.roots(last);
         for slope in [0, 1, -1] {
             let change = |event: Event<Plane>| match slope {
-                1 => event.rising(),
-                -1 => event.falling(),
+                1 => event.with_direction(1),
+                -1 => event.with_direction(-1),
                 _ => event,
             };
             let wanted = expected
@@ -242,9 +242,11 @@ fn successive_zeros_poles_on_steps_and_jumps_are_told_apart() {
 fn a_run_that_ended_at_a_zero_on_a_step_goes_on_without_it() {
     let events = || {
         Events::new([
-            at("a", |t| (t - 0.25) * (t - 0.5)).ending(),
+            at("a", |t| (t - 0.25) * (t - 0.5)).with_end_after(1),
             at("b", |t| (t - 0.25) * (t - 0.3) * (t - 0.5)),
-            at("c", |t| (t - 0.25) * (t - 0.5)).falling().ending(),
+            at("c", |t| (t - 0.25) * (t - 0.5))
+                .with_direction(-1)
+                .with_end_after(1),
         ])
     };
     let expected = [
@@ -407,7 +409,7 @@ fn ended_and_saved_runs_find_the_same_roots() {
         let events = || {
             let product = product.clone();
             let event = Event::of("f", move |state: &State<Plane>| product.value(state.t));
-            Events::new([event.ending_after(ends_after)])
+            Events::new([event.with_end_after(ends_after)])
         };
         let start = State::new([0.1, -0.25], [0.42, 0.1]);
         let (system, scheme) = (Hand(HenonHeiles), StormerVerlet::default());
@@ -472,10 +474,10 @@ fn multiples_of_periods_are_found_on_steps_and_between() {
         let direction = random.below(3);
         let event = move || {
             let event =
-                Event::of("f", move |state: &State<Plane>| function(state.t)).modulo(period);
+                Event::of("f", move |state: &State<Plane>| function(state.t)).with_period(period);
             match direction {
-                1 => event.rising(),
-                2 => event.falling(),
+                1 => event.with_direction(1),
+                2 => event.with_direction(-1),
                 _ => event,
             }
         };

@@ -1,7 +1,7 @@
 //! Events: roots of functions of the state, located by the run.
 //!
 //! Input: the states of a run, step by step, and [`Event`]s: declared ones by name, others as closures.
-//! Output: [`Located`] states in the order of the run, and the end of the run if an event is ending.
+//! Output: [`Located`] states in the order of the run, and the end of the run if an event ends it.
 //! Invariants: the bits of the run do not change. An event is a change of sign of the function, so a start on a root is
 //! no event, and neither is a function that touches 0. Each root is an event of one step only.
 
@@ -56,10 +56,10 @@ pub struct Located<V: Vector> {
 /// function has the value 0 at the jump: it must tend to 0 from both sides. The function `sign(x)` has no events;
 /// use `x`.
 ///
-/// An event that is [ending](Event::ending) ends the run, and the state of the run is then the one at the
+/// An event [with an end](Event::with_end_after) ends the run, and the state of the run is then the one at the
 /// event. After [`go_on`](crate::Integrator::go_on) the run continues from the end of its last step.
 ///
-/// A Poincaré section is an event that is rising or falling. Hénon's trick (M. Hénon, Physica D 5 (1982)
+/// A Poincaré section is an event [with a direction](Event::with_direction). Hénon's trick (M. Hénon, Physica D 5 (1982)
 /// 412, doi:10.1016/0167-2789(82)90034-3) makes the function the independent variable for one step. It is not
 /// needed here: shorter steps have the same order, and the function is 0 to rounding.
 ///
@@ -71,7 +71,7 @@ pub struct Located<V: Vector> {
 ///
 /// let events = Events::new([
 ///     Event::of("q = 0", |state: &StateOf<Oscillator>| state.q[0]),
-///     Event::of("p = 0", |state: &StateOf<Oscillator>| state.p[0]).rising().ending_after(2),
+///     Event::of("p = 0", |state: &StateOf<Oscillator>| state.p[0]).with_direction(1).with_end_after(2),
 /// ]);
 /// let scheme = Composition::yoshida(StormerVerlet::default());
 /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?.observe(events);
@@ -275,7 +275,7 @@ impl<V: Vector> Events<V> {
                 ends: [(zero, from), (one, end)].map(|(at, value)| Sample { at, value }),
                 was: history.side,
                 change: history.change,
-                slope: event.slope,
+                slope: event.direction.signum(),
             };
             let (roots, side) = in_step.roots()?;
             for root in roots {

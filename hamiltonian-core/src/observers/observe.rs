@@ -222,7 +222,7 @@ impl<T: Real, S: System, R: Verdict, F: FnMut(&View<'_, T, S>) -> R> Observer<T,
 /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
 ///     .observe((&mut drift, every(100, Recorder::new())));
 /// run.advance(1_000)?;
-/// assert_eq!(run.observer().1.inner.rows(), 11);
+/// assert_eq!(run.observer().1.inner().rows(), 11);
 /// assert!(drift.max_relative() < 1e-4);
 /// # Ok::<(), Error>(())
 /// ```
@@ -237,8 +237,19 @@ pub fn every<O>(steps: u64, observer: O) -> Every<O> {
 #[derive(Debug, Clone)]
 pub struct Every<O> {
     steps: u64,
+    inner: O,
+}
+
+impl<O> Every<O> {
     /// The observer inside.
-    pub inner: O,
+    pub fn inner(&self) -> &O {
+        &self.inner
+    }
+
+    /// Returns the observer inside.
+    pub fn into_inner(self) -> O {
+        self.inner
+    }
 }
 
 impl<T: Real, S: System, O: Observer<T, S>> Observer<T, S> for Every<O> {

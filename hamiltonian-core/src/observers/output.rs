@@ -34,7 +34,7 @@ use hamiltonian_lanes::Real;
 /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.5)?
 ///     .observe(every(2, Recorder::with_capacity(3)));
 /// run.advance(4)?;
-/// let recorder = &run.observer().inner;
+/// let recorder = run.observer().inner();
 /// assert_eq!(recorder.columns(), ["t", "q", "p"]);
 /// assert_eq!(recorder.column("t").unwrap().collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
 /// # Ok::<(), Error>(())

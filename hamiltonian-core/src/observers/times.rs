@@ -26,7 +26,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.03)?
 ///     .observe(at_times(tenths, Recorder::new()));
 /// run.advance(34)?;
-/// let recorder = &run.observer().inner;
+/// let recorder = run.observer().inner();
 /// assert_eq!(recorder.rows(), 11);
 /// for row in recorder.iter() {
 ///     assert!((row[1] - row[0].cos()).abs() < 1e-4);
@@ -59,8 +59,19 @@ pub struct AtTimes<V: Vector, I, O> {
     before: Option<State<V>>,
     end: Option<State<V>>,
     failure: Option<Error>,
+    inner: O,
+}
+
+impl<V: Vector, I, O> AtTimes<V, I, O> {
     /// The observer inside.
-    pub inner: O,
+    pub fn inner(&self) -> &O {
+        &self.inner
+    }
+
+    /// Returns the observer inside.
+    pub fn into_inner(self) -> O {
+        self.inner
+    }
 }
 
 impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {

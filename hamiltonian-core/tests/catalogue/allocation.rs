@@ -46,7 +46,7 @@ impl<S: System> Visitor<S> for NoAllocations<S> {
             "{name} on {}, observed",
             self.0.description().name
         );
-        assert_eq!(run.observer().1.inner.1.rows(), 101);
+        assert_eq!(run.observer().1.inner().1.rows(), 101);
     }
 }
 

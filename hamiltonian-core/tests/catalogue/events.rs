@@ -22,9 +22,9 @@ fn begin() -> State<Plane> {
 /// x = 0 rising, y = 0 both ways, and y at its extremes.
 fn events() -> Events<Plane> {
     Events::new([
-        Event::of("x", |state: &State<Plane>| state.q[0]).rising(),
+        Event::of("x", |state: &State<Plane>| state.q[0]).with_direction(1),
         Event::of("y", |state: &State<Plane>| state.q[1]),
-        Event::of("turn", |state: &State<Plane>| state.p[1]).falling(),
+        Event::of("turn", |state: &State<Plane>| state.p[1]).with_direction(-1),
     ])
 }
 

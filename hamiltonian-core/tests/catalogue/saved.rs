@@ -62,7 +62,7 @@ impl<T: Real, S: Sample<T>> Visitor<S> for Resumes<T> {
             assert_eq!((again.steps(), again.time()), (run.steps(), run.time()));
             let ((drift, (monitors, recorder)), ours) = (again.observer(), run.observer());
             assert_eq!((drift, monitors), (&ours.0, &ours.1.0), "{name} at {steps}");
-            assert_eq!(recorder.inner, ours.1.1.inner, "{name} at {steps}");
+            assert_eq!(recorder.inner(), ours.1.1.inner(), "{name} at {steps}");
             let count = drift.drift().map(Deviation::count);
             assert_eq!(count, Some(steps + 1031), "{name} at {steps}");
         }

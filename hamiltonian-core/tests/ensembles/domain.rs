@@ -142,14 +142,14 @@ fn members_that_leave_the_domain_have_the_errors_of_single_runs() {
     let followed = sweep()
         .reproducible()
         .observe(|_| every(3, EnergyDrift::new()))
-        .record(["drift"], |end| [end.observer.inner.max_relative()]);
+        .record(["drift"], |end| [end.observer.inner().max_relative()]);
     let followed = followed.fold(vec![], take).expect("rows");
     let watched = sweep()
         .reproducible()
         .observe(|_| every(5, Recorder::of(["x"])))
         .record(["least"], |end| {
             [end.observer
-                .inner
+                .inner()
                 .column("x")
                 .map_or(f64::NAN, |x| x.fold(f64::MAX, f64::min))]
         });

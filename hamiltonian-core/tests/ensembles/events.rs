@@ -23,11 +23,14 @@ fn sought(member: Member) -> Events<hamiltonian::private::SVector<f64, 1>> {
     let count = 1 + member.index as u64 % 5;
     match member.index % 7 {
         0 => Events::new([bottom()]),
-        1 => Events::new([bottom().rising()]),
-        2 => Events::new([Event::named("angular").falling(), bottom()]),
-        3 => Events::new([bottom().modulo(TAU), Event::named("angular")]),
-        4 => Events::new([bottom().modulo(1.5).rising().ending_after(count)]),
-        5 => Events::new([Event::named("angular").ending_after(count)]),
+        1 => Events::new([bottom().with_direction(1)]),
+        2 => Events::new([Event::named("angular").with_direction(-1), bottom()]),
+        3 => Events::new([bottom().with_period(TAU), Event::named("angular")]),
+        4 => Events::new([bottom()
+            .with_period(1.5)
+            .with_direction(1)
+            .with_end_after(count)]),
+        5 => Events::new([Event::named("angular").with_end_after(count)]),
         // A closure is seen member by member.
         _ => Events::new([Event::of("level", |state: &StateOf<Pendulum>| {
             state.q[0] - 0.3
@@ -59,7 +62,7 @@ fn events_of_members_are_those_of_single_runs() {
                 run.advance(1501).expect("finite");
                 let place = format!("{cpu:?}, step {step}, member {index}");
                 assert_eq!(events.located(), run.observer().0.located(), "{place}");
-                assert_eq!(monitors.inner, run.observer().1.inner, "{place}");
+                assert_eq!(monitors.inner(), run.observer().1.inner(), "{place}");
                 assert_eq!(bits(&end.expect("finite")), bits(run.state()), "{place}");
                 assert_eq!(swarm.steps_of(index), Some(run.steps()), "{place}");
                 found += events.located().len();
@@ -152,7 +155,7 @@ fn events_before_a_failure_are_found_once() {
     let marks = |member: Member| {
         let mark = Event::named("mark");
         Events::new([if member.index.is_multiple_of(6) {
-            mark.ending()
+            mark.with_end_after(1)
         } else {
             mark
         }])
@@ -291,7 +294,11 @@ fn zeros_on_steps_are_found_in_lanes() {
         let marks = Event::named("marks");
         let is_rising = member.index.is_multiple_of(5);
         Events::new([
-            if is_rising { marks.rising() } else { marks },
+            if is_rising {
+                marks.with_direction(1)
+            } else {
+                marks
+            },
             Event::named("pole"),
             Event::named("turn"),
         ])

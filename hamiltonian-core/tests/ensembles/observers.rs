@@ -7,7 +7,7 @@ fn observers_of_members_are_those_of_single_runs() {
     let _level = one_level();
     let observer = |_: Member| (EnergyDrift::new(), every(3, Recorder::new()));
     let ending = |member: Member| {
-        Events::new([Event::named("bottom").ending_after(1 + member.index as u64 % 3)])
+        Events::new([Event::named("bottom").with_end_after(1 + member.index as u64 % 3)])
     };
     let mut drifts = Ensemble::new(COUNT, pendulum, StormerVerlet::default(), 0.05)
         .expect("there are members")
@@ -33,7 +33,7 @@ fn observers_of_members_are_those_of_single_runs() {
             .observe(observer(member));
         run.advance(133).expect("finite");
         assert_eq!(drift.0, run.observer().0, "member {index}");
-        assert_eq!(drift.1.inner.rows(), run.observer().1.inner.rows());
+        assert_eq!(drift.1.inner().rows(), run.observer().1.inner().rows());
         let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.05)
             .expect("a good start")
             .observe(ending(member));
@@ -54,7 +54,7 @@ fn intervals_of_neighbours_change_no_bit() {
             .with_end_each(|member| 5.0 + part(member.index))
             .observe(move |member| every(interval(member), EnergyDrift::new()))
             .record(["t", "q", "p", "mean", "max"], |end| {
-                let (State { t, q, p }, drift) = (end.state, &end.observer.inner);
+                let (State { t, q, p }, drift) = (end.state, end.observer.inner());
                 [*t, q[0], p[0], drift.mean_relative(), drift.max_relative()]
             })
     };
@@ -71,7 +71,7 @@ fn intervals_of_neighbours_change_no_bit() {
                 .expect("a good start")
                 .observe(every(interval(member), EnergyDrift::new()));
             run.advance(*steps).expect("finite");
-            let drift = &run.observer().inner;
+            let drift = run.observer().inner();
             let expected = [drift.mean_relative(), drift.max_relative()];
             assert_eq!(values[3..], expected.map(f64::to_bits), "{cpu:?}, {index}");
         }
@@ -83,7 +83,7 @@ fn intervals_of_neighbours_change_no_bit() {
             swarm.advance(50).advance(70);
             let drifts = swarm
                 .observers()
-                .map(|one| one.inner.mean_relative().to_bits());
+                .map(|one| one.inner().mean_relative().to_bits());
             drifts.collect::<Vec<_>>()
         };
         let many = swarm(COUNT);

@@ -66,10 +66,10 @@ fn closures_of_an_ensemble() {
         let expected = run.advance(10).expect("finite").clone();
         let found = swarm.state_of(index).expect("a member").expect("finite");
         assert_eq!(bits(&found), bits(&expected), "member {index}");
-        assert_eq!(recorder.inner.rows(), 6);
-        let rows = recorder.inner.iter().flatten();
+        assert_eq!(recorder.inner().rows(), 6);
+        let rows = recorder.inner().iter().flatten();
         assert!(
-            rows.eq(run.observer().inner.iter().flatten()),
+            rows.eq(run.observer().inner().iter().flatten()),
             "member {index}"
         );
     }

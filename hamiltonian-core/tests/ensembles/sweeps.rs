@@ -84,7 +84,7 @@ fn sweeps_record_at_times_and_sections() {
     }
     let section = Sweep::new(40, start, StormerVerlet::default(), 0.02)
         .with_steps(1000)
-        .observe(|_| Events::new([Event::named("bottom").rising()]))
+        .observe(|_| Events::new([Event::named("bottom").with_direction(1)]))
         .record_rows(["t", "p"], |end| {
             end.observer
                 .states("bottom")

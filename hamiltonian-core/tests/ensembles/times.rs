@@ -31,7 +31,7 @@ fn members_reach_a_time_as_single_runs_do() {
     };
     let ending = |member: Member| {
         let ends = 1 + member.index as u64 % 4;
-        Events::new([Event::named("bottom").ending_after(ends)])
+        Events::new([Event::named("bottom").with_end_after(ends)])
     };
     let mut swarm = Ensemble::new(COUNT, together, StormerVerlet::default(), 0.0625)
         .expect("there are members")
@@ -97,7 +97,7 @@ fn a_saved_ensemble_goes_on_with_the_same_bits() {
     };
     let observer = |member: Member| {
         let ends = 1 + member.index as u64 % 3;
-        let events = Events::new([Event::named("bottom").ending_after(ends)]);
+        let events = Events::new([Event::named("bottom").with_end_after(ends)]);
         (EnergyDrift::new(), events)
     };
     let mut swarm = ensemble().observe(observer);

@@ -51,7 +51,7 @@ pub extern "C" fn begin(energy: f64, y: f64, p_y: f64) -> bool {
     let observers = || {
         (
             EnergyDrift::new(),
-            Events::new([Event::named("section").rising()]),
+            Events::new([Event::named("section").with_direction(1)]),
         )
     };
     let run = run.map(|run| run.observe(observers()));

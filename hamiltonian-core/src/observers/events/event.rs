@@ -13,23 +13,23 @@ use hamiltonian_lanes::Real;
 
 /// A function of the state whose roots a run locates, see [`Events`](crate::observers::Events).
 ///
-/// By default, roots in both directions are events and the run continues. Methods change this:
+/// By default, roots in both directions are events and the run continues. Options change this:
 ///
 /// ```
 /// use hamiltonian::nalgebra::SVector;
 /// use hamiltonian::prelude::*;
 ///
 /// type Plane = State<SVector<f64, 2>>;
-/// let section = Event::named("meridian").rising();
-/// let ground = Event::of("ground", |state: &Plane| state.q[1]).falling().ending();
-/// let node = Event::of("node", |state: &Plane| state.q[0] - 0.5).modulo(std::f64::consts::TAU);
+/// let section = Event::named("meridian").with_direction(1);
+/// let ground = Event::of("ground", |state: &Plane| state.q[1]).with_direction(-1).with_end_after(1);
+/// let node = Event::of("node", |state: &Plane| state.q[0] - 0.5).with_period(std::f64::consts::TAU);
 /// # let _: [Event<SVector<f64, 2>>; 3] = [section, ground, node];
 /// ```
 pub struct Event<V: Vector> {
     pub(super) name: String,
     pub(super) function: Option<StateFunction<V>>,
     /// The required sign of the slope; 0 for both.
-    pub(super) slope: i8,
+    pub(super) direction: i8,
     pub(super) period: Option<V::Scalar>,
     pub(super) ends_after: Option<u64>,
 }
@@ -43,7 +43,7 @@ impl<V: Vector> Event<V> {
         Event {
             name: name.to_owned(),
             function: None,
-            slope: 0,
+            direction: 0,
             period: None,
             ends_after: None,
         }
@@ -60,37 +60,26 @@ impl<V: Vector> Event<V> {
         }
     }
 
-    /// Selects roots at which the function increases, in the direction of the run.
+    /// Selects roots by the sign of the slope, in the direction of the run: 1 for roots at which the function increases, −1
+    /// for those at which it decreases, 0 for both. The default is 0.
     #[must_use]
-    pub fn rising(self) -> Self {
-        Event { slope: 1, ..self }
-    }
-
-    /// Selects roots at which the function decreases, in the direction of the run.
-    #[must_use]
-    pub fn falling(self) -> Self {
-        Event { slope: -1, ..self }
+    pub fn with_direction(self, direction: i8) -> Self {
+        Event { direction, ..self }
     }
 
     /// Selects points at which the function is a multiple of `period`, which is positive. This is for angles, which
     /// grow without bound or jump by 2π. In each step the function must change by less than half a period.
     #[must_use]
-    pub fn modulo(self, period: V::Scalar) -> Self {
+    pub fn with_period(self, period: V::Scalar) -> Self {
         Event {
             period: Some(period),
             ..self
         }
     }
 
-    /// Ends the run at the first event.
+    /// Ends the run at event number `count`, counted from 1: after 1, at the first event. By default, no event ends the run.
     #[must_use]
-    pub fn ending(self) -> Self {
-        self.ending_after(1)
-    }
-
-    /// Ends the run at event number `count`, counted from 1.
-    #[must_use]
-    pub fn ending_after(self, count: u64) -> Self {
+    pub fn with_end_after(self, count: u64) -> Self {
         Event {
             ends_after: Some(count),
             ..self
@@ -99,7 +88,7 @@ impl<V: Vector> Event<V> {
 
     /// Returns the name and the selection of roots, which a resumed run must repeat. It may change the end of the run.
     pub(super) fn text(&self) -> String {
-        let direction = match self.slope {
+        let direction = match self.direction {
             0 => "",
             1.. => ", rising",
             _ => ", falling",
@@ -143,7 +132,7 @@ impl<V: Vector> fmt::Debug for Event<V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Event")
             .field("name", &self.name)
-            .field("slope", &self.slope)
+            .field("direction", &self.direction)
             .field("period", &self.period)
             .field("ends_after", &self.ends_after)
             .finish_non_exhaustive()

@@ -4,38 +4,13 @@
 //! k·duration, never a running sum; the bits of a trajectory depend on neither blocks nor observers; a state that is not
 //! finite is never returned, but detected, located and reported.
 
-// The documentation shows the methods in the order of these modules.
-mod begin;
-
-mod advance;
-mod until;
-
-mod inspect;
-
-mod observe;
-
-mod change;
-
-mod estimate;
-mod options;
-
-mod checks;
-mod part;
-#[cfg(feature = "rayon")]
-mod threads;
-
-pub(crate) use checks::{check_change, check_scheme, check_start, check_state, check_step};
-pub use estimate::ErrorEstimate;
-pub(crate) use part::{Part, Recipe};
-pub use until::States;
-
 use crate::errors::Error;
 use crate::flows::map::{Clock, Map, Step};
-use crate::observers::observe::View;
+use crate::observers::observe::{self, Every, Observer, Unobserved, Verdict, View, Watch};
 use crate::results::checkpoint::Memory;
-use crate::schemes::scheme::{Entry, Scheme};
+use crate::schemes::scheme::{CarriedBy, Entry, Scheme};
 use crate::systems::flow::Scratch;
-use crate::systems::state::{Carried, State};
+use crate::systems::state::{Carried, IntoStart, State};
 use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::boxed::Box;
@@ -155,6 +130,153 @@ impl<T: Real, S: System, R: Map<Carried: Carried<Vector = VectorOf<S, T>, Scalar
 /// # Ok::<(), Error>(())
 /// ```
 pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<S>>::Map<T>, O>;
+
+impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
+    /// Creates a run of `scheme` on `system` from `start` with the step size `step`. A negative step integrates
+    /// backwards.
+    ///
+    /// Time begins at 0, or at the time of the start, `State::new(q, p).at(t)`. After k steps it is t₀ + k·`step`, never
+    /// a running sum.
+    ///
+    /// # Errors
+    /// [`StartError::Step`](crate::errors::StartError::Step) for a zero, NaN or infinite step;
+    /// [`InputError::Shape`](crate::errors::InputError::Shape), [`InputError::Extent`](crate::errors::InputError::Extent)
+    /// and [`InputError::Row`](crate::errors::InputError::Row) if `start` does not have the system's shape;
+    /// [`StartError::NotFinite`](crate::errors::StartError::NotFinite) if it is not finite;
+    /// [`StartError::Values`](crate::errors::StartError::Values) if H or a derivative of it is not finite there;
+    /// [`StartError::Shell`](crate::errors::StartError::Shell) for a time-transformed system (`dt = g*ds`,
+    /// [`TimeTransformed`](crate::TimeTransformed)) if the start is off the shell H = 0 by more than a thousandth of the
+    /// energies in it;
+    /// [`StartError::Jumps`](crate::errors::StartError::Jumps) for a scheme that evaluates H(t) at the ends of steps,
+    /// if H jumps; those of [`Scheme::check`].
+    pub fn new<M: Scheme<S, Map<T> = R>>(
+        system: &S,
+        scheme: M,
+        start: impl IntoStart<VectorOf<S, T>>,
+        step: T,
+    ) -> Result<Self, Error>
+    where
+        R: Map<Carried = CarriedBy<M, S, T>>,
+    {
+        let start = start.into_start(system.description().first_names())?;
+        check_step(step)?;
+        let prepared = check_start(system, &start)?;
+        check_scheme(&scheme, &prepared, &start)?;
+        Ok(Self::begin(system, prepared, scheme, start, step))
+    }
+
+    /// Makes the run after all checks.
+    pub(crate) fn begin<M: Scheme<S, Map<T> = R>>(
+        system: &S,
+        prepared: S::Prepared<T>,
+        scheme: M,
+        start: State<VectorOf<S, T>>,
+        step: T,
+    ) -> Self
+    where
+        R: Map<Carried = CarriedBy<M, S, T>>,
+    {
+        let entry = scheme.entry();
+        let carried = scheme.start(&prepared, &start, step);
+        let map = scheme.prepare(&prepared, Step::of(step));
+        Integrator {
+            work: Scratch::like(&carried),
+            map,
+            snapshot: carried.clone(),
+            shown: carried.clone(),
+            carried,
+            clock: Clock::new(start.t, step * duration(&entry)),
+            parameters: parameters(system),
+            prepared,
+            recipe: Arc::new(scheme),
+            entry,
+            step,
+            began: 0,
+            steps: 0,
+            state: start,
+            ended: false,
+            memory: Memory::default(),
+            refused: None,
+            #[cfg(feature = "std")]
+            saving: None,
+            #[cfg(feature = "rayon")]
+            threads: None,
+            observer: (),
+        }
+    }
+}
+
+impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// Attaches an observer. It receives the current state at once, and then every state whose step number is a multiple
+    /// of its [interval](Observer::interval), whichever method makes the steps.
+    ///
+    /// Call it once. To attach several observers, pass a tuple, `.observe((EnergyDrift::new(), Recorder::new()))`.
+    /// [`watch`](Integrator::watch) comes after it. The run owns the observer, and
+    /// [`observer`](Integrator::observer) returns a reference to it; `&mut O` is an observer too.
+    pub fn observe<N: Observer<T, S>>(mut self, mut observer: N) -> Integrator<T, S, R, N>
+    where
+        O: Unobserved,
+    {
+        self.attach(&mut observer);
+        self.with_observer(|_| observer)
+    }
+}
+
+impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+    /// Attaches a closure. It receives the current state at once, and then every state whose step number is a multiple of
+    /// `every` (0 counts as 1).
+    ///
+    /// The closure returns `()`, or a [`ControlFlow<()>`](core::ops::ControlFlow) whose `Break` ends the run. Call
+    /// `watch` any number of times, with or without an observer: [`observer`](Integrator::observer) is then the pair of
+    /// the previous observer and the closure.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let mut path = Vec::new();
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?
+    ///     .observe(EnergyDrift::new())
+    ///     .watch(10, |view| path.push((view.state.q[0], view.state.p[0])));
+    /// run.advance(100)?;
+    /// assert!(run.observer().0.max_relative() < 1e-4);
+    /// assert_eq!(path.len(), 11);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn watch<V: Verdict, F: FnMut(&View<'_, T, S>) -> V>(
+        mut self,
+        every: u64,
+        closure: F,
+    ) -> Integrator<T, S, R, (O, Every<Watch<F>>)> {
+        let mut closure = observe::every(every, observe::watch(closure));
+        self.attach(&mut closure);
+        self.with_observer(|observer| (observer, closure))
+    }
+}
+
+// The documentation shows the methods above, then those of these modules, in this order. `new` and `observe` are above
+// because rustc's messages about their bounds then name the type, not the module.
+mod advance;
+mod until;
+
+mod inspect;
+
+mod attached;
+
+mod change;
+
+mod estimate;
+mod options;
+
+mod checks;
+mod part;
+#[cfg(feature = "rayon")]
+mod threads;
+
+pub(crate) use checks::{check_change, check_scheme, check_start, check_state, check_step};
+pub use estimate::ErrorEstimate;
+pub(crate) use part::{Part, Recipe};
+pub use until::States;
 
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Replaces the current state by a saved one.

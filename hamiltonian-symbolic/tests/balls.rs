@@ -154,7 +154,7 @@ fn what_rounding_hides_is_not_refuted() {
 
 #[test]
 fn what_rounding_hides_costs_no_trait() {
-    for (h, row) in [
+    for (h, form) in [
         ("((q + 10^9)^2 - 2*10^9*q - 10^18)*p", "f(q)·p"),
         ("(cos(q + 10^6)^2 + sin(q + 10^6)^2 + q^2)*p", "f(q)·p"),
         ("p^2/2 + (q + 10^8)^2 - 2*10^8*q", "quadratic form"),
@@ -163,10 +163,10 @@ fn what_rounding_hides_costs_no_trait() {
         let mut m = system("q; p", "", "", h);
         let node = m.h();
         let flow = exact_flow(&mut m, node);
-        let rows = flow.map(|flow| flow.rows().to_vec());
+        let forms = flow.map(|flow| flow.forms().to_vec());
         assert!(
-            rows.as_ref().is_some_and(|rows| rows.contains(&row)),
-            "{h}: {rows:?}"
+            forms.as_ref().is_some_and(|forms| forms.contains(&form)),
+            "{h}: {forms:?}"
         );
     }
     // What is as small as that is no zero.

@@ -1,10 +1,10 @@
 //! Splittings: which pieces are found, which terms are refused, and that a search ends.
 
 pub mod arrays;
+pub mod forms;
 mod order;
 mod perturbed;
 mod rewrite;
-pub mod rows;
 pub mod table;
 
 use crate::common;
@@ -302,7 +302,7 @@ fn searches_are_bounded() {
     let all = common::cases(300, 3000);
     for _ in 0..all {
         let mut model = grow(&mut random).0.model();
-        // Products and quotients of the expressions so far: long, and of the pattern of no row.
+        // Products and quotients of the expressions so far: long, and of the pattern of no form.
         let h = model.hamiltonian.expect("there is an H");
         if random.chance(0.3) {
             let sine = model.dag.call(Op::Sin, &[h]);

@@ -12,7 +12,7 @@ use crate::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::jumps::jumps;
 use hamiltonian_symbolic::model::{Model, Piece};
-use hamiltonian_symbolic::split::{self, NoFlow, PIECES, Splitting};
+use hamiltonian_symbolic::split::{self, Decomposition, NoFlow, PIECES};
 use hamiltonian_symbolic::structure::Structure;
 
 /// The text on a splitting.
@@ -53,7 +53,8 @@ pub(super) fn decide(
     let found = if declared.is_empty() {
         let alone = part.piece.is_some().then(|| alone(model));
         // V and T apart are no worse than a piece that moves only one of them.
-        let is_closed = |found: &Splitting| found.pieces.iter().any(|p| !p.flow.rows().is_empty());
+        let is_closed =
+            |found: &Decomposition| found.pieces.iter().any(|p| !p.flow.forms().is_empty());
         if is_separable && !matches!(&alone, Some(Ok(found)) if is_closed(found)) {
             return SplitText::split(Vec::new());
         }
@@ -146,7 +147,7 @@ pub(super) fn decide(
     }
 }
 
-/// The rows of [`split::ROWS`] in words of the language; their patterns have the notation of papers.
+/// The forms of [`split::FORMS`] in words of the language; their patterns have the notation of papers.
 pub const WORDS: [(&str, &str); 12] = [
     ("quadratic form", "quadratic forms"),
     ("matrix exponential", "quadratic forms"),
@@ -174,7 +175,7 @@ pub const WORDS: [(&str, &str); 12] = [
     ),
 ];
 
-/// The forms of a piece with an exact flow: those linear in time, and the rows of the table.
+/// The forms of a piece with an exact flow: those linear in time, and those of the table.
 fn exact_forms() -> String {
     let mut forms = vec!["V(q)", "T(p)"];
     for (_, form) in WORDS {
@@ -186,7 +187,7 @@ fn exact_forms() -> String {
 }
 
 /// A piece of a split by itself: one flow.
-fn alone(model: &mut Model) -> Result<Splitting, (usize, NoFlow)> {
+fn alone(model: &mut Model) -> Result<Decomposition, (usize, NoFlow)> {
     let h = model.h();
     let name = hamiltonian_symbolic::print::text(model, h);
     split::declared(model, &[(name, h)])
@@ -221,10 +222,10 @@ fn declaration(model: &Model, pieces: &[Piece]) -> String {
 }
 
 /// A splitting, and the reason for it.
-fn facts(splitting: &Splitting) -> Vec<String> {
-    let piece = |piece: &Piece| match piece.flow.rows() {
+fn facts(splitting: &Decomposition) -> Vec<String> {
+    let piece = |piece: &Piece| match piece.flow.forms() {
         [] => format!("`{}`", piece.name),
-        rows => format!("`{}` ({})", piece.name, rows.join(", ")),
+        forms => format!("`{}` ({})", piece.name, forms.join(", ")),
     };
     let pieces: Vec<String> = splitting.pieces.iter().map(piece).collect();
     let mut facts = match pieces.as_slice() {

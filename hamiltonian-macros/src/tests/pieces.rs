@@ -246,8 +246,8 @@ fn other_pieces_are_found() {
 }
 
 #[test]
-fn each_row_of_exact_flows_has_words() {
-    let rows = split::ROWS.iter().map(|row| row.name);
+fn each_form_with_an_exact_flow_has_words() {
+    let forms = split::FORMS.iter().map(|form| form.name);
     let words = WORDS.iter().map(|(name, _)| *name);
-    assert!(rows.eq(words));
+    assert!(forms.eq(words));
 }

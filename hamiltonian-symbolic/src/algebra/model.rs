@@ -6,7 +6,7 @@
 
 mod flow;
 
-pub(crate) use flow::{EXPONENTIAL, Flow};
+pub(crate) use flow::{EXPONENTIAL, NamedMotion};
 pub use flow::{ExactFlow, Motion, Move, Piece};
 
 use crate::dag::{Array, Column, Dag, Dependence, Node, Side};

@@ -9,7 +9,7 @@
 //! the sum of all its terms has a flow. This is one question. It may take [`COMPARISONS`] comparisons of expressions,
 //! [`PRODUCTS`] products of terms and [`EXPRESSIONS`] new nodes.
 //!
-//! 1. A row finds that the sum is a product of two squares and asks whether `(q² + 1)(p² + 1)/2` equals it: one comparison,
+//! 1. A form finds that the sum is a product of two squares and asks whether `(q² + 1)(p² + 1)/2` equals it: one comparison,
 //!    which may take [`COMPARISON`] products. It takes four.
 //! 2. The answer is a flow: the question ends, and what it spent counts against [`ALL_PRODUCTS`] of the group.
 //! 3. If a limit had been met, the answer would be unknown, which is neither returned nor remembered: a later question about

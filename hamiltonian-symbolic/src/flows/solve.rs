@@ -1,23 +1,23 @@
-//! The exact flow of an expression, or none: the rows, functions of an expression that has one,
+//! The exact flow of an expression, or none: the forms, functions of an expression that has one,
 //! several pairs, and sums of commuting parts.
 //!
-//! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: the
-//! expression that a row takes has its pattern, parts of a sum commute, and s is constant along the flow.
+//! Input: h and the time s it acts for. Output: [`NamedMotion`]. Invariant: each step is proven: the
+//! expression that a form takes has its pattern, parts of a sum commute, and s is constant along the flow.
 
+pub(crate) mod forms;
 pub(crate) mod growth;
-pub(crate) mod rows;
 pub(crate) mod units;
 
 use crate::dag::{Kind, Map, Node, StandIn};
 use crate::flows::limits::{COMMUTING, Limit, PARTS};
 use crate::flows::space::{Space, Variables};
-use crate::model::{EXPONENTIAL, Flow, Motion};
+use crate::model::{EXPONENTIAL, Motion, NamedMotion};
 use crate::rational::Rational;
 use crate::sort::Arrange;
-use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
+use forms::{Axes, FORMS, Moved, Solve, is_constant_form};
 
-/// The flow of h for the time s; `None` where no row takes it, or where the budget of one question is spent.
-pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+/// The flow of h for the time s; `None` where no form takes it, or where the budget of one question is spent.
+pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
     known(space, h, s).unwrap_or_else(|| {
         let found = space.question(h, |space| sought(space, h, s));
         space.flows.insert((h, s), found.clone());
@@ -26,7 +26,7 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 }
 
 /// The flow of a part of the h in question, within its budget.
-pub(crate) fn part(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+pub(crate) fn part(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
     known(space, h, s).unwrap_or_else(|| {
         let found = sought(space, h, s);
         // As a question of its own it may have a flow all the same.
@@ -38,14 +38,14 @@ pub(crate) fn part(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 }
 
 /// The flow of h that takes no search, or the result of an earlier one.
-fn known(space: &mut Space, h: Node, s: Node) -> Option<Option<Flow>> {
+fn known(space: &mut Space, h: Node, s: Node) -> Option<Option<NamedMotion>> {
     match space.active(h).is_empty() {
         true => Some(Some(constant_rates(space, h, s))),
         false => space.flows.get(&(h, s)).cloned(),
     }
 }
 
-fn sought(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+fn sought(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
     whole(space, h, s)
         .or_else(|| function(space, h, s))
         .or_else(|| bare(space, h, s))
@@ -55,7 +55,7 @@ fn sought(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 
 /// The rates of a quadratic form, whose matrix is exponentiated when a run is prepared: of a whole
 /// piece only, over a point of few components.
-pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
+pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<NamedMotion> {
     if !space.has_exponentials {
         return None;
     }
@@ -66,7 +66,7 @@ pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
 }
 
 /// The flow of an h in which no conjugate pair meets: everything moves at a constant rate.
-pub(crate) fn constant_rates(space: &mut Space, h: Node, s: Node) -> Flow {
+pub(crate) fn constant_rates(space: &mut Space, h: Node, s: Node) -> NamedMotion {
     let mut motion = Motion::default();
     for one in space.set(h).members() {
         let variable = space.variable(one);
@@ -74,30 +74,30 @@ pub(crate) fn constant_rates(space: &mut Space, h: Node, s: Node) -> Flow {
         let value = space.dag().mul(&[s, slope]);
         space.push(&mut motion, one, value);
     }
-    Flow {
+    NamedMotion {
         motion,
-        rows: Vec::new(),
+        forms: Vec::new(),
     }
 }
 
-/// The rows that take all of h.
-fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
-    ROWS.iter().find_map(|row| match row.solve {
-        Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row.name)),
+/// The forms that take all of h.
+fn whole(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
+    FORMS.iter().find_map(|form| match form.solve {
+        Solve::Whole(solve) => solve(space, h, s).map(|motion| NamedMotion::of(motion, form.name)),
         Solve::Bare(_) | Solve::Pair(_) | Solve::Exponential => None,
     })
 }
 
-/// The rows that take all of h where it is no function of something smaller.
-fn bare(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
-    ROWS.iter().find_map(|row| match row.solve {
-        Solve::Bare(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row.name)),
+/// The forms that take all of h where it is no function of something smaller.
+fn bare(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
+    FORMS.iter().find_map(|form| match form.solve {
+        Solve::Bare(solve) => solve(space, h, s).map(|motion| NamedMotion::of(motion, form.name)),
         Solve::Whole(_) | Solve::Pair(_) | Solve::Exponential => None,
     })
 }
 
 /// h = G(u, c) of one expression u in which all pairs meet: u's flow for the time s·∂G/∂u.
-fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+fn function(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
     let active = space.active(h);
     let u = dominator(space, h, Variables::of_pairs(&active))?;
     let rate = space.by_node(h, u);
@@ -124,13 +124,13 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         let value = space.dag().mul(&[s, own]);
         space.push(&mut motion, one, value);
     }
-    let rows = inner.rows.clone();
+    let forms = inner.forms.clone();
     // A kick beside must not change the variables of u.
     if space.moved(&motion).meets(space.set(u)) {
         return None;
     }
     let motion = inner.motion.then(space.dag(), &motion);
-    Some(Flow { motion, rows })
+    Some(NamedMotion { motion, forms })
 }
 
 /// ∂h/∂v with u held.
@@ -185,15 +185,15 @@ fn dominator(space: &mut Space, h: Node, set: Variables) -> Option<Node> {
 }
 
 /// h = G(K₁, …, K_m, c), K_i a function of one pair that meets: each pair moves for its own time s·∂G/∂K_i.
-fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+fn separated(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
     let active = space.active(h);
     let own = Variables::of_pairs(&active);
-    let mut flow = Flow::default();
+    let mut flow = NamedMotion::default();
     for pair in active {
         let found = flow_of_pair(space, h, pair, s)?;
         flow.motion.moves.extend(found.motion.moves);
         flow.motion.domain.extend(found.motion.domain);
-        flow = flow.noted(&found.rows);
+        flow = flow.noted(&found.forms);
     }
     for one in space.set(h).without(own).members() {
         let variable = space.variable(one);
@@ -205,7 +205,7 @@ fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 }
 
 /// The motion of one pair under h, all other variables held.
-fn flow_of_pair(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow> {
+fn flow_of_pair(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<NamedMotion> {
     let own = Variables::of_pairs(&[pair]);
     let u = dominator(space, h, own).unwrap_or(h);
     let outer = space.by_node(h, u);
@@ -214,28 +214,28 @@ fn flow_of_pair(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow
     if let Some(known) = space.pair_flows.get(&(k, time)) {
         return known.clone();
     }
-    let found = row_of(space, k, space.pairs[pair], time);
+    let found = form_of(space, k, space.pairs[pair], time);
     if !space.is_spent() {
         space.pair_flows.insert((k, time), found.clone());
     }
     found
 }
 
-/// The first row that takes K of one pair.
-fn row_of(space: &mut Space, k: Node, (q, p): (Node, Node), time: Node) -> Option<Flow> {
-    for row in ROWS {
-        match row.solve {
+/// The first form that takes K of one pair.
+fn form_of(space: &mut Space, k: Node, (q, p): (Node, Node), time: Node) -> Option<NamedMotion> {
+    for form in FORMS {
+        match form.solve {
             Solve::Pair(solve) => {
                 for axes in Axes::both_ways(q, p) {
                     if let Some(moved) = solve(space, axes, k, time) {
-                        return Some(Flow::of(of_pair(space, axes, &moved), row.name));
+                        return Some(NamedMotion::of(of_pair(space, axes, &moved), form.name));
                     }
                 }
             }
             Solve::Exponential => {}
             Solve::Whole(solve) | Solve::Bare(solve) => {
                 if let Some(motion) = solve(space, k, time) {
-                    return Some(Flow::of(motion, row.name));
+                    return Some(NamedMotion::of(motion, form.name));
                 }
             }
         }
@@ -318,7 +318,7 @@ fn factor_of_pair(space: &mut Space, u: Node, own: Variables) -> Option<(Node, N
 }
 
 /// A sum of parts that have flows and commute: one flow after the other.
-fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+fn commuting(space: &mut Space, h: Node, s: Node) -> Option<NamedMotion> {
     let mut terms = terms(space, h);
     // Parts grow term by term, those of few pairs first.
     terms.arrange_by_key(|term| space.set(*term).pairs().len());
@@ -333,11 +333,11 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         space.meets(Limit::Parts, h);
         return None;
     }
-    let mut all = Flow::default();
+    let mut all = NamedMotion::default();
     // One composition rounds in another way than another.
     for at in space.in_order(&parts) {
         let next = part(space, parts[at], s)?;
-        all = all.noted(&next.rows);
+        all = all.noted(&next.forms);
         all.motion = all.motion.then(space.dag(), &next.motion);
     }
     Some(all)

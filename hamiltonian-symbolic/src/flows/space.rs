@@ -17,7 +17,7 @@ use crate::diff;
 use crate::flows::limits::{COMPONENTS, Limit, PAIRS, POINTS};
 use crate::index::Index;
 use crate::loops::{Sample, Values, next_random};
-use crate::model::{Flow, Model, Motion};
+use crate::model::{Model, Motion, NamedMotion};
 use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness};
 use crate::rational::Rational;
 use crate::set::{Member, Set};
@@ -122,9 +122,9 @@ pub(crate) struct Space {
     /// Numbers of nodes at points, each of which is made once.
     points: Map<PointBits, Values>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
-    pub(crate) flows: Map<(Node, Node), Option<Flow>>,
+    pub(crate) flows: Map<(Node, Node), Option<NamedMotion>>,
     /// The flows of expressions of one pair.
-    pub(crate) pair_flows: Map<(Node, Node), Option<Flow>>,
+    pub(crate) pair_flows: Map<(Node, Node), Option<NamedMotion>>,
     /// True if a piece may be a matrix exponential: the point has few components, all of them given.
     pub(crate) has_exponentials: bool,
     /// True if the point is given and has too many components for that.

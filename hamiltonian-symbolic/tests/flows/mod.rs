@@ -11,12 +11,12 @@ use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::schedule::{Request, prepared, schedule};
 use hamiltonian_symbolic::split::exact_flow;
 
-/// A piece, and the row that takes it.
+/// A piece, and the form that takes it.
 pub struct Case {
     pub signature: &'static str,
     pub parameters: &'static str,
     pub h: &'static str,
-    pub rows: &'static str,
+    pub form: &'static str,
 }
 
 /// The values of nodes of a model, as a program.
@@ -73,14 +73,14 @@ pub struct Checked {
     pub image: Values,
     pub field: Values,
     pub energy: Values,
-    pub rows: Vec<&'static str>,
+    pub forms: Vec<&'static str>,
 }
 
 pub fn prepare(signature: &str, parameters: &str, text: &str) -> Option<Checked> {
     let mut model = common::model(signature, "", parameters);
     let h = parse(&mut model, text);
     let found = exact_flow(&mut model, h)?;
-    let ExactFlow::Closed(motion, rows) = found else {
+    let ExactFlow::Closed(motion, forms) = found else {
         return None;
     };
     let guard = motion.domain.clone();
@@ -129,7 +129,7 @@ pub fn prepare(signature: &str, parameters: &str, text: &str) -> Option<Checked>
         image: Values::of(&model, &nodes),
         field: Values::of(&model, &field),
         energy: Values::of(&model, &[h]),
-        rows,
+        forms,
         model,
     })
 }
@@ -147,9 +147,9 @@ pub fn check(case: &Case) {
         panic!("{name}: no flow");
     };
     assert!(
-        checked.rows.contains(&case.rows),
+        checked.forms.contains(&case.form),
         "{name}: {:?}",
-        checked.rows
+        checked.forms
     );
     let Checked {
         model,

@@ -1,10 +1,10 @@
-//! The judge on the flows that are known: the cases of the rows, the pieces of the systems, the loops.
+//! The judge on the flows that are known: the cases of the forms, the pieces of the systems, the loops.
 
 use super::field::World;
 use super::{Definition, Subject, Verdict, verdicts};
 use crate::common;
 use crate::splits::arrays::RINGS;
-use crate::splits::rows::CASES;
+use crate::splits::forms::CASES;
 use crate::splits::table::FOUND;
 use crate::tree::Random;
 use hamiltonian_lanes::{DoubleDouble, Real};
@@ -294,7 +294,7 @@ fn moved_from_rest(definition: &Definition) -> Option<(Vec<String>, usize)> {
     Some((faults, count))
 }
 
-/// A fixed point of H is one of each flow: the formula of a row may divide by what is 0 there.
+/// A fixed point of H is one of each flow: the formula of a form may divide by what is 0 there.
 #[test]
 fn flows_rest_at_fixed_points() {
     let cases = CASES

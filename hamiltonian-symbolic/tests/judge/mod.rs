@@ -1,4 +1,4 @@
-//! An independent judge of flows: every row, every composed flow and every loop against the orbits of its
+//! An independent judge of flows: every form, every composed flow and every loop against the orbits of its
 //! own piece in 32 digits, there and back.
 //!
 //! Input: definitions. Output: verdicts. Invariant: the orbits come from [`field`] and [`orbit`], which

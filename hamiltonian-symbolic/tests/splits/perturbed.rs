@@ -3,8 +3,8 @@
 //! Scaled coordinates keep the structure.
 
 use super::arrays::RINGS;
+use super::forms::CASES;
 use super::rewrite::{replaced, shuffle, terms, with_factors};
-use super::rows::CASES;
 use super::table::{FOUND, REFUSED};
 use crate::common;
 use crate::judge::field::{Field, Layout, World, extents};
@@ -535,7 +535,7 @@ fn the_same_systems_have_the_same_structure() {
     );
 }
 
-/// A term that no row takes, and whose normal form is large.
+/// A term that no form takes, and whose normal form is large.
 const HARD: &str = "sqrt((x^2 + u^2 + 1)*(y^2 + v^2 + 2) + (x + y + u + v)^6/(1 + (x*u - y*v)^4))";
 
 #[test]

@@ -25,15 +25,15 @@ pub enum ExactFlow {
     /// A quadratic form of a whole point of few components: c·J∇h is linear, and its matrix is
     /// exponentiated when a run is prepared.
     Exponential,
-    /// The motion in the time of the step coefficient, and the names of the rows it is made of.
+    /// The motion in the time of the step coefficient, and the names of the forms it is made of.
     Closed(Motion, Vec<&'static str>),
     /// A flow in every iteration of a loop, one after the other; or several such loops, which have no element in
     /// common.
     Loop {
         /// The motion of one iteration of each loop.
         motions: Vec<Motion>,
-        /// The names of the rows.
-        rows: Vec<&'static str>,
+        /// The names of the forms.
+        forms: Vec<&'static str>,
         /// The innermost loop; none for several loops, each with its own index in all its elements.
         innermost: Option<Domain>,
         /// True if iterations commute, so that their order does not matter.
@@ -42,13 +42,13 @@ pub enum ExactFlow {
 }
 
 impl ExactFlow {
-    /// The names of the rows it is made of; none where it is linear in time.
+    /// The names of the forms it is made of; none where it is linear in time.
     #[must_use]
-    pub fn rows(&self) -> &[&'static str] {
+    pub fn forms(&self) -> &[&'static str] {
         match self {
             ExactFlow::Linear => &[],
             ExactFlow::Exponential => &[EXPONENTIAL],
-            ExactFlow::Closed(_, rows) | ExactFlow::Loop { rows, .. } => rows,
+            ExactFlow::Closed(_, forms) | ExactFlow::Loop { forms, .. } => forms,
         }
     }
     /// Returns true if the flow for one time after that for another is the flow for both.
@@ -68,41 +68,41 @@ impl ExactFlow {
     }
 }
 
-/// A motion with the names of the rows it is made of; none for a motion linear in time.
+/// A motion with the names of the forms it is made of; none for a motion linear in time.
 #[derive(Clone, Default)]
-pub(crate) struct Flow {
+pub(crate) struct NamedMotion {
     pub(crate) motion: Motion,
-    pub(crate) rows: Vec<&'static str>,
+    pub(crate) forms: Vec<&'static str>,
 }
 
-impl Flow {
-    /// The motion of one row.
-    pub(crate) fn of(motion: Motion, row: &'static str) -> Flow {
-        let rows = vec![row];
-        Flow { motion, rows }
+impl NamedMotion {
+    /// The motion of one form.
+    pub(crate) fn of(motion: Motion, form: &'static str) -> NamedMotion {
+        let forms = vec![form];
+        NamedMotion { motion, forms }
     }
-    /// The flow with further rows noted.
-    pub(crate) fn noted(mut self, rows: &[&'static str]) -> Flow {
-        for row in rows {
-            if !self.rows.contains(row) {
-                self.rows.push(row);
+    /// The flow with further forms noted.
+    pub(crate) fn noted(mut self, forms: &[&'static str]) -> NamedMotion {
+        for form in forms {
+            if !self.forms.contains(form) {
+                self.forms.push(form);
             }
         }
         self
     }
 }
 
-impl From<Flow> for ExactFlow {
-    fn from(flow: Flow) -> ExactFlow {
-        match flow.rows.as_slice() {
+impl From<NamedMotion> for ExactFlow {
+    fn from(flow: NamedMotion) -> ExactFlow {
+        match flow.forms.as_slice() {
             [] => ExactFlow::Linear,
             [EXPONENTIAL] => ExactFlow::Exponential,
-            _ => ExactFlow::Closed(flow.motion, flow.rows),
+            _ => ExactFlow::Closed(flow.motion, flow.forms),
         }
     }
 }
 
-/// The name of the row whose matrix is exponentiated when a run is prepared.
+/// The name of the form whose matrix is exponentiated when a run is prepared.
 pub(crate) const EXPONENTIAL: &str = "matrix exponential";
 
 /// A variable that moves.

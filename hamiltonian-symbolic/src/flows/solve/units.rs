@@ -2,7 +2,7 @@
 //!
 //! Input: H. Output: [`Units`]. Invariant: units add up to H with the constant; a term in which no
 //! conjugate pair meets stays as it was written, or is part of a sum of such terms; products are multiplied
-//! out only where no row takes them, and only where that loses few digits.
+//! out only where no form takes them, and only where that loses few digits.
 
 use super::flow;
 use crate::dag::{Dag, Dependence, Kind, Node};

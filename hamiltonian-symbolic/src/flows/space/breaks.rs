@@ -2,7 +2,7 @@
 //!
 //! Input: expressions over a space. Output: nodes whose zeros are such sets. Invariant: an expression
 //! is analytic between the zeros of its breaks. An identity between derivatives, such as {h, L} = 0,
-//! holds on each side of a break by itself, so a row that is proven by derivatives asks that no orbit
+//! holds on each side of a break by itself, so a form that is proven by derivatives asks that no orbit
 //! leaves its side.
 
 use super::Space;

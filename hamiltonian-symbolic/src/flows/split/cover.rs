@@ -1,16 +1,16 @@
 //! The ways to make H of pieces that have flows.
 //!
-//! Input: the units of H. Output: candidates, each a list of [`Block`]s. Invariant: the blocks of a
+//! Input: the units of H. Output: candidates, each a list of [`SolvedSum`]s. Invariant: the sums of a
 //! candidate are disjoint and hold every unit; each has a flow; at most [`SUMS`] sums of units are
 //! tested for a flow, and at most [`COVERS`] covers are kept.
 
 use crate::dag::{Map, Node};
 use crate::flows::limits::{COUPLED, COVERS, Limit, SUMS, TERMS};
-use crate::flows::solve::rows::is_quadratic;
+use crate::flows::solve::forms::is_quadratic;
 use crate::flows::solve::units::{Unit, Units};
 use crate::flows::solve::{exponential, flow};
 use crate::flows::space::{Space, Variable, Variables};
-use crate::model::Flow;
+use crate::model::NamedMotion;
 use crate::set::{Member, Set};
 use crate::sort::Arrange;
 use std::cmp::Reverse;
@@ -33,12 +33,12 @@ type UnitSet = Set<UnitNumber>;
 
 /// Some units that have a flow together.
 #[derive(Clone)]
-pub(crate) struct Block {
+pub(crate) struct SolvedSum {
     /// Their sum.
     pub(crate) node: Node,
     /// The units.
     units: UnitSet,
-    pub(crate) flow: Flow,
+    pub(crate) flow: NamedMotion,
 }
 
 struct Search<'a> {
@@ -48,8 +48,8 @@ struct Search<'a> {
     /// The places of the units in the order in which they are written.
     places: &'a [usize],
     /// The sums of which a flow was sought.
-    tried: Map<UnitSet, Option<Block>>,
-    blocks: Vec<Block>,
+    tried: Map<UnitSet, Option<SolvedSum>>,
+    sums: Vec<SolvedSum>,
     /// Sums whose search for a flow ended at a limit.
     ended: Vec<UnitSet>,
     /// The units of sums past the limit, of which no flow was sought.
@@ -67,7 +67,7 @@ impl Search<'_> {
         let nodes: Vec<Node> = nodes.collect();
         self.space.dag().add(&nodes)
     }
-    fn block(&mut self, mask: UnitSet) -> Option<Block> {
+    fn solve(&mut self, mask: UnitSet) -> Option<SolvedSum> {
         if let Some(known) = self.tried.get(&mask) {
             return known.clone();
         }
@@ -85,19 +85,19 @@ impl Search<'_> {
         if found.is_none() && self.space.ends_at(node) {
             self.ended.push(mask);
         }
-        let block = found.map(|flow| Block {
+        let solved = found.map(|flow| SolvedSum {
             node,
             units: mask,
             flow,
         });
-        self.tried.insert(mask, block.clone());
-        block
+        self.tried.insert(mask, solved.clone());
+        solved
     }
-    /// Tries a block and keeps it.
+    /// Tries a sum and keeps it.
     fn keep(&mut self, mask: UnitSet) {
-        let is_known = self.blocks.iter().any(|block| block.units == mask);
-        let block = if is_known { None } else { self.block(mask) };
-        self.blocks.extend(block);
+        let is_known = self.sums.iter().any(|solved| solved.units == mask);
+        let solved = if is_known { None } else { self.solve(mask) };
+        self.sums.extend(solved);
     }
     fn mask(&mut self, mut is: impl FnMut(&mut Space, &Unit) -> bool) -> UnitSet {
         let numbers = (0..self.units.len()).map(UnitNumber);
@@ -108,7 +108,7 @@ impl Search<'_> {
 }
 
 /// The candidates, fewest pieces first, or a term without a flow.
-pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Block>>, Node> {
+pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<SolvedSum>>, Node> {
     if units.units.len() > TERMS {
         let first = units.units[0].source;
         space.meets(Limit::Terms, first);
@@ -122,32 +122,33 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         units: &ordered,
         places: &places,
         tried: Map::default(),
-        blocks: Vec::new(),
+        sums: Vec::new(),
         ended: Vec::new(),
         skipped: UnitSet::default(),
         has_many_coupled: false,
     };
     let coupled = search.mask(|_, unit| unit.is_coupled);
     let all: UnitSet = (0..units.units.len()).map(UnitNumber).collect();
-    if let Some(whole) = search.block(all) {
+    if let Some(whole) = search.solve(all) {
         return Ok(vec![vec![whole]]);
     }
-    coupled_blocks(&mut search, coupled, all.without(coupled));
-    let mut covers = covers(&search.blocks, coupled);
+    coupled_sums(&mut search, coupled, all.without(coupled));
+    let mut covers = covers(&search.sums, coupled);
     if covers.len() == COVERS {
-        // If there are too many, those of few blocks are kept.
+        // If there are too many, those of few sums are kept.
         search
-            .blocks
-            .arrange_by_key(|block| Reverse(block.units.len()));
-        covers = self::covers(&search.blocks, coupled);
+            .sums
+            .arrange_by_key(|solved| Reverse(solved.units.len()));
+        covers = self::covers(&search.sums, coupled);
     }
     if covers.is_empty() {
-        // The first that is in no block; of overlapping blocks, the first that is none by itself.
-        let blocks = &search.blocks;
+        // The first that is in no sum; of overlapping sums, the first that is none by itself.
+        let sums = &search.sums;
         let is_bad = |at: usize, alone: bool| {
             let own = UnitNumber(at);
-            let is_in = |block: &Block| block.units.has(own) && !(alone && block.units.len() > 1);
-            ordered[at].is_coupled && !blocks.iter().any(is_in)
+            let is_in =
+                |solved: &SolvedSum| solved.units.has(own) && !(alone && solved.units.len() > 1);
+            ordered[at].is_coupled && !sums.iter().any(is_in)
         };
         let bad = [false, true].into_iter().find_map(|alone| {
             let bad = (0..ordered.len()).filter(|at| is_bad(*at, alone));
@@ -166,11 +167,11 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         }
         return Err(source);
     }
-    let uncoupled = uncoupled_blocks(&mut search, all.without(coupled));
+    let uncoupled = uncoupled_sums(&mut search, all.without(coupled));
     let mut found = Vec::new();
     for cover in &covers {
         let used = union(cover);
-        let more = uncoupled.iter().filter(|block| !block.units.meets(used));
+        let more = uncoupled.iter().filter(|solved| !solved.units.meets(used));
         for extra in std::iter::once(None).chain(more.map(Some)) {
             let mut pieces = cover.clone();
             pieces.extend(extra.cloned());
@@ -183,14 +184,14 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
     Ok(found)
 }
 
-/// All units of some blocks.
-fn union(blocks: &[Block]) -> UnitSet {
-    let units = blocks.iter().map(|block| block.units);
+/// All units of some sums.
+fn union(sums: &[SolvedSum]) -> UnitSet {
+    let units = sums.iter().map(|solved| solved.units);
     units.fold(UnitSet::default(), |all, units| all | units)
 }
 
-/// Blocks of coupled units, without and with uncoupled ones.
-fn coupled_blocks(search: &mut Search, coupled: UnitSet, uncoupled: UnitSet) {
+/// Sums of coupled units, without and with uncoupled ones.
+fn coupled_sums(search: &mut Search, coupled: UnitSet, uncoupled: UnitSet) {
     let pool = |search: &mut Search, sides: (bool, bool)| {
         search.mask(|space, unit| !unit.is_coupled && space.set(unit.node).sides() == sides)
     };
@@ -235,14 +236,14 @@ fn coupled_blocks(search: &mut Search, coupled: UnitSet, uncoupled: UnitSet) {
     }
 }
 
-/// Disjoint blocks that hold all coupled units.
-fn covers(blocks: &[Block], coupled: UnitSet) -> Vec<Vec<Block>> {
+/// Disjoint sums that hold all coupled units.
+fn covers(sums: &[SolvedSum], coupled: UnitSet) -> Vec<Vec<SolvedSum>> {
     fn extend(
-        blocks: &[Block],
+        sums: &[SolvedSum],
         left: UnitSet,
         used: UnitSet,
-        now: &mut Vec<Block>,
-        all: &mut Vec<Vec<Block>>,
+        now: &mut Vec<SolvedSum>,
+        all: &mut Vec<Vec<SolvedSum>>,
     ) {
         if all.len() >= COVERS {
             return;
@@ -251,13 +252,13 @@ fn covers(blocks: &[Block], coupled: UnitSet) -> Vec<Vec<Block>> {
             all.push(now.clone());
             return;
         };
-        for block in blocks {
-            if block.units.has(first) && !block.units.meets(used) {
-                now.push(block.clone());
+        for solved in sums {
+            if solved.units.has(first) && !solved.units.meets(used) {
+                now.push(solved.clone());
                 extend(
-                    blocks,
-                    left.without(block.units),
-                    used | block.units,
+                    sums,
+                    left.without(solved.units),
+                    used | solved.units,
                     now,
                     all,
                 );
@@ -266,19 +267,13 @@ fn covers(blocks: &[Block], coupled: UnitSet) -> Vec<Vec<Block>> {
         }
     }
     let mut all = Vec::new();
-    extend(
-        blocks,
-        coupled,
-        UnitSet::default(),
-        &mut Vec::new(),
-        &mut all,
-    );
+    extend(sums, coupled, UnitSet::default(), &mut Vec::new(), &mut all);
     all
 }
 
-/// Blocks of uncoupled units that a row takes together: quadratic forms, of all pairs and of one;
+/// Sums of uncoupled units that a form takes together: quadratic forms, of all pairs and of one;
 /// p² with all that is divided by r².
-fn uncoupled_blocks(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
+fn uncoupled_sums(search: &mut Search, uncoupled: UnitSet) -> Vec<SolvedSum> {
     let mut masks = Vec::new();
     let quadratic = search.mask(|space, unit| {
         !unit.is_coupled && space.proves(|space| is_quadratic(space, unit.node))
@@ -307,22 +302,22 @@ fn uncoupled_blocks(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
         });
         masks.push(flight);
     }
-    let mut found: Vec<Block> = Vec::new();
+    let mut found: Vec<SolvedSum> = Vec::new();
     for mask in masks {
-        let is_known = found.iter().any(|block| block.units == mask);
+        let is_known = found.iter().any(|solved| solved.units == mask);
         if mask.len() > 1
             && !is_known
-            && let Some(block) = search.block(mask)
-            && !block.flow.rows.is_empty()
+            && let Some(solved) = search.solve(mask)
+            && !solved.flow.forms.is_empty()
         {
-            found.push(block);
+            found.push(solved);
         }
     }
     found
 }
 
 /// Uncoupled units as few pieces in which no conjugate pair meets.
-fn linear_pieces(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
+fn linear_pieces(search: &mut Search, uncoupled: UnitSet) -> Vec<SolvedSum> {
     let mut numbers: Vec<UnitNumber> = uncoupled.members().collect();
     let order = |set: Variables| match set.sides() {
         (false, _) => 0,
@@ -343,15 +338,15 @@ fn linear_pieces(search: &mut Search, uncoupled: UnitSet) -> Vec<Block> {
             None => colours.push((UnitSet::of(at), set)),
         }
     }
-    let blocks = colours.into_iter().filter_map(|(mask, _)| {
+    let sums = colours.into_iter().filter_map(|(mask, _)| {
         let node = search.sum(mask);
         let c = search.space.dag().coefficient();
         let flow = flow(search.space, node, c)?;
-        Some(Block {
+        Some(SolvedSum {
             node,
             units: mask,
             flow,
         })
     });
-    blocks.collect()
+    sums.collect()
 }

@@ -8,7 +8,7 @@ use super::{Parts, Reasons, any_flow, units};
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::flows::space::Space;
 use crate::model::Model;
-use crate::model::{EXPONENTIAL, Flow};
+use crate::model::{EXPONENTIAL, NamedMotion};
 use crate::sort::Arrange;
 use crate::structure::components;
 
@@ -37,13 +37,13 @@ pub(super) fn has_loops(dag: &Dag, h: Node) -> bool {
 
 /// The flow of a sum of expressions that have nothing in common; `None` where one has no motion in closed
 /// form.
-pub(super) fn flows(dag: &mut Dag, flows: &[Flow]) -> Option<Flow> {
-    let mut all = Flow::default();
+pub(super) fn flows(dag: &mut Dag, flows: &[NamedMotion]) -> Option<NamedMotion> {
+    let mut all = NamedMotion::default();
     for flow in flows {
-        if flow.rows == [EXPONENTIAL] {
+        if flow.forms == [EXPONENTIAL] {
             return None;
         }
-        all = all.noted(&flow.rows);
+        all = all.noted(&flow.forms);
         all.motion = all.motion.then(dag, &flow.motion);
     }
     Some(all)
@@ -57,7 +57,7 @@ pub(super) fn parts(model: &mut Model, h: Node, mut groups: Vec<Parts>) -> Parts
     groups.arrange_by_key(|group| std::cmp::Reverse(group.flows.len()));
     let written = units::terms(&mut model.dag, h);
     let written: Vec<Node> = written.into_iter().map(|term| term.body).collect();
-    let mut all: Vec<(Node, Flow)> = Vec::new();
+    let mut all: Vec<(Node, NamedMotion)> = Vec::new();
     for mut group in groups {
         if all.is_empty() {
             all = group.flows;
@@ -103,8 +103,12 @@ fn sum(dag: &mut Dag, written: &[Node], parts: [Node; 2]) -> Node {
 }
 
 /// The place from which fewest kicks meet other parts, and whether in reverse; the innermost of several.
-fn best_place(dag: &Dag, all: &[(Node, Flow)], group: &[(Node, Flow)]) -> (usize, bool) {
-    let sides = |(node, _): &(Node, Flow)| {
+fn best_place(
+    dag: &Dag,
+    all: &[(Node, NamedMotion)],
+    group: &[(Node, NamedMotion)],
+) -> (usize, bool) {
+    let sides = |(node, _): &(Node, NamedMotion)| {
         let dependence = dag.dependence(*node);
         (dependence.on(Dependence::Q), dependence.on(Dependence::P))
     };
@@ -130,7 +134,7 @@ fn best_place(dag: &Dag, all: &[(Node, Flow)], group: &[(Node, Flow)]) -> (usize
 }
 
 /// The flow of a sum that is a quadratic form over the whole point.
-fn flow_of_sum(model: &mut Model, sum: Node) -> Option<Flow> {
+fn flow_of_sum(model: &mut Model, sum: Node) -> Option<NamedMotion> {
     let mut space = Space::new(model, &[sum]).ok()?;
     let flow = any_flow(&mut space, sum)?;
     model.dag = space.model.dag;
@@ -153,7 +157,7 @@ fn choice(groups: &[Parts]) -> Option<Reasons> {
 }
 
 /// Returns true if each part keeps each declared invariant.
-pub(super) fn keep_invariants(model: &mut Model, h: Node, parts: &[(Node, Flow)]) -> bool {
+pub(super) fn keep_invariants(model: &mut Model, h: Node, parts: &[(Node, NamedMotion)]) -> bool {
     let invariants = model.invariants();
     let Ok(mut space) = Space::new(model, &[h]) else {
         return false;

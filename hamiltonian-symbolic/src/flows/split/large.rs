@@ -17,7 +17,7 @@ use crate::sort::Arrange;
 ///
 /// # Errors
 /// [`NoFlow`] with a term in which conjugate variables meet: there are too many subexpressions in such terms too, or no
-/// row takes it.
+/// form takes it.
 pub(super) fn parts(model: &mut Model, group: Node) -> Result<Parts, NoFlow> {
     let terms = units::terms(&mut model.dag, group);
     let first = terms.first().map_or(group, |term| term.body);

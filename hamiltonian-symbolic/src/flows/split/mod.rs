@@ -1,8 +1,8 @@
 //! Exact splittings: H as a sum of few pieces, each with a flow in closed form.
 //!
-//! Input: a model. Output: a [`Splitting`] found ([`find`]) or declared ([`declared`]), or the term
+//! Input: a model. Output: a [`Decomposition`] found ([`find`]) or declared ([`declared`]), or the term
 //! that has no flow. Invariant: the pieces are proven to add up to H, and each has an exact flow: it
-//! is an instance of a row of [`ROWS`], or made of such by rules that are theorems.
+//! is an instance of a form of [`FORMS`], or made of such by rules that are theorems.
 
 mod cover;
 mod join;
@@ -11,14 +11,14 @@ mod rank;
 mod sweep;
 
 pub use crate::flows::limits::{EXPRESSIONS, Limit, PIECES};
-pub use crate::flows::solve::rows::{ROWS, Row};
+pub use crate::flows::solve::forms::{FORMS, SolvableForm};
 
 use crate::dag::{Dag, Kind, Node};
 use crate::flows::limits::{MORE_PIECES, is_large};
-use crate::flows::solve::rows::is_constant_form;
+use crate::flows::solve::forms::is_constant_form;
 use crate::flows::solve::{self, units};
 use crate::flows::space::Space;
-use crate::model::{ExactFlow, Flow, Model, Piece};
+use crate::model::{ExactFlow, Model, NamedMotion, Piece};
 use crate::print;
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -26,7 +26,7 @@ use crate::transform::check_split;
 
 /// H as a sum of pieces, outermost first.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Splitting {
+pub struct Decomposition {
     /// The pieces.
     pub pieces: Vec<Piece>,
     /// The reasons of the choice; `None` for one by hand.
@@ -45,7 +45,7 @@ pub struct Reasons {
     pub keeps_invariants: bool,
 }
 
-/// The term of H that no row takes.
+/// The term of H that no form takes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct NoFlow {
     /// The term, as it was written.
@@ -112,7 +112,7 @@ fn looped(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
 }
 
 /// The flow of an expression as it stands, or multiplied out.
-fn any_flow(space: &mut Space, h: Node) -> Option<Flow> {
+fn any_flow(space: &mut Space, h: Node) -> Option<NamedMotion> {
     let c = space.dag().coefficient();
     let closed = solve::flow(space, h, c).or_else(|| {
         units::refinements(space, h).into_iter().find_map(|units| {
@@ -139,16 +139,16 @@ fn is_constant_apart(space: &mut Space, a: Node, b: Node) -> bool {
 /// Parts of H with their flows, outermost first, and the reasons of the choice.
 #[derive(Default)]
 struct Parts {
-    flows: Vec<(Node, Flow)>,
+    flows: Vec<(Node, NamedMotion)>,
     choice: Option<Reasons>,
 }
 
-/// The best splitting of the model's H that the rows give. Groups of terms that have no degree of freedom
+/// The best splitting of the model's H that the forms give. Groups of terms that have no degree of freedom
 /// in common are split apart.
 ///
 /// # Errors
-/// [`NoFlow`] with the term that no row takes.
-pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
+/// [`NoFlow`] with the term that no form takes.
+pub fn find(model: &mut Model) -> Result<Decomposition, NoFlow> {
     let h = model.h();
     let groups = join::groups(model, h);
     let whole = Space::new(model, &[h]);
@@ -196,14 +196,14 @@ pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
         name: print::text(model, node),
         flow: flow.into(),
     });
-    Ok(Splitting {
+    Ok(Decomposition {
         pieces: pieces.collect(),
         choice: parts.choice,
     })
 }
 
 /// A splitting into loops of flows.
-fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, NoFlow> {
+fn over_loops(model: &mut Model, h: Node) -> Result<Decomposition, NoFlow> {
     let pieces = sweep::find(model, h).map_err(|(term, limit)| NoFlow::of(model, term, limit))?;
     let parts: Vec<Node> = pieces.iter().map(|piece| piece.h).collect();
     if pieces.len() > PIECES {
@@ -212,7 +212,7 @@ fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, NoFlow> {
     if pieces.is_empty() || check_split(model, &parts).is_err() {
         return Err(NoFlow::of(model, h, None));
     }
-    Ok(Splitting {
+    Ok(Decomposition {
         pieces,
         choice: None,
     })
@@ -254,7 +254,7 @@ fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
     // A number that stands in H is no piece; a sum that is right without it is proven with it. Numbers
     // refute wrong sums, and the chosen one is proven.
     let constant = space.dag().add(&constants);
-    let rest = |space: &mut Space, pieces: &[cover::Block]| {
+    let rest = |space: &mut Space, pieces: &[cover::SolvedSum]| {
         let mut terms = summands(space.dag(), h, Rational::ONE);
         for node in pieces.iter().map(|piece| piece.node).chain([constant]) {
             terms.extend(summands(space.dag(), node, Rational::MINUS_ONE));
@@ -274,12 +274,12 @@ fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
     let is_proven = |space: &mut Space| space.is_zero(rest).then_some(());
     space.question(h, is_proven).ok_or(h)?;
     let mut flows = Vec::with_capacity(chosen.len());
-    for (at, block) in chosen.into_iter().enumerate() {
+    for (at, solved) in chosen.into_iter().enumerate() {
         let node = match at {
-            0 => space.dag().add(&[block.node, constant]),
-            _ => block.node,
+            0 => space.dag().add(&[solved.node, constant]),
+            _ => solved.node,
         };
-        flows.push((node, block.flow));
+        flows.push((node, solved.flow));
     }
     Ok(Parts {
         flows,
@@ -312,8 +312,11 @@ fn summands(dag: &mut Dag, h: Node, k: Rational) -> Vec<(Rational, Node)> {
 /// The splitting that the author declared: names with their parts of H, in his order.
 ///
 /// # Errors
-/// The number of the first part without a flow, with the first term of it that no row takes.
-pub fn declared(model: &mut Model, parts: &[(String, Node)]) -> Result<Splitting, (usize, NoFlow)> {
+/// The number of the first part without a flow, with the first term of it that no form takes.
+pub fn declared(
+    model: &mut Model,
+    parts: &[(String, Node)],
+) -> Result<Decomposition, (usize, NoFlow)> {
     let mut pieces = Vec::with_capacity(parts.len());
     for (at, (name, h)) in parts.iter().enumerate() {
         let flow = match flow_of(model, *h) {
@@ -329,7 +332,7 @@ pub fn declared(model: &mut Model, parts: &[(String, Node)]) -> Result<Splitting
             flow,
         });
     }
-    Ok(Splitting {
+    Ok(Decomposition {
         pieces,
         choice: None,
     })

@@ -5,7 +5,7 @@
 //! signs near unit size; splittings whose pieces keep all declared invariants come before others.
 
 use super::Reasons;
-use super::cover::Block;
+use super::cover::SolvedSum;
 use crate::dag::{Map, Node};
 use crate::flows::space::Space;
 use crate::flows::space::tape::{LANES, Lanes, Tape};
@@ -115,16 +115,16 @@ struct Trial {
 pub(crate) fn best(
     space: &mut Space,
     h: Node,
-    candidates: Vec<Vec<Block>>,
+    candidates: Vec<Vec<SolvedSum>>,
     invariants: &[Node],
-) -> Option<(Vec<Block>, Reasons)> {
+) -> Option<(Vec<SolvedSum>, Reasons)> {
     let mut energy = space.tape(&[h]).map(|tape| {
         let numbers = tape.prepared(0.0);
         (tape, numbers)
     });
     let (mut tried, mut least): (Vec<Trial>, f64) = (Vec::new(), f64::INFINITY);
     let (mut trials, mut operations, mut keep) = (0, 0, false);
-    // Candidates share blocks: each is made a piece once.
+    // Candidates share sums: each is made a piece once.
     let mut made: Vec<Prepared> = Vec::new();
     let mut numbers: Map<Node, Option<usize>> = Map::default();
     for (candidate, pieces) in candidates.iter().enumerate() {
@@ -136,14 +136,14 @@ pub(crate) fn best(
             (keep, least) = (true, f64::INFINITY);
             tried.clear();
         }
-        let number = |block: &Block| match numbers.get(&block.node) {
+        let number = |solved: &SolvedSum| match numbers.get(&solved.node) {
             Some(known) => *known,
             None => {
-                let number = piece(space, block).map(|piece| {
+                let number = piece(space, solved).map(|piece| {
                     made.push(piece);
                     made.len() - 1
                 });
-                numbers.insert(block.node, number);
+                numbers.insert(solved.node, number);
                 number
             }
         };
@@ -188,7 +188,7 @@ pub(crate) fn best(
 }
 
 /// Returns true if all pieces keep all invariants.
-fn keeps(space: &mut Space, pieces: &[Block], invariants: &[Node]) -> bool {
+fn keeps(space: &mut Space, pieces: &[SolvedSum], invariants: &[Node]) -> bool {
     !invariants.is_empty()
         && pieces.iter().all(|piece| {
             invariants
@@ -199,7 +199,7 @@ fn keeps(space: &mut Space, pieces: &[Block], invariants: &[Node]) -> bool {
 
 /// The orders worth trying: all of up to three pieces; of more, the two dearest outermost and
 /// innermost, as all others act twice a step.
-fn orders(space: &mut Space, pieces: &[Block]) -> Vec<Vec<usize>> {
+fn orders(space: &mut Space, pieces: &[SolvedSum]) -> Vec<Vec<usize>> {
     match pieces.len() {
         0 | 1 => vec![(0..pieces.len()).collect()],
         2 => vec![vec![0, 1], vec![1, 0]],
@@ -215,8 +215,8 @@ fn orders(space: &mut Space, pieces: &[Block]) -> Vec<Vec<usize>> {
         .to_vec(),
         count => {
             let mut by_cost: Vec<usize> = (0..count).collect();
-            let cost = |block: &Block| {
-                let roots: Vec<Node> = block.flow.motion.moves.iter().map(|m| m.value).collect();
+            let cost = |solved: &SolvedSum| {
+                let roots: Vec<Node> = solved.flow.motion.moves.iter().map(|m| m.value).collect();
                 space.model.dag.reachable(&roots).len()
             };
             by_cost.arrange_by_key(|at| cost(&pieces[*at]));
@@ -231,17 +231,17 @@ fn orders(space: &mut Space, pieces: &[Block]) -> Vec<Vec<usize>> {
     }
 }
 
-fn piece(space: &mut Space, block: &Block) -> Option<Prepared> {
-    let images = block.flow.motion.images(space.dag());
+fn piece(space: &mut Space, solved: &SolvedSum) -> Option<Prepared> {
+    let images = solved.flow.motion.images(space.dag());
     let mut roots: Vec<Node> = images.iter().map(|(_, image)| *image).collect();
-    roots.extend(&block.flow.motion.domain);
+    roots.extend(&solved.flow.motion.domain);
     let moved = images.iter().map(|(leaf, _)| space.set(*leaf).number());
     let moved = moved.collect();
     let tape = space.tape(&roots)?;
     Some(Prepared {
         half: tape.prepared(STEP / 2.0),
         whole: tape.prepared(STEP),
-        is_exponential: block.flow.rows == [EXPONENTIAL],
+        is_exponential: solved.flow.forms == [EXPONENTIAL],
         tape,
         moved,
     })

@@ -12,7 +12,7 @@ use crate::flows::limits::{BODY_ROWS, Limit, is_large};
 use crate::flows::solve::units::{LoopedTerm, terms};
 use crate::flows::space::Space;
 use crate::index::{Domain, Index};
-use crate::model::Flow;
+use crate::model::NamedMotion;
 use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
 use crate::ranges::Ranges;
@@ -197,23 +197,23 @@ fn joined(a: ExactFlow, b: ExactFlow) -> Option<ExactFlow> {
     let parts = |flow: ExactFlow| match flow {
         ExactFlow::Loop {
             motions,
-            rows,
+            forms,
             merges,
             ..
-        } => Some((motions, rows, merges)),
-        ExactFlow::Closed(motion, rows) => Some((vec![motion], rows, true)),
+        } => Some((motions, forms, merges)),
+        ExactFlow::Closed(motion, forms) => Some((vec![motion], forms, true)),
         ExactFlow::Linear | ExactFlow::Exponential => None,
     };
-    let ((mut motions, mut rows, merges), (more, names, others)) = (parts(a)?, parts(b)?);
+    let ((mut motions, mut forms, merges), (more, names, others)) = (parts(a)?, parts(b)?);
     motions.extend(more);
     for name in names {
-        if !rows.contains(&name) {
-            rows.push(name);
+        if !forms.contains(&name) {
+            forms.push(name);
         }
     }
     Some(ExactFlow::Loop {
         motions,
-        rows,
+        forms,
         innermost: None,
         merges: merges && others,
     })
@@ -335,17 +335,17 @@ fn solved(
 }
 
 /// The flow of a part of a site; one that moves all at constant rates needs no loop if it `is_alone`.
-fn looped(dag: &Dag, site: &Site, (part, flow): (Node, Flow), is_alone: bool) -> ExactFlow {
-    let Flow { motion, rows } = flow;
+fn looped(dag: &Dag, site: &Site, (part, flow): (Node, NamedMotion), is_alone: bool) -> ExactFlow {
+    let NamedMotion { motion, forms } = flow;
     match site.chain.last() {
         _ if is_alone && is_linear(&columns(dag, part)) => ExactFlow::Linear,
         Some(innermost) => ExactFlow::Loop {
             motions: vec![motion],
-            rows,
+            forms,
             innermost: Some(*innermost),
             merges: commute(dag, &site.chain, &site.rows, part),
         },
-        None => ExactFlow::Closed(motion, rows),
+        None => ExactFlow::Closed(motion, forms),
     }
 }
 
@@ -358,7 +358,7 @@ fn moved(
     site: &Site,
     body: Node,
     may_part: bool,
-) -> Result<Vec<(Node, Flow)>, Option<Limit>> {
+) -> Result<Vec<(Node, NamedMotion)>, Option<Limit>> {
     if is_large(&model.dag, body) {
         return Err(Some(Limit::Subexpressions));
     }
@@ -372,7 +372,7 @@ fn moved(
     space.has_exponentials = false;
     // The flow of a part as a motion: among scalars a shear moves all at constant rates, in a loop it
     // does so within one iteration.
-    let parts: Vec<(Node, Flow)> = match any_flow(&mut space, small_body) {
+    let parts: Vec<(Node, NamedMotion)> = match any_flow(&mut space, small_body) {
         Some(flow) => vec![(small_body, flow)],
         None if may_part => {
             search(&mut space, small_body)
@@ -384,11 +384,11 @@ fn moved(
     model.dag = space.model.dag;
     let back: Map<Node, Node> = images.iter().map(|(leaf, image)| (*image, *leaf)).collect();
     let mut found = Vec::with_capacity(parts.len());
-    for (part, Flow { motion, rows }) in parts {
+    for (part, NamedMotion { motion, forms }) in parts {
         let part = over(&mut model.dag, part, &back);
         let mut motion = motion.map(|node| over(&mut model.dag, node, &back));
         motion.domain.splice(0..0, conditions.iter().copied());
-        found.push((part, Flow { motion, rows }));
+        found.push((part, NamedMotion { motion, forms }));
     }
     Ok(found)
 }

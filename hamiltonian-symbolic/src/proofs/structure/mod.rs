@@ -27,7 +27,7 @@ use std::fmt;
 
 /// H = T(p, t) + V(q, t).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Split {
+pub struct Separation {
     /// T: everything that depends on momenta.
     pub kinetic: Node,
     /// V: everything else, terms of time and parameters alone included.
@@ -73,7 +73,7 @@ pub struct Cyclic {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Structure {
     /// T and V, or the first coupling term.
-    pub separable: Result<Split, Coupling>,
+    pub separable: Result<Separation, Coupling>,
     /// `Ok` if T = ½pᵀM⁻¹p with M of parameters only; otherwise the reason, a sentence without a
     /// full stop.
     pub quadratic_kinetic: Result<(), String>,

@@ -1,10 +1,10 @@
 //! H = T(p, t) + V(q, t), or the term that forbids it.
 //!
-//! Input: a model and its H. Output: [`Split`] or [`Coupling`]. Invariant: a term that does not
+//! Input: a model and its H. Output: [`Separation`] or [`Coupling`]. Invariant: a term that does not
 //! couple stays as it was written; only those that do are multiplied out, and of these only those
 //! that still do are replaced by what relations between functions (sin² + cos² = 1) leave of them.
 
-use super::{Coupling, Split, components, expand};
+use super::{Coupling, Separation, components, expand};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::model::Model;
 use crate::normal_form;
@@ -19,7 +19,7 @@ fn couples(dag: &Dag, node: Node) -> bool {
 }
 
 /// The split of H, or the first coupling term.
-pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
+pub(super) fn split(model: &mut Model, h: Node) -> Result<Separation, Coupling> {
     let parts = apart(model, h);
     if model.dag.is_zero(parts.coupling) {
         return Ok(parts.split(true));
@@ -44,8 +44,8 @@ struct Separated {
 }
 
 impl Separated {
-    fn split(self, as_written: bool) -> Split {
-        Split {
+    fn split(self, as_written: bool) -> Separation {
+        Separation {
             as_written,
             kinetic: self.kinetic,
             potential: self.potential,

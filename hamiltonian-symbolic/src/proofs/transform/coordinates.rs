@@ -62,22 +62,22 @@ impl Transformed {
         let mut inverse = Vec::new();
         let mut bounded = Vec::new();
         for (chart, place) in charts.iter().zip(&layout.places) {
-            for block in &place.blocks {
+            for variables in &place.charted {
                 if let Replaced::Scalars(formulas, _) = chart.replaced() {
                     bounded.extend(
-                        block
+                        variables
                             .new
                             .iter()
                             .copied()
                             .zip(formulas.values.iter().copied()),
                     );
                 }
-                let old = block.variables(&mut source.dag, true);
+                let old = variables.variables(&mut source.dag, true);
                 let image = to_new(chart, model, &mut source.dag, &old);
-                forward.extend(entries(&block.new, &image));
-                let fresh = block.variables(&mut new.dag, false);
+                forward.extend(entries(&variables.new, &image));
+                let fresh = variables.variables(&mut new.dag, false);
                 let image = to_old(chart, model, &mut new.dag, &fresh, &mut rules);
-                inverse.extend(entries(&block.old, &image));
+                inverse.extend(entries(&variables.old, &image));
             }
             if let Chart::Jacobi(bodies) = chart {
                 let masses = masses_of(model, &mut new.dag, bodies.masses);
@@ -98,7 +98,7 @@ impl Transformed {
         })?;
         for (chart, place) in charts.iter().zip(&layout.places) {
             if let Replaced::Scalars(..) = chart.replaced() {
-                images.extend(new_scalars(&mut new.dag, &place.blocks));
+                images.extend(new_scalars(&mut new.dag, &place.charted));
             }
         }
         for of in &bodies {
@@ -292,10 +292,10 @@ fn entries<'a>(
 }
 
 /// The scalars of a chart as a declared split reads them, each in the place of an old one, with those of the new model.
-fn new_scalars(dag: &mut Dag, blocks: &[ChartVariables]) -> Vec<(Node, Node)> {
+fn new_scalars(dag: &mut Dag, charted: &[ChartVariables]) -> Vec<(Node, Node)> {
     let mut found = Vec::new();
-    for block in blocks {
-        for (old, new) in block.old.iter().zip(&block.new) {
+    for variables in charted {
+        for (old, new) in variables.old.iter().zip(&variables.new) {
             let group = REPLACING + old.group;
             for side in [Side::Q, Side::P] {
                 let read = Slot { group, ..*old }.node(dag, side);

@@ -66,7 +66,7 @@ impl ChartVariables {
 
 /// The variables that a chart maps.
 pub(super) struct Mapped {
-    pub(super) blocks: Vec<ChartVariables>,
+    pub(super) charted: Vec<ChartVariables>,
     /// The first new group.
     pub(super) first: u16,
 }
@@ -144,8 +144,8 @@ impl GroupLayout {
             .zip(firsts)
             .map(|(chart, first)| {
                 let first = first.expect("a chart has members");
-                let blocks = blocks(model, chart, first);
-                Mapped { blocks, first }
+                let charted = charted(model, chart, first);
+                Mapped { charted, first }
             })
             .collect();
         Ok(GroupLayout {
@@ -221,7 +221,7 @@ fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
 }
 
 /// The sets of variables of a chart whose first new group has the given number.
-fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<ChartVariables> {
+fn charted(model: &Model, chart: &Chart, first: u16) -> Vec<ChartVariables> {
     let slot = |group, row, column| Slot { group, row, column };
     match chart.replaced() {
         Replaced::Scalars(_, components) => {
@@ -238,16 +238,16 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<ChartVariables> {
         }
         Replaced::Bodies(bodies) => {
             let shape = &model.groups[usize::from(bodies.group)].shape;
-            // Bodies of any number have no blocks: `bodies` maps them in loops.
+            // Bodies of any number have no such sets: `bodies` maps them in loops.
             let Some((rows, columns)) = shape.literal() else {
                 return Vec::new();
             };
             let slots = |group, column| (0..rows as u32).map(move |row| slot(group, row, column));
-            let block = |column| ChartVariables {
+            let variables = |column| ChartVariables {
                 old: slots(bodies.group, column).collect(),
                 new: slots(first, column).collect(),
             };
-            (0..columns).map(block).collect()
+            (0..columns).map(variables).collect()
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The table of exact flows: the pattern of a piece, its motion, the domain, and the source.
 //!
 //! Input: an expression h and the time s it acts for, constant along its own flow. Output: its
-//! [`Motion`]. Invariant: a row answers only where h is proven to be an instance of its pattern;
-//! that the flow of the pattern is exact is proven once a row by tests. A new row is a file here
-//! and a line in [`ROWS`].
+//! [`Motion`]. Invariant: a solver answers only where h is proven to be an instance of its pattern;
+//! that the flow of the pattern is exact is proven once a form by tests. A new form is a file here
+//! and a line in [`FORMS`].
 
 mod axes;
 mod circle;
@@ -24,7 +24,7 @@ use crate::flows::space::Space;
 use crate::model::{EXPONENTIAL, Motion};
 use crate::rational::Rational;
 
-/// One pair as a row sees it: a position x and its momentum y, which are (q, p) or (p, −q).
+/// One pair as a solver takes it: a position x and its momentum y, which are (q, p) or (p, −q).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axes {
     /// The position.
@@ -71,7 +71,7 @@ pub(crate) struct Moved {
     pub(crate) domain: Vec<Node>,
 }
 
-/// The solver of a row.
+/// The solver of a form.
 #[derive(Clone, Copy)]
 pub(crate) enum Solve {
     /// Solves K(x, y) of one pair and parameters.
@@ -84,8 +84,8 @@ pub(crate) enum Solve {
     Bare(fn(&mut Space, Node, Node) -> Option<Motion>),
 }
 
-/// A row: the pattern of a Hamiltonian, and the domain and source of its flow.
-pub struct Row {
+/// A form of H with an exact flow: its pattern, and the domain and source of the flow.
+pub struct SolvableForm {
     /// A short name.
     pub name: &'static str,
     /// The Hamiltonian.
@@ -97,72 +97,72 @@ pub struct Row {
     pub(crate) solve: Solve,
 }
 
-/// The rows. Within a kind (`Solve`) they are tried in this order. Flows that are linear in time need no row.
-pub static ROWS: &[Row] = &[
-    Row {
+/// The forms. Within a kind (`Solve`) they are tried in this order. Flows that are linear in time need no form.
+pub static FORMS: &[SolvableForm] = &[
+    SolvableForm {
         name: "quadratic form",
         pattern: "½zᵀAz + gᵀz of at most 4 pairs with M = JA and M² = λ, M³ = λM or M⁴ = λM²",
         domain: "everywhere",
         source: "Cayley–Hamilton: e^{sM} = 1 + sM + c₂M² + c₃M³",
         solve: Solve::Whole(quadratic::solve),
     },
-    Row {
+    SolvableForm {
         name: EXPONENTIAL,
         pattern: "½zᵀAz + gᵀz of all of a point of at most 16 components, where that is not closed",
         domain: "everywhere",
         source: "scaling and squaring: C. Moler, C. Van Loan, SIAM Review 45 (2003) 3",
         solve: Solve::Exponential,
     },
-    Row {
+    SolvableForm {
         name: "monomial",
         pattern: "c·qᵃpᵇ",
         domain: "1 + (b−a)·c·q^{a−1}p^{b−1}·t > 0",
         source: "q^{a−1}p^{b−1} moves at a constant rate of its reciprocal",
         solve: Solve::Pair(monomial::solve),
     },
-    Row {
+    SolvableForm {
         name: "f(q)·p",
         pattern: "φ(q)·p with φ‴ = κφ′, κ a constant",
         domain: "the orbit stays finite",
         source: "Riccati's equation, linearised",
         solve: Solve::Pair(linear::solve),
     },
-    Row {
+    SolvableForm {
         name: "f(q)·p²",
         pattern: "f(q)·p² with f·u′² quadratic in u for a chart u of q, q², 1/q",
         domain: "p keeps its sign, u stays in its range",
         source: "du/dt = 2f·u′²·(p/u′) is linear in u",
         solve: Solve::Pair(square::solve),
     },
-    Row {
+    SolvableForm {
         name: "shear",
         pattern: "G(p − A(q; c); c) with A a polynomial in q of degree 8 at most",
         domain: "everywhere",
         source: "Y. K. Wu, É. Forest, D. S. Robin, Phys. Rev. E 68 (2003) 046502",
         solve: Solve::Bare(shear::solve),
     },
-    Row {
+    SolvableForm {
         name: "free flight",
-        pattern: "a·(p² + Λ/r²), Λ any row's that is free of r and p",
+        pattern: "a·(p² + Λ/r²), Λ any form's that is free of r and p",
         domain: "Λ > 0, or r + 2a·t·p > 0 and the centre is not met",
         source: "a straight line in polar coordinates",
         solve: Solve::Whole(flight::solve),
     },
-    Row {
+    SolvableForm {
         name: "great circle",
         pattern: "b·(p² + Λ/sin²θ), Λ ≥ 0 free of θ and p, with no pair of its own",
         domain: "off the poles",
         source: "a turn of the unit sphere",
         solve: Solve::Whole(circle::solve),
     },
-    Row {
+    SolvableForm {
         name: "rotation",
         pattern: "G(x·p_y − y·p_x, x² + y², c)",
         domain: "everywhere",
         source: "a kick along the radius, then a turn about the axis",
         solve: Solve::Whole(rotation::solve),
     },
-    Row {
+    SolvableForm {
         name: "Kepler",
         pattern: "a·|p|² − κ/|q| of two or three pairs, κ of either sign",
         domain: "the centre is not met",
@@ -170,14 +170,14 @@ pub static ROWS: &[Row] = &[
                  J. Wisdom, D. M. Hernandez, MNRAS 453 (2015) 3015",
         solve: Solve::Whole(kepler::solve),
     },
-    Row {
+    SolvableForm {
         name: "spin component",
         pattern: "K(l, L) with K² + K_l² = c²(C² − L²), and its square",
         domain: "K ≠ 0, or the angle rests",
         source: "a turn of the vector (K, K_l, cL) about its first axis",
         solve: Solve::Whole(spin::solve),
     },
-    Row {
+    SolvableForm {
         name: "body axis",
         pattern: "κ·M², M the angular momentum along a body axis, in Euler angles φ, θ, ψ",
         domain: "off the poles of the angles",

@@ -34,13 +34,13 @@ pub use nalgebra::{
 
 pub use crate::__record as record;
 pub use crate::errors::Error;
+pub use crate::flows::emitted::{
+    Adds, Damped, Drift, Emitted, FieldBody, FieldOf, FlowBody, Halves, Kick, Linear, Matrices,
+    Moves, Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
+    WithData, gradient_by_field, slopes_by_kick, velocities_by_drift,
+};
 pub use crate::flows::exponential::Exponential;
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
-pub use crate::flows::kernel::{
-    Adds, Damped, Drift, FieldBody, FieldOf, Halves, Kernel, Kick, Linear, Matrices, Motion, Moves,
-    Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole, WithData,
-    gradient_by_field, slopes_by_kick, velocities_by_drift,
-};
 pub use crate::flows::push::Coupled;
 pub use crate::loops::calls::*;
 pub use crate::loops::pairs::{TILED, TileRow, Triangle, pairs};
@@ -530,20 +530,20 @@ macro_rules! __each {
 #[doc(hidden)]
 macro_rules! __halves {
     ($impl:tt $system:ty, $prepared:ty, $kick:ty: $($structure:ident)*) => {
-        $($crate::__halves! { @$structure $impl $system, $crate::private::Kernel<$prepared, $kick>,
-        $crate::private::Kernel<$prepared, $crate::private::Shifts<$crate::private::Drift>> })*
+        $($crate::__halves! { @$structure $impl $system, $crate::private::Emitted<$prepared, $kick>,
+        $crate::private::Emitted<$prepared, $crate::private::Shifts<$crate::private::Drift>> })*
     };
     (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Separable for $system {
             type Kick<T: $crate::private::Real> = $kick;
             #[inline(always)]
             fn kick<T: $crate::private::Real>() -> $kick {
-                $crate::private::Kernel::PIECE
+                $crate::private::Emitted::PIECE
             }
             type Drift<T: $crate::private::Real> = $drift;
             #[inline(always)]
             fn drift<T: $crate::private::Real>() -> $drift {
-                $crate::private::Kernel::PIECE
+                $crate::private::Emitted::PIECE
             }
         }
     };
@@ -556,7 +556,7 @@ macro_rules! __halves {
             type Pieces<T: $crate::private::Real> = ($first, $second);
             #[inline(always)]
             fn pieces<T: $crate::private::Real>() -> Self::Pieces<T> {
-                ($crate::private::Kernel::PIECE, $crate::private::Kernel::PIECE)
+                ($crate::private::Emitted::PIECE, $crate::private::Emitted::PIECE)
             }
         }
     };
@@ -565,12 +565,12 @@ macro_rules! __halves {
             type Kick<T: $crate::private::Real> = $kick;
             #[inline(always)]
             fn kick<T: $crate::private::Real>() -> $kick {
-                $crate::private::Kernel::PIECE
+                $crate::private::Emitted::PIECE
             }
             type Quadratic<T: $crate::private::Real> = $drift;
             #[inline(always)]
             fn quadratic<T: $crate::private::Real>() -> $drift {
-                $crate::private::Kernel::PIECE
+                $crate::private::Emitted::PIECE
             }
         }
     };

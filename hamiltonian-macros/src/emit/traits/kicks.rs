@@ -33,8 +33,8 @@ impl Emission<'_> {
     }
 
     /// The type of a piece of a kind.
-    pub(super) fn kernel(&self, kind: &str) -> String {
-        format!("__h::Kernel<{}, {kind}>", self.prepared.ty(self.context))
+    pub(super) fn emitted(&self, kind: &str) -> String {
+        format!("__h::Emitted<{}, {kind}>", self.prepared.ty(self.context))
     }
 
     /// The kind of the vector field.
@@ -56,7 +56,7 @@ impl Emission<'_> {
         let Some((function, holder)) = self.held_by(purpose, format!("{purpose:?}")) else {
             return;
         };
-        self.open_kernel("FieldBody", kind(purpose), function, &holder, "");
+        self.open_body("FieldBody", kind(purpose), function, &holder, "");
         self.evaluated("add", &holder, &["_q", "_p", "_oq", "_op"], function);
         line!(self, "}}");
     }

@@ -16,7 +16,7 @@ use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
 
 /// The value of a piece.
-pub const PIECE: &str = "__h::Kernel::PIECE";
+pub const PIECE: &str = "__h::Emitted::PIECE";
 
 impl Emission<'_> {
     /// The flows of the model's pieces.
@@ -52,7 +52,7 @@ impl Emission<'_> {
     fn numbered(&self, number: usize) -> String {
         let kind = format!("__h::Numbered<{number}>");
         let function = (self.context.program).function(Purpose::Piece(number as u16));
-        self.kernel(&match (self.rows(number), function) {
+        self.emitted(&match (self.rows(number), function) {
             (Some(rows), _) => format!("__h::Matrices<{kind}, {rows}>"),
             (None, Some(function)) if self.one_way(function).is_some() => {
                 format!("__h::Shifts<{kind}>")
@@ -66,7 +66,7 @@ impl Emission<'_> {
         let context = self.context;
         let (structure, own) = (&context.definition.structure, &context.model.pieces);
         let kick = self.kick_kind();
-        let halves = [kick, "__h::Shifts<__h::Drift>"].map(|kind| self.kernel(kind));
+        let halves = [kick, "__h::Shifts<__h::Drift>"].map(|kind| self.emitted(kind));
         let split = match structure.is_drift_first() {
             true => "DriftFirst",
             false => "Split",
@@ -146,11 +146,11 @@ impl Emission<'_> {
             if !kicks {
                 constants.push_str("const KICKS: __h::bool = false;\n");
             }
-            self.open_kernel("Shift", kind, function, &holder, &constants);
+            self.open_body("Shift", kind, function, &holder, &constants);
             let vectors = if kicks { ["_q", "_op"] } else { ["_p", "_oq"] };
             self.evaluated("add", &holder, &vectors, function);
         } else {
-            self.open_kernel("Motion", kind, function, &holder, &constants);
+            self.open_body("FlowBody", kind, function, &holder, &constants);
             self.bodies.context.access = Access::InPlace;
             self.evaluated("apply", &holder, &["_oq", "_op"], function);
             if !merges {
@@ -163,7 +163,7 @@ impl Emission<'_> {
     }
 
     /// The head of the bodies of a kind, and the body from prepared values and the coefficient to what is held.
-    pub(super) fn open_kernel(
+    pub(super) fn open_body(
         &mut self,
         name: &str,
         kind: &str,

@@ -1,7 +1,7 @@
-//! The contract of kernels: bodies that a definition gives, and the fields, flows and pieces made of them.
+//! The contract of emitted code: bodies that a definition gives, and the fields, flows and pieces made of them.
 //!
-//! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`Motion`] and [`FieldBody`] for a
-//! prepared system, one for each kind. Output: [`Kernel`], the vector field, the flow and the piece of each kind.
+//! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`FlowBody`] and [`FieldBody`] for a
+//! prepared system, one for each kind. Output: [`Emitted`], the vector field, the flow and the piece of each kind.
 //! Invariant: a body has two stages. The first computes the held values from the prepared system and a coefficient, once
 //! for each map. The second computes the change of a point from the held values, the data of the prepared system and the
 //! point.
@@ -47,7 +47,7 @@ pub trait Shift<K, T: Real>: WithData<T> {
 }
 
 /// A body that reads and writes one point: an exact flow.
-pub trait Motion<K, T: Real>: WithData<T> {
+pub trait FlowBody<K, T: Real>: WithData<T> {
     /// The piece in the author's notation.
     const NAME: &'static str;
     /// See [`Flow::MERGES`].
@@ -240,44 +240,44 @@ pub struct Numbered<const K: usize>;
 /// The [`Shift`] of a kind.
 #[derive(Debug)]
 pub struct Shifts<K>(K);
-/// The [`Motion`] of a kind.
+/// The [`FlowBody`] of a kind.
 #[derive(Debug)]
 pub struct Moves<K>(K);
 /// The [`FieldBody`] of a kind.
 #[derive(Debug)]
 pub struct Adds<K>(K);
-/// The [`Motion`] of a kind as a matrix of `N` rows.
+/// The [`FlowBody`] of a kind as a matrix of `N` rows.
 #[derive(Debug)]
 pub struct Matrices<K, const N: usize>(K);
-/// The kernel of kind `K` of a prepared system `D`: a piece, or with held values a flow or a field.
-pub struct Kernel<D, K, H = ()> {
+/// What is made of the body of kind `K` of a prepared system `D`: a piece, or with held values a flow or a field.
+pub struct Emitted<D, K, H = ()> {
     held: H,
     of: PhantomData<fn() -> (D, K)>,
 }
 
-impl<D, K> Kernel<D, K> {
+impl<D, K> Emitted<D, K> {
     /// The piece.
-    pub const PIECE: Self = Kernel::holding(());
+    pub const PIECE: Self = Emitted::holding(());
 }
 
-impl<D, K, H> Kernel<D, K, H> {
+impl<D, K, H> Emitted<D, K, H> {
     #[inline(always)]
     const fn holding(held: H) -> Self {
         let of = PhantomData;
-        Kernel { held, of }
+        Emitted { held, of }
     }
 }
 
-impl<D, K, H: Clone> Clone for Kernel<D, K, H> {
+impl<D, K, H: Clone> Clone for Emitted<D, K, H> {
     #[inline(always)]
     fn clone(&self) -> Self {
-        Kernel::holding(self.held.clone())
+        Emitted::holding(self.held.clone())
     }
 }
 
-impl<D, K, H: Copy> Copy for Kernel<D, K, H> {}
+impl<D, K, H: Copy> Copy for Emitted<D, K, H> {}
 
-impl<D, K, H: Debug> Debug for Kernel<D, K, H> {
+impl<D, K, H: Debug> Debug for Emitted<D, K, H> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.held.fmt(f)
     }
@@ -285,15 +285,15 @@ impl<D, K, H: Debug> Debug for Kernel<D, K, H> {
 
 /// The flow of the [`Shift`] of kind `K`.
 pub type ShiftOf<D, K, T> =
-    Kernel<D, Shifts<K>, (<D as Shift<K, T>>::Held, <D as WithData<T>>::Data)>;
-/// The flow of the [`Motion`] of kind `K`.
-pub type MotionOf<D, K, T> =
-    Kernel<D, Moves<K>, (<D as Motion<K, T>>::Held, <D as WithData<T>>::Data)>;
+    Emitted<D, Shifts<K>, (<D as Shift<K, T>>::Held, <D as WithData<T>>::Data)>;
+/// The flow of the [`FlowBody`] of kind `K`.
+pub type FlowBodyOf<D, K, T> =
+    Emitted<D, Moves<K>, (<D as FlowBody<K, T>>::Held, <D as WithData<T>>::Data)>;
 /// The [`FieldBody`] of kind `K`.
 pub type FieldOf<D, K, T> =
-    Kernel<D, Adds<K>, (<D as FieldBody<K, T>>::Held, <D as WithData<T>>::Data)>;
+    Emitted<D, Adds<K>, (<D as FieldBody<K, T>>::Held, <D as WithData<T>>::Data)>;
 
-impl<V, D, K, H, A> Flow<Point<V>> for Kernel<D, Shifts<K>, (H, A)>
+impl<V, D, K, H, A> Flow<Point<V>> for Emitted<D, Shifts<K>, (H, A)>
 where
     V: Vector,
     D: Shift<K, V::Scalar, Vector = V, Held = H, Data = A>,
@@ -315,10 +315,10 @@ where
     }
 }
 
-impl<V, D, K, H, A> Flow<Point<V>> for Kernel<D, Moves<K>, (H, A)>
+impl<V, D, K, H, A> Flow<Point<V>> for Emitted<D, Moves<K>, (H, A)>
 where
     V: Vector,
-    D: Motion<K, V::Scalar, Vector = V, Held = H, Data = A>,
+    D: FlowBody<K, V::Scalar, Vector = V, Held = H, Data = A>,
     H: Clone + Debug,
     A: Clone + Debug,
 {
@@ -335,7 +335,7 @@ where
     }
 }
 
-impl<V, D, K, H, A> VectorField<V> for Kernel<D, Adds<K>, (H, A)>
+impl<V, D, K, H, A> VectorField<V> for Emitted<D, Adds<K>, (H, A)>
 where
     V: Vector,
     D: FieldBody<K, V::Scalar, Vector = V, Held = H, Data = A>,
@@ -348,21 +348,21 @@ where
     }
 }
 
-impl<D, K, H, A: Clone> Kernel<D, Adds<K>, (H, A)> {
+impl<D, K, H, A: Clone> Emitted<D, Adds<K>, (H, A)> {
     /// The field for the coefficient `c`.
     #[inline(always)]
     pub fn fold<T: Real>(prepared: &D, c: T) -> Self
     where
         D: FieldBody<K, T, Held = H, Data = A>,
     {
-        Kernel::holding((prepared.fold(c), prepared.data().clone()))
+        Emitted::holding((prepared.fold(c), prepared.data().clone()))
     }
 }
 
 /// The flow that a piece makes for the coefficient `c`.
 macro_rules! piece {
     ($kind:ty, [$($of:tt)*], [$($condition:tt)*], $flow:ty, |$prepared:ident, $c:ident| $body:expr) => {
-        impl<T: Real, D, $($of)*> Piece<T, D> for Kernel<D, $kind>
+        impl<T: Real, D, $($of)*> Piece<T, D> for Emitted<D, $kind>
         where
             D: $($condition)* + 'static,
         {
@@ -377,33 +377,33 @@ macro_rules! piece {
 }
 
 piece!(Shifts<K>, [K: 'static], [Shift<K, T>], ShiftOf<D, K, T>, |prepared, c| {
-    Kernel::holding((prepared.fold(c), prepared.data().clone()))
+    Emitted::holding((prepared.fold(c), prepared.data().clone()))
 });
-piece!(Moves<K>, [K: 'static], [Motion<K, T>], MotionOf<D, K, T>, |prepared, c| {
-    Kernel::holding((prepared.fold(c), prepared.data().clone()))
+piece!(Moves<K>, [K: 'static], [FlowBody<K, T>], FlowBodyOf<D, K, T>, |prepared, c| {
+    Emitted::holding((prepared.fold(c), prepared.data().clone()))
 });
 piece!(
     Matrices<K, N>,
     [K: 'static, const N: usize],
-    [Motion<K, T> + Origin<T>],
-    Exponential<MotionOf<D, K, T>, T, N>,
+    [FlowBody<K, T> + Origin<T>],
+    Exponential<FlowBodyOf<D, K, T>, T, N>,
     |prepared, c| {
         let raised = Self::Flow::raised(c);
-        let rates = MotionOf::<D, K, T>::holding((prepared.fold(raised), prepared.data().clone()));
+        let rates = FlowBodyOf::<D, K, T>::holding((prepared.fold(raised), prepared.data().clone()));
         Exponential::new(&rates, &Point { q: D::origin(), p: D::origin() })
     }
 );
 piece!(
     Damped,
     [],
-    [Motion<Push, T> + Shift<Kick, T>],
-    Both<MotionOf<D, Push, T>, ShiftOf<D, Kick, T>>,
+    [FlowBody<Push, T> + Shift<Kick, T>],
+    Both<FlowBodyOf<D, Push, T>, ShiftOf<D, Kick, T>>,
     |prepared, c| Both(
-        Kernel::holding((
-            Motion::<Push, T>::fold(prepared, c),
+        Emitted::holding((
+            FlowBody::<Push, T>::fold(prepared, c),
             prepared.data().clone()
         )),
-        Kernel::holding((Shift::<Kick, T>::fold(prepared, c), prepared.data().clone())),
+        Emitted::holding((Shift::<Kick, T>::fold(prepared, c), prepared.data().clone())),
     )
 );
 piece!(
@@ -412,8 +412,8 @@ piece!(
     [FieldBody<Rates, T> + FieldBody<Linear, T>],
     Coupled<FieldOf<D, Rates, T>, FieldOf<D, Linear, T>>,
     |prepared, c| Coupled {
-        field: Kernel::fold(prepared, c),
-        linear: Kernel::fold(prepared, c),
+        field: Emitted::fold(prepared, c),
+        linear: Emitted::fold(prepared, c),
     }
 );
 piece!(
@@ -421,5 +421,5 @@ piece!(
     [],
     [FieldBody<Rates, T>],
     SubStep<FieldOf<D, Rates, T>>,
-    |prepared, c| SubStep(Kernel::fold(prepared, c))
+    |prepared, c| SubStep(Emitted::fold(prepared, c))
 );

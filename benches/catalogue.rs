@@ -16,9 +16,10 @@ use hamiltonian::schemes::{
     Aba104, Aba864, BlanesCasasEscorihuela8, BlanesCasasMurua8, CheapProcessed4, Compensated,
     ConsecutiveSubTrajectories, DiscreteGradient, IntersectingSubTrajectories, KahanLi6,
     McLachlan8, MidpointProjected, Mixed, MomentumVariational, Pihajoki, Processed4, Processed6,
-    Ruth3, Saba2, Saba3, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b,
-    Srkn14a, Start, Suzuki4, SymplecticEuler, Tao, TwoStepMidpoint, Variational, WisdomHolman3,
-    WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
+    Ruth3, Saba2, Saba3, SecondPoint, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10,
+    Srkn6b, Srkn11b, Srkn14a, Suzuki4, SymplecticEuler, Tao, TwoStepMidpoint, Variational,
+    WisdomHolman3, WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17, Yoshida4,
+    Yoshida6,
 };
 
 hamiltonian! {
@@ -197,12 +198,12 @@ fn main() {
         CheapProcessed4::default(),
         WisdomHolman3::default(), WisdomHolman5::default(), WisdomHolman7::default(), WisdomHolman11::default(),
         WisdomHolman17::default(), Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst,
-        TwoStepMidpoint::default().with_start(Start::Equal), TwoStepMidpoint::default().with_start(Start::HalfEuler),
-        TwoStepMidpoint::default().with_start(Start::SecondOrder), ConsecutiveSubTrajectories::default().with_start(Start::Equal),
-        ConsecutiveSubTrajectories::default().with_start(Start::HalfEuler),
-        ConsecutiveSubTrajectories::default().with_start(Start::SecondOrder),
-        IntersectingSubTrajectories::default().with_start(Start::Equal), IntersectingSubTrajectories::default().with_start(Start::HalfEuler),
-        IntersectingSubTrajectories::default().with_start(Start::SecondOrder), ImplicitMidpoint::default(),
+        TwoStepMidpoint::default().with_second_point(SecondPoint::Equal), TwoStepMidpoint::default().with_second_point(SecondPoint::HalfEuler),
+        TwoStepMidpoint::default().with_second_point(SecondPoint::SecondOrder), ConsecutiveSubTrajectories::default().with_second_point(SecondPoint::Equal),
+        ConsecutiveSubTrajectories::default().with_second_point(SecondPoint::HalfEuler),
+        ConsecutiveSubTrajectories::default().with_second_point(SecondPoint::SecondOrder),
+        IntersectingSubTrajectories::default().with_second_point(SecondPoint::Equal), IntersectingSubTrajectories::default().with_second_point(SecondPoint::HalfEuler),
+        IntersectingSubTrajectories::default().with_second_point(SecondPoint::SecondOrder), ImplicitMidpoint::default(),
         Tao::default(), Mixed::<Strang>::default(), MidpointProjected::<Strang>::default(),
         Semiexplicit::<Strang>::default(),
     }

@@ -19,7 +19,7 @@ use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian::schemes::{
-    ConsecutiveSubTrajectories, IntersectingSubTrajectories, Pihajoki, Start, Yoshida4,
+    ConsecutiveSubTrajectories, IntersectingSubTrajectories, Pihajoki, SecondPoint, Yoshida4,
 };
 use hamiltonian::{Exact, Scheme, Separable, Split, System, Unforced, View, hamiltonian};
 use std::fmt::{Display, Write as _};
@@ -216,15 +216,15 @@ fn far<S: Split + Exact + Unforced + Display>(
     println!("To t = {FAR_END:e}, Δt = {FAR_STEP}:");
     print_pieces(system);
     let mut contest = Contest::new(system, start, FAR_STEP, FAR_END);
-    let start = Start::Equal;
+    let second = SecondPoint::Equal;
     contest.every = 7;
     contest.enter(
         "scheme 1, (26)",
-        ConsecutiveSubTrajectories::default().with_start(start),
+        ConsecutiveSubTrajectories::default().with_second_point(second),
     )?;
     let crossing = contest.enter(
         "scheme 2, (33)",
-        IntersectingSubTrajectories::default().with_start(start),
+        IntersectingSubTrajectories::default().with_second_point(second),
     )?;
     let [doubled, midpoint] = contest.enter_others()?;
     let strang = contest.enter("exact flows, Strang", Strang)?;

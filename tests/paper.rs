@@ -12,7 +12,7 @@ use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
 use hamiltonian::private::SVector;
 use hamiltonian::schemes::{
-    ConsecutiveSubTrajectories, IntersectingSubTrajectories, Pihajoki, Start,
+    ConsecutiveSubTrajectories, IntersectingSubTrajectories, Pihajoki, SecondPoint,
 };
 use hamiltonian::{DoubleDouble, Real, Scheme, Separable, Unforced, Vector};
 use std::f64::consts::FRAC_PI_4;
@@ -90,7 +90,7 @@ fn copies_of_29_part_on_34() {
 fn scheme_33_with_half_euler_start_is_29() {
     book_says("equals the copy (q̃, p) of (29) to 1e-12 over 2000 steps");
     let system = Paper34::default();
-    let scheme = IntersectingSubTrajectories::default().with_start(Start::HalfEuler);
+    let scheme = IntersectingSubTrajectories::default().with_second_point(SecondPoint::HalfEuler);
     let mut intersecting = Integrator::new(&system, scheme, on_paper34(), 1e-3).unwrap();
     let mut pihajoki = Integrator::new(&system, Pihajoki::default(), on_paper34(), 1e-3).unwrap();
     let mut worst = [0.0_f64; 2];
@@ -148,22 +148,22 @@ fn starts_of_33_on_the_pendulum() {
     );
     let system = Pendulum::default();
     let at = |start, t| {
-        let scheme = IntersectingSubTrajectories::default().with_start(start);
+        let scheme = IntersectingSubTrajectories::default().with_second_point(start);
         drift(&system, scheme, on_pendulum(), 1e-3, t)
     };
-    let equal = at(Start::Equal, 50.0);
+    let equal = at(SecondPoint::Equal, 50.0);
     assert_digits("equal, T = 50", equal, 1.977e-4, 4);
     assert_digits("equal, T = 50, book", equal, 1.98e-4, 3);
-    let half_euler = at(Start::HalfEuler, 50.0);
+    let half_euler = at(SecondPoint::HalfEuler, 50.0);
     assert_digits("half-Euler, T = 50", half_euler, 2.19e-7, 3);
     assert_digits("half-Euler, T = 50, book", half_euler, 2.2e-7, 2);
     assert_digits("ratio, T = 50", equal / half_euler, 901.0, 3);
     // The error of the half-Euler start grows linearly.
-    let ratio = |t| at(Start::Equal, t) / at(Start::HalfEuler, t);
+    let ratio = |t| at(SecondPoint::Equal, t) / at(SecondPoint::HalfEuler, t);
     assert_digits("ratio, T = 1e3", ratio(1e3), 56.0, 2);
     assert_digits("ratio, T = 1e4", ratio(1e4), 6.0, 1);
     for t in [50.0, 1e4] {
-        let second = at(Start::SecondOrder, t);
+        let second = at(SecondPoint::SecondOrder, t);
         assert_digits("second order", second, 4.96e-9, 3);
         assert_digits("second order, book", second, 5.0e-9, 2);
         assert_digits("ratio", equal / second, 40_000.0, 1);

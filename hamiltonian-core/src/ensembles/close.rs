@@ -1,4 +1,4 @@
-//! States of lanes in rows, out of line.
+//! States of lanes, written out of line: a row for each component.
 //!
 //! Input: the carried values of the lanes. Output: the closed states. Invariant: the carried values are not
 //! changed.

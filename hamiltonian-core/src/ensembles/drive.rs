@@ -5,12 +5,12 @@
 //! blocks. A member that fails does not delay the others, since it is replayed after them.
 
 pub(super) mod deviations;
-mod rows;
 mod scalar;
 mod sections;
+mod transfer;
 
-use self::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use self::scalar::{explain, pass_to_host};
+use self::transfer::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::block::{Block, Followed, LaneClock, LaneSchedule, Opening};
 use super::close::{Close, WriteRows};
 use super::host::{Host, MemberRun};

@@ -87,10 +87,10 @@ mod projection;
 mod tao;
 mod trajectories;
 
+mod bundles;
 pub mod collocation;
 mod gauss;
 mod midpoint;
-mod rows;
 mod second_order;
 mod staged;
 mod stages;
@@ -131,7 +131,7 @@ pub use tabulated::{
 };
 pub use tao::Tao;
 pub use trajectories::{
-    ConsecutiveSubTrajectories, IntersectingSubTrajectories, Start, TwoStepMidpoint,
+    ConsecutiveSubTrajectories, IntersectingSubTrajectories, SecondPoint, TwoStepMidpoint,
 };
 pub use transformed_verlet::TransformedVerlet;
 pub use variational::{MomentumVariational, Variational};

@@ -3,12 +3,12 @@
 //! Input: H = ½ pᵀM⁻¹p + V(q, t). Output: [`GaussNystrom`]. Invariant: the steps are those of
 //! [`Gauss`](super::Gauss), to rounding.
 
+use super::bundles::{
+    Abreast, Apart, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles, load,
+    matrix_in_bundles, of_the_guess, product, solve, spread, store, sum,
+};
 use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
-use super::rows::{
-    Abreast, Apart, Beside, Equations, LEVELS, RowLayout, Width, in_rows, load, matrix_in_rows,
-    of_the_guess, product, rows, solve, spread, store, sum,
-};
 use super::staged::StagedMap;
 use super::stages::{Stages, extrapolation};
 use crate::flows::iterate::Outcome;
@@ -195,24 +195,24 @@ pub struct Eliminated<T: Real, P: Dynamics<T>, const S: usize> {
 /// The scratch of [`Eliminated`].
 #[derive(Debug, Clone)]
 pub struct EliminatedWork<V: Vector, const S: usize> {
-    rows: RowScratch<V, S>,
+    bundles: BundleScratch<V, S>,
     sums: Sums<V>,
     kept: Kept,
 }
 
-/// The scratch of a step over rows of stages.
+/// The scratch of a step over bundles of stages.
 #[derive(Debug, Clone)]
-struct RowScratch<X: Vector, const S: usize> {
+struct BundleScratch<X: Vector, const S: usize> {
     points: Stages<X, S>,
     free: Stages<X, S>,
     moved: X,
     next: X,
 }
 
-impl<X: Vector, const S: usize> RowScratch<X, S> {
+impl<X: Vector, const S: usize> BundleScratch<X, S> {
     fn new(zero: &X) -> Self {
         let stages = Stages(core::array::from_fn(|_| zero.clone()));
-        RowScratch {
+        BundleScratch {
             points: stages.clone(),
             free: stages,
             moved: zero.clone(),
@@ -222,7 +222,7 @@ impl<X: Vector, const S: usize> RowScratch<X, S> {
 
     #[inline(always)]
     fn take(&mut self) -> Self {
-        RowScratch {
+        BundleScratch {
             points: self.points.take(),
             free: self.free.take(),
             moved: self.moved.take(),
@@ -240,7 +240,7 @@ struct Sums<V> {
     moved: V,
 }
 
-/// The tableau of a Nyström method for steps of one size, in rows of stages.
+/// The tableau of a Nyström method for steps of one size, in bundles of stages.
 struct NystromTableau<'a, R, const S: usize> {
     times: &'a [R; S],
     weights: &'a [R; S],
@@ -250,10 +250,10 @@ struct NystromTableau<'a, R, const S: usize> {
 }
 
 /// ∂V/∂q at the stages ↦ ∂V/∂q at the points they lead to.
-struct SecondOrder<'a, T: Real, L: RowLayout<T>, D, V: Vector, X, const S: usize> {
-    tableau: &'a NystromTableau<'a, L::Row, S>,
+struct SecondOrder<'a, T: Real, L: StageLayout<T>, D, V: Vector, X, const S: usize> {
+    tableau: &'a NystromTableau<'a, L::Bundle, S>,
     dynamics: &'a D,
-    t: L::Row,
+    t: L::Bundle,
     h: T,
     point: &'a Point<V>,
     /// q + cᵢhM⁻¹p.
@@ -264,10 +264,10 @@ struct SecondOrder<'a, T: Real, L: RowLayout<T>, D, V: Vector, X, const S: usize
 impl<T, L, D, V, X, const S: usize> Equations<T, L, S> for SecondOrder<'_, T, L, D, V, X, S>
 where
     T: Real,
-    L: RowLayout<T>,
-    D: Dynamics<L::Row, Vector = X>,
+    L: StageLayout<T>,
+    D: Dynamics<L::Bundle, Vector = X>,
     V: Vector<Scalar = T>,
-    X: Vector<Scalar = L::Row>,
+    X: Vector<Scalar = L::Bundle>,
 {
     type Unknowns = X;
     #[inline(always)]
@@ -276,18 +276,18 @@ where
         for k in 0..X::PARTS {
             for i in 0..points[0].part(k).len() {
                 let few = spread::<T, L, _, 1, S>([self.tableau.weights], gradients, k, i);
-                for (point, row) in points[..rows::<T, L, S>()].iter_mut().zip(matrix) {
-                    point.part_mut(k)[i] = product::<T, L, S>(row, &few);
+                for (point, bundle) in points[..bundles::<T, L, S>()].iter_mut().zip(matrix) {
+                    point.part_mut(k)[i] = product::<T, L, S>(bundle, &few);
                 }
             }
         }
     }
     #[inline(always)]
-    fn evaluate(&mut self, row: usize, impulse: &mut X, next: &mut X) {
-        let t = self.t + self.tableau.times[row];
-        let free = &self.free[row];
+    fn evaluate(&mut self, bundle: usize, impulse: &mut X, next: &mut X) {
+        let t = self.t + self.tableau.times[bundle];
+        let free = &self.free[bundle];
         self.dynamics.gradient_p(t, free, impulse, self.moved);
-        self.moved.accumulate(L::Row::one(), free);
+        self.moved.accumulate(L::Bundle::one(), free);
         self.dynamics.gradient_q(t, self.moved, impulse, next);
     }
     #[inline(always)]
@@ -303,21 +303,21 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     #[inline(always)]
     fn fixed_point<L, D>(
         &self,
-        tableau: &NystromTableau<'_, L::Row, S>,
+        tableau: &NystromTableau<'_, L::Bundle, S>,
         dynamics: &D,
         t: T,
         point: &Point<P::Vector>,
         gradients: &mut [D::Vector; S],
-        scratch: &mut RowScratch<D::Vector, S>,
+        scratch: &mut BundleScratch<D::Vector, S>,
         sums: &mut Sums<P::Vector>,
     ) -> Outcome<T>
     where
-        L: RowLayout<T>,
-        D: Dynamics<L::Row>,
+        L: StageLayout<T>,
+        D: Dynamics<L::Bundle>,
     {
         let Point { q, p } = point;
         self.dynamics.gradient_p(t, q, p, &mut sums.velocity);
-        let RowScratch {
+        let BundleScratch {
             points,
             free,
             moved,
@@ -327,8 +327,8 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
             for i in 0..q.part(k).len() {
                 let q = L::splat(q.part(k)[i]);
                 let velocity = L::splat(sums.velocity.part(k)[i]);
-                for row in 0..rows::<T, L, S>() {
-                    free.0[row].part_mut(k)[i] = tableau.times[row].fma(velocity, q);
+                for bundle in 0..bundles::<T, L, S>() {
+                    free.0[bundle].part_mut(k)[i] = tableau.times[bundle].fma(velocity, q);
                 }
             }
         }
@@ -348,15 +348,15 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     #[inline(always)]
     fn finish<L, X>(
         &self,
-        tableau: &NystromTableau<'_, L::Row, S>,
+        tableau: &NystromTableau<'_, L::Bundle, S>,
         t: T,
         gradients: &[X; S],
         point: &mut Point<P::Vector>,
         low: &mut Point<P::Vector>,
         sums: &mut Sums<P::Vector>,
     ) where
-        L: RowLayout<T>,
-        X: Vector<Scalar = L::Row>,
+        L: StageLayout<T>,
+        X: Vector<Scalar = L::Bundle>,
     {
         for k in 0..P::Vector::PARTS {
             for i in 0..low.p.part(k).len() {
@@ -449,7 +449,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
         z: &mut CarriesForces<P::Vector, S>,
         work: &mut EliminatedWork<P::Vector, S>,
     ) -> Cause {
-        let (rows, sums) = (&mut work.rows, &mut work.sums);
+        let (bundles, sums) = (&mut work.bundles, &mut work.sums);
         let gradients = &mut z.y.x.0;
         let outcome = self.fixed_point::<Apart, _>(
             &self.tableau(),
@@ -457,7 +457,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
             t,
             &z.x,
             gradients,
-            rows,
+            bundles,
             sums,
         );
         self.complete(t, outcome, z, sums)
@@ -502,29 +502,29 @@ where
             z,
             sums,
         } = self;
-        let times = in_rows::<T, Beside<P, WIDTH>, S>(&map.times);
-        let weights = in_rows::<T, Beside<P, WIDTH>, S>(&map.weights);
+        let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
+        let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
         let mut double = [[[T::Over::<P>::zero(); S]; S]; 2];
         for (to, from) in double.iter_mut().zip(&map.double) {
-            *to = matrix_in_rows::<T, Beside<P, WIDTH>, S>(from);
+            *to = matrix_in_bundles::<T, Beside<P, WIDTH>, S>(from);
         }
-        let ends = in_rows::<T, Beside<P, WIDTH>, S>(&map.ends);
+        let ends = in_bundles::<T, Beside<P, WIDTH>, S>(&map.ends);
         let tableau = NystromTableau {
             times: &times,
             weights: &weights,
             double: &double,
             ends: &ends,
         };
-        let (gradients, rows) = kept.get(
-            |_: &(Stages<D::Vector, S>, RowScratch<D::Vector, S>)| true,
+        let (gradients, bundles) = kept.get(
+            |_: &(Stages<D::Vector, S>, BundleScratch<D::Vector, S>)| true,
             || {
                 let zero = z.x.q.zeros_over::<T::Over<P>>();
                 let gradients = Stages(core::array::from_fn(|_| zero.clone()));
-                (gradients, RowScratch::new(&zero))
+                (gradients, BundleScratch::new(&zero))
             },
         );
         // Moved out, they are variables of this loop alone and may stay in registers.
-        let (mut of, mut scratch) = (gradients.take(), rows.take());
+        let (mut of, mut scratch) = (gradients.take(), bundles.take());
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         let mut scalars = Sums {
             velocity: sums.velocity.take(),
@@ -559,7 +559,7 @@ where
         }
         store::<T, Beside<P, WIDTH>, _, _, S>(&of.0, &mut z.y.x.0);
         (z.x, z.y.y) = (point, low);
-        (*gradients, *rows, *sums) = (of, scratch, scalars);
+        (*gradients, *bundles, *sums) = (of, scratch, scalars);
         n - left
     }
 }
@@ -568,7 +568,7 @@ impl<V: Vector, const S: usize> Scratch<CarriesForces<V, S>> for EliminatedWork<
     fn like(like: &CarriesForces<V, S>) -> Self {
         let vector = || like.x.q.clone();
         EliminatedWork {
-            rows: RowScratch::new(&like.x.q),
+            bundles: BundleScratch::new(&like.x.q),
             sums: Sums {
                 velocity: vector(),
                 impulse: vector(),

@@ -2,13 +2,13 @@
 //!
 //! Input: a map ([`StagedMap`]). Output: its steps. Invariant: the bits are those of the steps stage by stage.
 
-use super::rows::{Abreast, LEAST, Width};
+use super::bundles::{Abreast, LEAST, Width};
 use crate::flows::map::{Cause, Clock, Map, ScalarOf};
 
 /// A map whose steps are computed stage by stage, or with several stages in the lanes of a pack.
 pub(super) trait StagedMap<const S: usize>: Map {
     /// True if the stages may lie beside each other.
-    fn has_rows(&self) -> bool {
+    fn has_bundles(&self) -> bool {
         true
     }
 
@@ -57,7 +57,7 @@ pub(super) trait StagedMap<const S: usize>: Map {
         work: &mut Self::Work,
     ) {
         let mut made = 0;
-        while made < n && S >= LEAST && self.has_rows() {
+        while made < n && S >= LEAST && self.has_bundles() {
             let (before, left) = (from + made, n - made);
             let steps = if const { S.is_multiple_of(8) } {
                 self.steps_beside::<8>(clock, before, left, z, work)

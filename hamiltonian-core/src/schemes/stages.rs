@@ -15,8 +15,8 @@ mod guess;
 mod newton;
 mod slopes;
 
+use super::bundles::{Abreast, Apart, LEAST, Width};
 use super::compensated::carry;
-use super::rows::{Abreast, Apart, LEAST, Width};
 use super::staged::StagedMap;
 use crate::flows::iterate::{Contraction, Outcome, iterate};
 use crate::flows::map::{Cause, Clock, Map};
@@ -421,7 +421,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
 
 impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, S> {
     #[inline(always)]
-    fn has_rows(&self) -> bool {
+    fn has_bundles(&self) -> bool {
         self.modes.is_none()
     }
 

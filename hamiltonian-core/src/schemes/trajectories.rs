@@ -1,6 +1,6 @@
 //! The paper's own schemes: leaps over a point, on two interleaved trajectories.
 //!
-//! Input: any system and a [`Start`]. Output: [`TwoStepMidpoint`] (25),
+//! Input: any system and a [`SecondPoint`]. Output: [`TwoStepMidpoint`] (25),
 //! [`ConsecutiveSubTrajectories`] (26), [`IntersectingSubTrajectories`] (33). Invariant: with
 //! z = (q, p) and J∇H = (∂H/∂p, −∂H/∂q), every move is `z_earlier + leap·J∇H(z_between)`.
 
@@ -18,7 +18,7 @@ use hamiltonian_lanes::Real;
 /// Its error excites the parasitic mode (root −1) of these schemes, a permanent oscillation of H,
 /// which grows on some systems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Start {
+pub enum SecondPoint {
     /// The paper's: equal to the first, an error of O(Δt). The scheme is of order 1.
     Equal,
     /// An explicit Euler step back, an error of O(Δt²).
@@ -28,19 +28,19 @@ pub enum Start {
     SecondOrder,
 }
 
-impl Start {
+impl SecondPoint {
     const fn words(self) -> &'static str {
         match self {
-            Start::Equal => "equal start",
-            Start::HalfEuler => "half-Euler start",
-            Start::SecondOrder => "second-order start",
+            SecondPoint::Equal => "equal start",
+            SecondPoint::HalfEuler => "half-Euler start",
+            SecondPoint::SecondOrder => "second-order start",
         }
     }
 
     const fn order(self) -> u32 {
         match self {
-            Start::Equal => 1,
-            Start::HalfEuler | Start::SecondOrder => 2,
+            SecondPoint::Equal => 1,
+            SecondPoint::HalfEuler | SecondPoint::SecondOrder => 2,
         }
     }
 
@@ -68,12 +68,12 @@ impl Start {
     {
         let mut point = start.point();
         match self {
-            Start::Equal => {}
-            Start::HalfEuler => {
+            SecondPoint::Equal => {}
+            SecondPoint::HalfEuler => {
                 let field = prepared.field(-back);
                 field.add(start.t, &start.q, &start.p, &mut point.q, &mut point.p);
             }
-            Start::SecondOrder => {
+            SecondPoint::SecondOrder => {
                 let half = back * T::constant(0.5, 0.0);
                 let mut middle = point.clone();
                 let field = prepared.field(-half);
@@ -102,9 +102,9 @@ macro_rules! entries {
             fn entry(&self) -> Entry {
                 Entry {
                     name: stringify!($scheme),
-                    variant: self.start.words(),
+                    variant: self.second_point.words(),
                     equations: $equations,
-                    order: self.start.order(),
+                    order: self.second_point.order(),
                     duration: $duration,
                     needs: Needs::UNFORCED,
                     preserves: Form::TwoPoint,
@@ -115,14 +115,14 @@ macro_rules! entries {
     };
 }
 
-/// The explicit two-step midpoint rule, equations (25): order 2 (1 with [`Start::Equal`]).
+/// The explicit two-step midpoint rule, equations (25): order 2 (1 with [`SecondPoint::Equal`]).
 ///
 /// ```text
 /// z[n+1] = z[n−1] + 2h J∇H(z[n], t[n])
 /// ```
 ///
 /// Preserves dq_a∧dp_b + dq_b∧dp_a of the last two points, not dq∧dp of one. The start requires
-/// `z[−1]`, made by [`Start`]. No step of its derivation requires a separable H; its parasitic root
+/// `z[−1]`, made by [`SecondPoint`]. No step of its derivation requires a separable H; its parasitic root
 /// −1 limits it.
 ///
 /// Source: the paper, eqs. 25a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
@@ -141,21 +141,21 @@ macro_rules! entries {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TwoStepMidpoint {
     /// The construction of `z[−1]`.
-    start: Start,
+    second_point: SecondPoint,
 }
 
 impl TwoStepMidpoint {
-    /// The construction of `z[−1]`; [`Start::default`] unless said here.
+    /// The construction of `z[−1]`; [`SecondPoint::default`] unless said here.
     #[must_use]
-    pub fn with_start(self, start: Start) -> Self {
-        TwoStepMidpoint { start }
+    pub fn with_second_point(self, second_point: SecondPoint) -> Self {
+        TwoStepMidpoint { second_point }
     }
 }
 
 entries!(TwoStepMidpoint, "25", 1);
 
 /// The paper's scheme 1, consecutive sub-trajectories, equations (26): order 2 (1 with
-/// [`Start::Equal`]).
+/// [`SecondPoint::Equal`]).
 ///
 /// ```text
 /// z[n+½] = z[n−½] + 2h J∇H(z[n]);   z[n+1] = z[n] + 2h J∇H(z[n+½])
@@ -167,7 +167,7 @@ entries!(TwoStepMidpoint, "25", 1);
 /// [`IntersectingSubTrajectories`].
 ///
 /// Preserves dq_a∧dp_b + dq_b∧dp_a of `z[n]` and `z[n−½]`. The start asks for `z[−½]`, made by
-/// [`Start`].
+/// [`SecondPoint`].
 ///
 /// Source: the paper, eqs. 26a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
 /// doi:10.1007/BF01385510 (the two-point form).
@@ -187,39 +187,39 @@ entries!(TwoStepMidpoint, "25", 1);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ConsecutiveSubTrajectories {
     /// The construction of `z[−½]`.
-    start: Start,
+    second_point: SecondPoint,
 }
 
 impl ConsecutiveSubTrajectories {
-    /// The construction of `z[−½]`; [`Start::default`] unless said here.
+    /// The construction of `z[−½]`; [`SecondPoint::default`] unless said here.
     #[must_use]
-    pub fn with_start(self, start: Start) -> Self {
-        ConsecutiveSubTrajectories { start }
+    pub fn with_second_point(self, second_point: SecondPoint) -> Self {
+        ConsecutiveSubTrajectories { second_point }
     }
 }
 
 entries!(ConsecutiveSubTrajectories, "26", 2);
 
 /// The paper's scheme 2, intersecting sub-trajectories, equations (33): order 2 (1 with
-/// [`Start::Equal`]).
+/// [`SecondPoint::Equal`]).
 ///
 /// ```text
 /// z[n+½] = z[n−½] + h J∇H(z[n], t[n]);   z[n+1] = z[n] + h J∇H(z[n+½], t[n+½])
 /// ```
 ///
-/// With [`Start::HalfEuler`] it is [`Pihajoki`](super::Pihajoki)'s (29): `z[n]` is the copy (q̃, p).
+/// With [`SecondPoint::HalfEuler`] it is [`Pihajoki`](super::Pihajoki)'s (29): `z[n]` is the copy (q̃, p).
 ///
 /// Preserves dq_a∧dp_b + dq_b∧dp_a of `z[n]` and `z[n−½]`. The start asks for `z[−½]`, made by
-/// [`Start`].
+/// [`SecondPoint`].
 ///
 /// Source: the paper, eqs. 33a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
 /// doi:10.1007/BF01385510 (the two-point form).
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian::schemes::{IntersectingSubTrajectories, Start};
+/// use hamiltonian::schemes::{IntersectingSubTrajectories, SecondPoint};
 ///
-/// let scheme = IntersectingSubTrajectories::default().with_start(Start::HalfEuler);
+/// let scheme = IntersectingSubTrajectories::default().with_second_point(SecondPoint::HalfEuler);
 /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?;
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 5e-5);
 /// # Ok::<(), Error>(())
@@ -227,14 +227,14 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct IntersectingSubTrajectories {
     /// The construction of `z[−½]`.
-    start: Start,
+    second_point: SecondPoint,
 }
 
 impl IntersectingSubTrajectories {
-    /// The construction of `z[−½]`; [`Start::default`] unless said here.
+    /// The construction of `z[−½]`; [`SecondPoint::default`] unless said here.
     #[must_use]
-    pub fn with_start(self, start: Start) -> Self {
-        IntersectingSubTrajectories { start }
+    pub fn with_second_point(self, second_point: SecondPoint) -> Self {
+        IntersectingSubTrajectories { second_point }
     }
 }
 
@@ -260,7 +260,7 @@ impl<S: System + Unforced> Scheme<S> for TwoStepMidpoint {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        self.start.pair(prepared, state, h)
+        self.second_point.pair(prepared, state, h)
     }
     #[inline(always)]
     fn start_alone<T: Real>(
@@ -269,7 +269,7 @@ impl<S: System + Unforced> Scheme<S> for TwoStepMidpoint {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        Start::SecondOrder.pair(prepared, state, h)
+        SecondPoint::SecondOrder.pair(prepared, state, h)
     }
 }
 
@@ -330,7 +330,7 @@ impl<S: System + Unforced> Scheme<S> for ConsecutiveSubTrajectories {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        self.start.pair(prepared, state, h)
+        self.second_point.pair(prepared, state, h)
     }
     #[inline(always)]
     fn start_alone<T: Real>(
@@ -339,7 +339,7 @@ impl<S: System + Unforced> Scheme<S> for ConsecutiveSubTrajectories {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        Start::SecondOrder.pair(prepared, state, h)
+        SecondPoint::SecondOrder.pair(prepared, state, h)
     }
 }
 
@@ -357,7 +357,8 @@ impl<S: System + Unforced> Scheme<S> for IntersectingSubTrajectories {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        self.start.pair(prepared, state, h * T::constant(0.5, 0.0))
+        self.second_point
+            .pair(prepared, state, h * T::constant(0.5, 0.0))
     }
     #[inline(always)]
     fn start_alone<T: Real>(
@@ -366,7 +367,7 @@ impl<S: System + Unforced> Scheme<S> for IntersectingSubTrajectories {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        Start::SecondOrder.pair(prepared, state, h * T::constant(0.5, 0.0))
+        SecondPoint::SecondOrder.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use hamiltonian::errors::{StartError, StepError, SweepError};
-use hamiltonian::schemes::{Start, Tao, TwoStepMidpoint};
+use hamiltonian::schemes::{SecondPoint, Tao, TwoStepMidpoint};
 
 /// Members of a reproducible ensemble, advanced in two calls on two threads, have the bits of single runs.
 pub(super) fn agrees<S, M>(make: impl Fn(Member) -> (S, StateOf<S>), scheme: M)
@@ -43,7 +43,7 @@ fn members_have_the_bits_of_single_runs() {
         agrees(mixture, Tao::default());
         agrees(
             mixture,
-            TwoStepMidpoint::default().with_start(Start::SecondOrder),
+            TwoStepMidpoint::default().with_second_point(SecondPoint::SecondOrder),
         );
         agrees(chain, StormerVerlet::default());
     });

@@ -5,8 +5,8 @@
 //! operations of [`Tangent`](crate::analysis::Tangent) in the same order, so its bits depend only on its member and on
 //! the arithmetic of the pack.
 
-use super::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::scalar::explain;
+use super::transfer::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::{CarriedIn, MapIn, MaskIn};
 use crate::analysis::tangent::{Columns, Megno, gram_schmidt, volume};
 use crate::errors::Error;

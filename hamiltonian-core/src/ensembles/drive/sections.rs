@@ -3,8 +3,8 @@
 //! Input: the marks of a block. Output: states passed to observers: those after which a sign may have changed and the
 //! two before each. Invariant: afterwards an observer has the data that it would have after receiving every state.
 
-use super::rows::{gather, lanes_of, scatter, store};
 use super::scalar::PassedStates;
+use super::transfer::{gather, lanes_of, scatter, store};
 use super::{Lanes, number_of_each};
 use crate::ensembles::close::Close;
 use crate::ensembles::host::{Host, MemberRun};

@@ -4,8 +4,8 @@
 //! Invariant: a guess changes the number of iterations, and what they converge to by rounding alone.
 
 use crate::flows::map::Step;
+use crate::schemes::bundles::of_the_guess;
 use crate::schemes::collocation::{Collocation, constant};
-use crate::schemes::rows::of_the_guess;
 use hamiltonian_lanes::{DoubleDouble, Real};
 
 /// The matrix that takes the slopes at the stages of the step before to guesses for this one's: the

@@ -1,16 +1,16 @@
 //! The fixed point of the slopes of all stages, `Fᵢ = J∇H(z + Σ αᵢⱼ bⱼh Fⱼ, t + cᵢh)`, in any layout.
 //!
 //! Input: the numbers of a method, a vector field, the point. Output: the slopes, and the step they make.
-//! Invariant: the bits do not depend on the [`RowLayout`].
+//! Invariant: the bits do not depend on the [`StageLayout`].
 
 use super::{Carries, Collocated, Stages};
 use crate::flows::iterate::Outcome;
 use crate::flows::map::Clock;
-use crate::schemes::compensated::carry;
-use crate::schemes::rows::{
-    Abreast, Beside, Equations, LEVELS, RowLayout, Width, in_rows, load, matrix_in_rows, product,
-    rows, solve, spread, store, sum,
+use crate::schemes::bundles::{
+    Abreast, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles, load,
+    matrix_in_bundles, product, solve, spread, store, sum,
 };
+use crate::schemes::compensated::carry;
 use crate::systems::flow::VectorField;
 use crate::systems::state::Point;
 use crate::systems::system::Dynamics;
@@ -19,7 +19,7 @@ use crate::systems::vector::{Over, Vector};
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 
-/// The tableau of a Runge–Kutta method for steps of one size, in rows of stages.
+/// The tableau of a Runge–Kutta method for steps of one size, in bundles of stages.
 pub(super) struct Tableau<'a, T, R, const S: usize> {
     /// The step.
     pub(super) h: T,
@@ -33,10 +33,10 @@ pub(super) struct Tableau<'a, T, R, const S: usize> {
 }
 
 /// Slopes ↦ J∇H at the points they lead to.
-struct FirstOrder<'a, T: Real, L: RowLayout<T>, F, V: Vector<Scalar = T>, X, const S: usize> {
-    tableau: &'a Tableau<'a, T, L::Row, S>,
+struct FirstOrder<'a, T: Real, L: StageLayout<T>, F, V: Vector<Scalar = T>, X, const S: usize> {
+    tableau: &'a Tableau<'a, T, L::Bundle, S>,
     field: &'a F,
-    t: L::Row,
+    t: L::Bundle,
     point: &'a Point<V>,
     of: PhantomData<X>,
 }
@@ -44,10 +44,10 @@ struct FirstOrder<'a, T: Real, L: RowLayout<T>, F, V: Vector<Scalar = T>, X, con
 impl<T, L, F, V, X, const S: usize> Equations<T, L, S> for FirstOrder<'_, T, L, F, V, X, S>
 where
     T: Real,
-    L: RowLayout<T>,
+    L: StageLayout<T>,
     F: VectorField<X>,
     V: Vector<Scalar = T>,
-    X: Vector<Scalar = L::Row>,
+    X: Vector<Scalar = L::Bundle>,
 {
     type Unknowns = Point<X>;
     #[inline(always)]
@@ -65,23 +65,23 @@ where
                     continue;
                 }
                 let few = spread::<T, L, _, 1, S>([self.tableau.weights], slopes, k, i);
-                for row in 0..rows::<T, L, S>() {
+                for bundle in 0..bundles::<T, L, S>() {
                     // The small numbers first.
-                    let increment = product::<T, L, S>(&matrix[row], &few);
-                    points[row].part_mut(k)[i] = increment + base;
+                    let increment = product::<T, L, S>(&matrix[bundle], &few);
+                    points[bundle].part_mut(k)[i] = increment + base;
                 }
             }
         }
     }
     #[inline(always)]
-    fn evaluate(&mut self, row: usize, point: &mut Point<X>, next: &mut Point<X>) {
+    fn evaluate(&mut self, bundle: usize, point: &mut Point<X>, next: &mut Point<X>) {
         // From −0, x + (−0) = x to the bit; if c is known to be 1, the compiler removes the sum.
         for k in 0..Point::<X>::PARTS {
             for slope in next.part_mut(k) {
-                *slope = -L::Row::zero();
+                *slope = -L::Bundle::zero();
             }
         }
-        let t = self.t + self.tableau.times[row];
+        let t = self.t + self.tableau.times[bundle];
         let Point { q, p } = next;
         self.field.add(t, &point.q, &point.p, q, p);
     }
@@ -96,7 +96,7 @@ where
 #[inline(always)]
 pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
     limit: u32,
-    tableau: &Tableau<'_, T, L::Row, S>,
+    tableau: &Tableau<'_, T, L::Bundle, S>,
     field: &F,
     t: T,
     point: &Point<V>,
@@ -106,10 +106,10 @@ pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
 ) -> Outcome<T>
 where
     T: Real,
-    L: RowLayout<T>,
+    L: StageLayout<T>,
     F: VectorField<X>,
     V: Vector<Scalar = T>,
-    X: Vector<Scalar = L::Row>,
+    X: Vector<Scalar = L::Bundle>,
 {
     let mut equations = FirstOrder::<T, L, F, V, X, S> {
         tableau,
@@ -124,15 +124,15 @@ where
 /// Adds Σ bᵢhFᵢ to the point and its low words.
 #[inline(always)]
 pub(super) fn finish<T, L, V, X, const S: usize>(
-    weights: &[L::Row; S],
+    weights: &[L::Bundle; S],
     slopes: &[Point<X>; S],
     point: &mut Point<V>,
     low: &mut Point<V>,
 ) where
     T: Real,
-    L: RowLayout<T>,
+    L: StageLayout<T>,
     V: Vector<Scalar = T>,
-    X: Vector<Scalar = L::Row>,
+    X: Vector<Scalar = L::Bundle>,
 {
     for k in 0..Point::<V>::PARTS {
         for i in 0..low.part(k).len() {
@@ -158,7 +158,7 @@ pub(super) struct StepScratch<X: Vector, const S: usize> {
 #[inline(always)]
 pub(super) fn steps<T, L, F, V, X, const S: usize>(
     limit: u32,
-    tableau: &Tableau<'_, T, L::Row, S>,
+    tableau: &Tableau<'_, T, L::Bundle, S>,
     field: &F,
     (clock, made, n): (Clock<T>, u64, u64),
     scratch: &mut StepScratch<X, S>,
@@ -166,10 +166,10 @@ pub(super) fn steps<T, L, F, V, X, const S: usize>(
 ) -> (u64, Outcome<T>)
 where
     T: Real,
-    L: RowLayout<T>,
+    L: StageLayout<T>,
     F: VectorField<X>,
     V: Vector<Scalar = T>,
-    X: Vector<Scalar = L::Row>,
+    X: Vector<Scalar = L::Bundle>,
 {
     let (mut left, mut outcome) = (n, Outcome::unsolved());
     while left > 0 {
@@ -228,15 +228,15 @@ where
             n,
             z,
         } = self;
-        let times = in_rows::<T, Beside<P, WIDTH>, S>(&map.times);
-        let weights = in_rows::<T, Beside<P, WIDTH>, S>(&map.weights);
+        let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
+        let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
         let mut matrices = [[[[T::Over::<P>::zero(); S]; S]; 2]; 2];
         for (to, from) in matrices
             .as_flattened_mut()
             .iter_mut()
             .zip(map.matrices.as_flattened())
         {
-            *to = matrix_in_rows::<T, Beside<P, WIDTH>, S>(from);
+            *to = matrix_in_bundles::<T, Beside<P, WIDTH>, S>(from);
         }
         let tableau = Tableau {
             h: map.h,

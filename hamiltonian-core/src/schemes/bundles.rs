@@ -1,8 +1,8 @@
-//! Stages in rows: one after the other over a scalar, or beside each other in the lanes of a pack.
+//! Stages in bundles: one after the other over a scalar, or beside each other in the lanes of a pack.
 //!
-//! Input: numbers of each stage. Output: [`RowLayout`], sums over stages, and the fixed-point iteration of
+//! Input: numbers of each stage. Output: [`StageLayout`], sums over stages, and the fixed-point iteration of
 //! all stages. Invariant: every layout adds in the same order, so that a step has the same bits in all
-//! of them where products do not fuse. The lanes of the last row that are left repeat its last stage.
+//! of them where products do not fuse. The lanes of the last bundle that are left repeat its last stage.
 
 use crate::flows::iterate::Outcome;
 use crate::systems::vector::Vector;
@@ -12,13 +12,13 @@ use hamiltonian_lanes::{Base, Cpu, Level, Mask, Pack, Real};
 /// The least number of stages that lie beside each other.
 pub(super) const LEAST: usize = 4;
 
-/// The most stages of a row.
+/// The most stages of a bundle.
 const MAX_STAGES: usize = 8;
 
-/// Rows of `WIDTH` stages beside each other.
+/// Bundles of `WIDTH` stages beside each other.
 pub(super) struct Abreast<const WIDTH: usize>;
 
-/// The pack of a row.
+/// The pack of a bundle.
 pub(super) trait Width {
     /// Each of its registers has four lanes on AVX2.
     type Pack<L: Level>: Base;
@@ -33,38 +33,38 @@ impl Width for Abreast<8> {
     type Pack<L: Level> = L::Eight;
 }
 
-/// The least level and the best that rows of [`Beside`] are compiled for. On SSE2 they took as long as stages
+/// The least level and the best that bundles of [`Beside`] are compiled for. On SSE2 they took as long as stages
 /// [`Apart`]. On AVX-512 their registers are as wide as on AVX2; eight problems took between 0.95 and 1.08 times
 /// as long there, fused between 0.87 and 1.17 times (Zen 4).
 pub(super) const LEVELS: [Cpu; 2] = [Cpu::Neon, Cpu::Avx2];
 
-/// How the stages of a step lie in rows.
-pub(super) trait RowLayout<T: Real> {
-    /// The scalar of a row.
-    type Row: Real;
-    /// The stages of a row as numbers.
+/// How the stages of a step lie in bundles.
+pub(super) trait StageLayout<T: Real> {
+    /// The scalar of a bundle.
+    type Bundle: Real;
+    /// The stages of a bundle as numbers.
     type Few: Copy + AsRef<[T]>;
-    /// The stages of a row.
+    /// The stages of a bundle.
     const WIDTH: usize;
-    /// A number of each stage of a row; the last fills what is left.
-    fn gather(values: &[T]) -> Self::Row;
+    /// A number of each stage of a bundle; the last fills what is left.
+    fn gather(values: &[T]) -> Self::Bundle;
     /// One number for all stages.
-    fn splat(value: T) -> Self::Row;
+    fn splat(value: T) -> Self::Bundle;
     /// The numbers of the stages.
-    fn split(row: Self::Row) -> Self::Few;
+    fn split(bundle: Self::Bundle) -> Self::Few;
     /// True if it holds for a stage.
-    fn any(mask: <Self::Row as Real>::Mask) -> T::Mask;
+    fn any(mask: <Self::Bundle as Real>::Mask) -> T::Mask;
     /// The largest of the stages' sizes, none of which is NaN.
-    fn largest(size: <Self::Row as Real>::Size) -> T::Size;
+    fn largest(size: <Self::Bundle as Real>::Size) -> T::Size;
     /// `to = from`, but for the lanes of `T` where the mask is set.
-    fn copy_unless<X: Vector<Scalar = Self::Row>>(mask: T::Mask, from: &X, to: &mut X);
+    fn copy_unless<X: Vector<Scalar = Self::Bundle>>(mask: T::Mask, from: &X, to: &mut X);
 }
 
-/// Each stage in a row of its own.
+/// Each stage in a bundle of its own.
 pub(super) struct Apart;
 
-impl<T: Real> RowLayout<T> for Apart {
-    type Row = T;
+impl<T: Real> StageLayout<T> for Apart {
+    type Bundle = T;
     type Few = [T; 1];
     const WIDTH: usize = 1;
     #[inline(always)]
@@ -76,8 +76,8 @@ impl<T: Real> RowLayout<T> for Apart {
         value
     }
     #[inline(always)]
-    fn split(row: T) -> [T; 1] {
-        [row]
+    fn split(bundle: T) -> [T; 1] {
+        [bundle]
     }
     #[inline(always)]
     fn any(mask: T::Mask) -> T::Mask {
@@ -101,31 +101,31 @@ impl<T: Real> RowLayout<T> for Apart {
 /// As many stages beside each other as the pack `P` has lanes.
 pub(super) struct Beside<P, const WIDTH: usize>(PhantomData<P>);
 
-impl<T: Real, P: Pack, const WIDTH: usize> RowLayout<T> for Beside<P, WIDTH> {
-    type Row = T::Over<P>;
+impl<T: Real, P: Pack, const WIDTH: usize> StageLayout<T> for Beside<P, WIDTH> {
+    type Bundle = T::Over<P>;
     type Few = [T; WIDTH];
     const WIDTH: usize = WIDTH;
     #[inline(always)]
-    fn gather(values: &[T]) -> Self::Row {
+    fn gather(values: &[T]) -> Self::Bundle {
         const { assert!(P::LANES as usize == WIDTH && WIDTH <= MAX_STAGES) }
         T::gather::<P>(values)
     }
     #[inline(always)]
-    fn splat(value: T) -> Self::Row {
+    fn splat(value: T) -> Self::Bundle {
         value.spread::<P>()
     }
     #[inline(always)]
-    fn split(row: Self::Row) -> [T; WIDTH] {
+    fn split(bundle: Self::Bundle) -> [T; WIDTH] {
         let mut few = [T::default(); WIDTH];
-        T::scatter::<P>(row, &mut few);
+        T::scatter::<P>(bundle, &mut few);
         few
     }
     #[inline(always)]
-    fn any(mask: <Self::Row as Real>::Mask) -> T::Mask {
+    fn any(mask: <Self::Bundle as Real>::Mask) -> T::Mask {
         T::Mask::splat(mask.any())
     }
     #[inline(always)]
-    fn largest(size: <Self::Row as Real>::Size) -> T::Size {
+    fn largest(size: <Self::Bundle as Real>::Size) -> T::Size {
         let mut few = [0.0; WIDTH];
         for (lane, number) in (0..).zip(&mut few) {
             *number = size.lane(lane);
@@ -140,35 +140,37 @@ impl<T: Real, P: Pack, const WIDTH: usize> RowLayout<T> for Beside<P, WIDTH> {
         T::Size::constant(few[0], 0.0)
     }
     #[inline(always)]
-    fn copy_unless<X: Vector<Scalar = Self::Row>>(_: T::Mask, from: &X, to: &mut X) {
+    fn copy_unless<X: Vector<Scalar = Self::Bundle>>(_: T::Mask, from: &X, to: &mut X) {
         to.copy_from(from);
     }
 }
 
-/// The number of rows of `S` stages.
+/// The number of bundles of `S` stages.
 #[inline(always)]
-pub(super) const fn rows<T: Real, L: RowLayout<T>, const S: usize>() -> usize {
+pub(super) const fn bundles<T: Real, L: StageLayout<T>, const S: usize>() -> usize {
     S.div_ceil(L::WIDTH)
 }
 
-/// A number of each stage, in rows; those after the last row are 0.
+/// A number of each stage, in bundles; those after the last bundle are 0.
 #[inline(always)]
-pub(super) fn in_rows<T: Real, L: RowLayout<T>, const S: usize>(values: &[T; S]) -> [L::Row; S] {
-    let mut all = [L::Row::zero(); S];
-    for (row, few) in all.iter_mut().zip(values.chunks(L::WIDTH)) {
-        *row = L::gather(few);
+pub(super) fn in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
+    values: &[T; S],
+) -> [L::Bundle; S] {
+    let mut all = [L::Bundle::zero(); S];
+    for (bundle, few) in all.iter_mut().zip(values.chunks(L::WIDTH)) {
+        *bundle = L::gather(few);
     }
     all
 }
 
-/// A matrix whose rows are stages: `[row][j]`.
+/// A matrix with a row for each stage, in bundles: `[bundle][j]`.
 #[inline(always)]
-pub(super) fn matrix_in_rows<T: Real, L: RowLayout<T>, const S: usize>(
+pub(super) fn matrix_in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
     matrix: &[[T; S]; S],
-) -> [[L::Row; S]; S] {
-    let mut all = [[L::Row::zero(); S]; S];
-    for (row, to) in all.iter_mut().enumerate().take(rows::<T, L, S>()) {
-        let first = row * L::WIDTH;
+) -> [[L::Bundle; S]; S] {
+    let mut all = [[L::Bundle::zero(); S]; S];
+    for (bundle, to) in all.iter_mut().enumerate().take(bundles::<T, L, S>()) {
+        let first = bundle * L::WIDTH;
         for (j, to) in to.iter_mut().enumerate() {
             let mut few = [matrix[first][j]; MAX_STAGES];
             for (k, number) in few.iter_mut().enumerate() {
@@ -182,7 +184,7 @@ pub(super) fn matrix_in_rows<T: Real, L: RowLayout<T>, const S: usize>(
 
 /// The number of stage `j`.
 #[inline(always)]
-fn number<T: Real, L: RowLayout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
+fn number<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
     few[j / L::WIDTH].as_ref()[j % L::WIDTH]
 }
 
@@ -197,13 +199,13 @@ fn joined<R: Real, const S: usize>(sums: [R; 4]) -> R {
     }
 }
 
-/// `Σ matrix[j]·few[j]` for a row: partial sums of the stages with the same remainder modulo 4, joined.
+/// `Σ matrix[j]·few[j]` for a bundle: partial sums of the stages with the same remainder modulo 4, joined.
 #[inline(always)]
-pub(super) fn product<T: Real, L: RowLayout<T>, const S: usize>(
-    matrix: &[L::Row; S],
+pub(super) fn product<T: Real, L: StageLayout<T>, const S: usize>(
+    matrix: &[L::Bundle; S],
     few: &[L::Few; S],
-) -> L::Row {
-    let mut sums = [L::Row::zero(); 4];
+) -> L::Bundle {
+    let mut sums = [L::Bundle::zero(); 4];
     for j in 0..S.min(4) {
         sums[j] = matrix[j] * L::splat(number::<T, L, S>(few, j));
     }
@@ -226,7 +228,7 @@ pub(super) fn product<T: Real, L: RowLayout<T>, const S: usize>(
 
 /// `Σ few[j]` in the same order.
 #[inline(always)]
-pub(super) fn sum<T: Real, L: RowLayout<T>, const S: usize>(few: &[L::Few; S]) -> T {
+pub(super) fn sum<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S]) -> T {
     let mut sums = [T::zero(); 4];
     for j in 0..S {
         let term = number::<T, L, S>(few, j);
@@ -263,44 +265,44 @@ pub(super) fn of_the_guess<T: Real, const S: usize>(
 /// Number `i` of part `k` of all stages, times `N` factors of each, one after the other.
 #[inline(always)]
 pub(super) fn spread<T, L, Y, const N: usize, const S: usize>(
-    factors: [&[L::Row; S]; N],
+    factors: [&[L::Bundle; S]; N],
     unknowns: &[Y; S],
     k: usize,
     i: usize,
 ) -> [L::Few; S]
 where
     T: Real,
-    L: RowLayout<T>,
-    Y: Vector<Scalar = L::Row>,
+    L: StageLayout<T>,
+    Y: Vector<Scalar = L::Bundle>,
 {
-    let mut few = [L::split(L::Row::zero()); S];
-    for row in 0..rows::<T, L, S>() {
-        let mut number = unknowns[row].part(k)[i];
+    let mut few = [L::split(L::Bundle::zero()); S];
+    for bundle in 0..bundles::<T, L, S>() {
+        let mut number = unknowns[bundle].part(k)[i];
         for factor in factors {
-            number *= factor[row];
+            number *= factor[bundle];
         }
-        few[row] = L::split(number);
+        few[bundle] = L::split(number);
     }
     few
 }
 
-/// Lays the unknowns of each stage into rows.
+/// Lays the unknowns of each stage into bundles.
 #[inline(always)]
 pub(super) fn load<T, L, Y, X, const S: usize>(from: &[Y; S], to: &mut [X; S])
 where
     T: Real,
-    L: RowLayout<T>,
+    L: StageLayout<T>,
     Y: Vector<Scalar = T>,
-    X: Vector<Scalar = L::Row>,
+    X: Vector<Scalar = L::Bundle>,
 {
-    for row in 0..rows::<T, L, S>() {
+    for bundle in 0..bundles::<T, L, S>() {
         for k in 0..Y::PARTS {
             for i in 0..from[0].part(k).len() {
                 let mut few = [T::zero(); MAX_STAGES];
                 for (lane, number) in few.iter_mut().enumerate() {
-                    *number = from[(row * L::WIDTH + lane).min(S - 1)].part(k)[i];
+                    *number = from[(bundle * L::WIDTH + lane).min(S - 1)].part(k)[i];
                 }
-                to[row].part_mut(k)[i] = L::gather(&few[..L::WIDTH]);
+                to[bundle].part_mut(k)[i] = L::gather(&few[..L::WIDTH]);
             }
         }
     }
@@ -311,9 +313,9 @@ where
 pub(super) fn store<T, L, X, Y, const S: usize>(from: &[X; S], to: &mut [Y; S])
 where
     T: Real,
-    L: RowLayout<T>,
+    L: StageLayout<T>,
     Y: Vector<Scalar = T>,
-    X: Vector<Scalar = L::Row>,
+    X: Vector<Scalar = L::Bundle>,
 {
     for k in 0..Y::PARTS {
         for i in 0..to[0].part(k).len() {
@@ -326,10 +328,10 @@ where
 }
 
 /// Equations `y = g(y)` for an unknown of each stage.
-pub(super) trait Equations<T: Real, L: RowLayout<T>, const S: usize> {
-    /// The unknowns of a row, and the point at which they are evaluated.
-    type Unknowns: Vector<Scalar = L::Row>;
-    /// The points of all rows, by the matrices of this number: 0 the first time, when the unknowns are those of the
+pub(super) trait Equations<T: Real, L: StageLayout<T>, const S: usize> {
+    /// The unknowns of a bundle, and the point at which they are evaluated.
+    type Unknowns: Vector<Scalar = L::Bundle>;
+    /// The points of all bundles, by the matrices of this number: 0 the first time, when the unknowns are those of the
     /// step before and the points those of the guess that is made of them; 1 later.
     fn points(
         &self,
@@ -337,8 +339,8 @@ pub(super) trait Equations<T: Real, L: RowLayout<T>, const S: usize> {
         unknowns: &[Self::Unknowns; S],
         points: &mut [Self::Unknowns; S],
     );
-    /// The right-hand side of a row.
-    fn evaluate(&mut self, row: usize, point: &mut Self::Unknowns, next: &mut Self::Unknowns);
+    /// The right-hand side of a bundle.
+    fn evaluate(&mut self, bundle: usize, point: &mut Self::Unknowns, next: &mut Self::Unknowns);
     /// The size of the numbers that the unknowns of a stage are made of, besides their own.
     fn scale(&self) -> T::Size;
 }
@@ -361,7 +363,7 @@ const REST: f64 = 1.0 / 16.0;
 /// itself is not computed, so the first change is that of the second iteration; one stage begins with its
 /// unknown of the step before. A lane of `T` that is solved is not touched any more.
 #[inline(always)]
-pub(super) fn solve<T: Real, L: RowLayout<T>, E: Equations<T, L, S>, const S: usize>(
+pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: usize>(
     limit: u32,
     equations: &mut E,
     unknowns: &mut [E::Unknowns; S],
@@ -378,11 +380,11 @@ pub(super) fn solve<T: Real, L: RowLayout<T>, E: Equations<T, L, S>, const S: us
     let matrices = core::hint::black_box([0, 1]);
     while iterations < limit {
         equations.points(matrices[usize::from(iterations > 0)], unknowns, points);
-        let mut changes = [<L::Row as Real>::Size::zero(); S];
-        for row in 0..rows::<T, L, S>() {
-            equations.evaluate(row, &mut points[row], next);
-            changes[row] = next.size_of_difference(&unknowns[row]);
-            L::copy_unless(solved, next, &mut unknowns[row]);
+        let mut changes = [<L::Bundle as Real>::Size::zero(); S];
+        for bundle in 0..bundles::<T, L, S>() {
+            equations.evaluate(bundle, &mut points[bundle], next);
+            changes[bundle] = next.size_of_difference(&unknowns[bundle]);
+            L::copy_unless(solved, next, &mut unknowns[bundle]);
         }
         iterations += 1;
         if iterations == 1 {
@@ -405,7 +407,7 @@ pub(super) fn solve<T: Real, L: RowLayout<T>, E: Equations<T, L, S>, const S: us
             let scale = equations.scale() + largest_size::<T, L, _, S>(unknowns);
             let floor = T::Size::constant(ROUNDING * T::epsilon(), 0.0) * scale;
             now = now | (stalls & change.lt(floor));
-            for change in changes.iter().take(rows::<T, L, S>()) {
+            for change in changes.iter().take(bundles::<T, L, S>()) {
                 lost = lost | L::any(!change.equals(*change));
             }
         }
@@ -432,26 +434,30 @@ fn larger<R: Real>(a: R, b: R) -> R {
 
 /// The largest of the stages' sizes; infinity if one of them is not a number.
 #[inline(always)]
-fn largest<T: Real, L: RowLayout<T>, const S: usize>(
-    sizes: &[<L::Row as Real>::Size; S],
+fn largest<T: Real, L: StageLayout<T>, const S: usize>(
+    sizes: &[<L::Bundle as Real>::Size; S],
 ) -> T::Size {
-    let infinite = <L::Row as Real>::Size::constant(f64::INFINITY, 0.0);
+    let infinite = <L::Bundle as Real>::Size::constant(f64::INFINITY, 0.0);
     let mut most = infinite;
-    for (row, size) in sizes.iter().enumerate().take(rows::<T, L, S>()) {
+    for (bundle, size) in sizes.iter().enumerate().take(bundles::<T, L, S>()) {
         // One instruction: the first if it is less, else the second.
-        let size = <L::Row as Real>::Size::select(size.lt(infinite), *size, infinite);
-        most = if row == 0 { size } else { larger(most, size) };
+        let size = <L::Bundle as Real>::Size::select(size.lt(infinite), *size, infinite);
+        most = if bundle == 0 {
+            size
+        } else {
+            larger(most, size)
+        };
     }
     L::largest(most)
 }
 
 /// The largest size of the unknowns of a stage.
 #[inline(always)]
-fn largest_size<T: Real, L: RowLayout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
+fn largest_size<T: Real, L: StageLayout<T>, Y: Vector<Scalar = L::Bundle>, const S: usize>(
     unknowns: &[Y; S],
 ) -> T::Size {
-    let mut sizes = [<L::Row as Real>::Size::zero(); S];
-    for (size, unknowns) in sizes.iter_mut().zip(unknowns).take(rows::<T, L, S>()) {
+    let mut sizes = [<L::Bundle as Real>::Size::zero(); S];
+    for (size, unknowns) in sizes.iter_mut().zip(unknowns).take(bundles::<T, L, S>()) {
         *size = unknowns.size();
     }
     largest::<T, L, S>(&sizes)

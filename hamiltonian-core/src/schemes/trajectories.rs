@@ -102,9 +102,9 @@ macro_rules! entries {
             fn entry(&self) -> Entry {
                 Entry {
                     name: stringify!($scheme),
-                    variant: self.second_point.words(),
+                    variant: self.start.words(),
                     equations: $equations,
-                    order: self.second_point.order(),
+                    order: self.start.order(),
                     duration: $duration,
                     needs: Needs::UNFORCED,
                     preserves: Form::TwoPoint,
@@ -140,15 +140,15 @@ macro_rules! entries {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TwoStepMidpoint {
-    /// The construction of `z[−1]`.
-    second_point: SecondPoint,
+    /// The construction of `z[−1]`. Saved runs contain the name of this field.
+    start: SecondPoint,
 }
 
 impl TwoStepMidpoint {
     /// The construction of `z[−1]`; [`SecondPoint::default`] unless said here.
     #[must_use]
-    pub fn with_second_point(self, second_point: SecondPoint) -> Self {
-        TwoStepMidpoint { second_point }
+    pub fn with_second_point(self, start: SecondPoint) -> Self {
+        TwoStepMidpoint { start }
     }
 }
 
@@ -186,15 +186,15 @@ entries!(TwoStepMidpoint, "25", 1);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ConsecutiveSubTrajectories {
-    /// The construction of `z[−½]`.
-    second_point: SecondPoint,
+    /// The construction of `z[−½]`. Saved runs contain the name of this field.
+    start: SecondPoint,
 }
 
 impl ConsecutiveSubTrajectories {
     /// The construction of `z[−½]`; [`SecondPoint::default`] unless said here.
     #[must_use]
-    pub fn with_second_point(self, second_point: SecondPoint) -> Self {
-        ConsecutiveSubTrajectories { second_point }
+    pub fn with_second_point(self, start: SecondPoint) -> Self {
+        ConsecutiveSubTrajectories { start }
     }
 }
 
@@ -226,15 +226,15 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct IntersectingSubTrajectories {
-    /// The construction of `z[−½]`.
-    second_point: SecondPoint,
+    /// The construction of `z[−½]`. Saved runs contain the name of this field.
+    start: SecondPoint,
 }
 
 impl IntersectingSubTrajectories {
     /// The construction of `z[−½]`; [`SecondPoint::default`] unless said here.
     #[must_use]
-    pub fn with_second_point(self, second_point: SecondPoint) -> Self {
-        IntersectingSubTrajectories { second_point }
+    pub fn with_second_point(self, start: SecondPoint) -> Self {
+        IntersectingSubTrajectories { start }
     }
 }
 
@@ -260,7 +260,7 @@ impl<S: System + Unforced> Scheme<S> for TwoStepMidpoint {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        self.second_point.pair(prepared, state, h)
+        self.start.pair(prepared, state, h)
     }
     #[inline(always)]
     fn start_alone<T: Real>(
@@ -330,7 +330,7 @@ impl<S: System + Unforced> Scheme<S> for ConsecutiveSubTrajectories {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        self.second_point.pair(prepared, state, h)
+        self.start.pair(prepared, state, h)
     }
     #[inline(always)]
     fn start_alone<T: Real>(
@@ -357,8 +357,7 @@ impl<S: System + Unforced> Scheme<S> for IntersectingSubTrajectories {
         state: &State<VectorOf<S, T>>,
         h: T,
     ) -> Points<VectorOf<S, T>> {
-        self.second_point
-            .pair(prepared, state, h * T::constant(0.5, 0.0))
+        self.start.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
     #[inline(always)]
     fn start_alone<T: Real>(

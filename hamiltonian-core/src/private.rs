@@ -475,6 +475,7 @@ macro_rules! __described {
                 is_forced: $is_forced,
                 growth: $growth,
                 jumps: $jumps,
+                missing: $crate::private::Cow::Borrowed(&[]),
             }
         };
     };

@@ -80,6 +80,20 @@ pub enum StartError {
         /// The system.
         system: Box<str>,
     },
+    /// The scheme requires a property that H is not proven to have, of a system that is defined at run time.
+    #[non_exhaustive]
+    Structure {
+        /// The scheme.
+        scheme: Box<str>,
+        /// The name of the trait that stands for the property: `Separable`.
+        marker: Box<str>,
+        /// What is in the way.
+        message: Box<str>,
+        /// What the scheme has to do with it.
+        label: Box<str>,
+        /// The alternative.
+        note: Box<str>,
+    },
     /// A new state of a run is at another time than the run.
     #[non_exhaustive]
     OtherTime {
@@ -166,6 +180,13 @@ impl Display for StartError {
                  them: use `Gauss` or `ImplicitMidpoint`, which evaluate it inside, or, if a piece of H does not \
                  jump, `StormerVerlet`, `BlanesMoan4` or another splitting; let steps end at the jumps"
             ),
+            Self::Structure {
+                scheme,
+                message,
+                label,
+                note,
+                ..
+            } => write!(f, "{message}; `{scheme}` {label}: {note}"),
             Self::OtherTime { clock, time, now } => write!(
                 f,
                 "the new state is at {clock} = {}, the run at {clock} = {}: a change keeps the time, give the state \

@@ -322,11 +322,15 @@ pub(crate) fn names<'a, V: Vector>(groups: &'a [Group], vector: &V) -> Vec<Name<
     for group in groups {
         let before: usize = (0..group.part).map(|k| vector.part(k).len()).sum();
         let len = vector.part(group.part).len();
-        // A scalar group is one component of its part; the part of another group is all its own.
+        // A scalar group is one component of its part; another group reaches to the next one of its part.
+        let behind = groups.iter().filter(|next| next.part == group.part);
+        let behind = behind
+            .map(|next| next.offset)
+            .filter(|next| *next > group.offset);
         let rows = if group.rank == 0 {
             1
         } else {
-            (len - group.offset) / group.columns
+            (behind.min().unwrap_or(len) - group.offset) / group.columns
         };
         let extents = vector.extents(group.part);
         if !extents.is_empty() {

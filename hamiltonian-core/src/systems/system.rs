@@ -10,7 +10,7 @@ mod description;
 pub mod gather;
 mod structure;
 
-pub use description::{Description, Group, NamedPiece, Observable, ObservableKind, Text};
+pub use description::{Description, Group, Missing, NamedPiece, Observable, ObservableKind, Text};
 pub use structure::{Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, Unforced};
 
 use crate::errors::{Error, InputError};

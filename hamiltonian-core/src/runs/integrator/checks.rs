@@ -6,7 +6,7 @@
 use super::{numbers, parameter_without_value, parameters};
 use crate::errors::{Error, StartError};
 use crate::observers::output::names;
-use crate::schemes::scheme::Scheme;
+use crate::schemes::scheme::{Entry, Needs, Scheme};
 use crate::systems::state::State;
 use crate::systems::system::{
     Description, Dynamics, System, VectorOf, check_shape_like, declared_energy,
@@ -105,6 +105,7 @@ pub(crate) fn check_scheme<T: Real, S: System, M: Scheme<S>>(
     /// Sums of weights are rounded.
     const ROUNDING: f64 = 1e-9;
     let description = prepared.description();
+    check_needs(scheme.entry(), description)?;
     if description.is_jumping() {
         let [first, last] = scheme.times_of_jumps(description);
         if !(first > ROUNDING && last < 1.0 - ROUNDING) {
@@ -116,6 +117,30 @@ pub(crate) fn check_scheme<T: Real, S: System, M: Scheme<S>>(
         }
     }
     scheme.check(prepared, start)
+}
+
+/// Returns an error for a scheme that requires a property which H is not proven to have.
+fn check_needs(scheme: Entry, description: &Description) -> Result<(), StartError> {
+    let mut needs = scheme.needs;
+    if description.fictitious_time.is_some() {
+        // Another time is introduced for such systems alone.
+        needs = needs.and(Needs::UNFORCED).and(Needs::AUTONOMOUS);
+    }
+    let is_needed = |name: &str| {
+        let mut all = Needs::ALL.iter();
+        all.any(|(need, known)| *known == name && needs.contains(*need))
+    };
+    let mut missing = description.missing.iter();
+    match missing.find(|missing| is_needed(&missing.marker)) {
+        None => Ok(()),
+        Some(missing) => Err(StartError::Structure {
+            scheme: scheme.name.into(),
+            marker: (*missing.marker).into(),
+            message: (*missing.message).into(),
+            label: (*missing.label).into(),
+            note: (*missing.note).into(),
+        }),
+    }
 }
 
 /// Returns an error if H or a first derivative is not finite, or if the start is off the shell of

@@ -123,6 +123,19 @@ impl NamedPiece {
     }
 }
 
+/// A property that schemes require and that H is not proven to have.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Missing {
+    /// The name of its trait: `Separable`, `Split`, `Nystrom`, `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact`.
+    pub marker: Text,
+    /// What is in the way: `` H of `Coupled` is not separable: the term `p*q` couples q and p ``.
+    pub message: Text,
+    /// What a scheme has to do with it: `needs H = T(p) + V(q)`.
+    pub label: Text,
+    /// The alternative.
+    pub note: Text,
+}
+
 /// The description of a system: its name and formula, its variables, observables and pieces, and facts about H.
 ///
 /// It is a value, and not a set of constants of the type, so that a system made at run time has one too. Nothing in it
@@ -198,6 +211,10 @@ pub struct Description {
     /// jumps. Schemes then evaluate what jumps inside of their steps only, or are refused, so that steps may end at the
     /// jumps.
     pub jumps: [bool; 2],
+    /// The properties that are not proven, of a system whose type has every marker because its H is known at run time
+    /// alone. A run is refused if its scheme requires one of them. None of other systems, whose types have the markers
+    /// that hold.
+    pub missing: Cow<'static, [Missing]>,
 }
 
 impl Description {
@@ -213,6 +230,7 @@ impl Description {
         is_forced: false,
         growth: None,
         jumps: [false; 2],
+        missing: Cow::Borrowed(&[]),
     };
 
     /// The description of a system of which its name and its variables are known.

@@ -12,6 +12,7 @@ fn every_file_of_tests_is_a_module() {
         "hamiltonian-symbolic/tests",
         "hamiltonian-lanes/tests",
         "hamiltonian-core/tests",
+        "hamiltonian-runtime/tests",
     ] {
         let directory = root.join(directory);
         let main = fs::read_to_string(directory.join("main.rs")).expect("there is a root");

@@ -7,13 +7,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates below the facade.
-pub const CRATES: [&str; 6] = [
+pub const CRATES: [&str; 7] = [
     "hamiltonian-real",
     "hamiltonian-lanes",
     "hamiltonian-core",
     "hamiltonian-symbolic",
     "hamiltonian-language",
     "hamiltonian-macros",
+    "hamiltonian-runtime",
 ];
 
 /// The path of a module, from the root of its crate.

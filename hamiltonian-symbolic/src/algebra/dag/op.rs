@@ -164,6 +164,7 @@ macro_rules! operations {
 
         impl Op {
             /// The function's value.
+            #[inline(always)]
             pub fn eval<T: Real>(self, arguments: &[T]) -> T {
                 match (self, arguments) {
                     $((Op::$variant, &[$($arg),+]) => operations!(@call $name $($arg)+),)+

@@ -1,0 +1,321 @@
+//! The code of a system at given sizes, with its description.
+//!
+//! Input: the analysis of a definition, the sizes. Output: [`Code`], which all scalars share. Invariant: a property that a
+//! scheme may require is proven, or missing in the description with the reason.
+
+use crate::flatten::{Kind, Places, Setting, computed, stage};
+use crate::op::{FunctionCode, Stage, To};
+use crate::sizes::value;
+use hamiltonian_core::schemes::author::{Description, Group, Observable, ObservableKind};
+use hamiltonian_core::systems::{Missing, NamedPiece};
+use hamiltonian_language::analyse::System;
+use hamiltonian_language::analyse::described::Described;
+use hamiltonian_language::analyse::structure::{
+    FieldSource, GradientSource, Kick, Nystrom, Reason, Verdicts,
+};
+use hamiltonian_symbolic::dag::Side;
+use hamiltonian_symbolic::halves::are_apart;
+use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::model::{self, ExactFlow, Model, Shape, VectorUse};
+use hamiltonian_symbolic::program::{Function, Purpose, Target};
+
+/// The flow of a piece of H.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// V.
+    Kick,
+    /// T.
+    Drift,
+    /// A piece of the model, by number.
+    Piece(usize),
+}
+
+/// A system at given sizes.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Code {
+    pub(crate) sizes: Vec<usize>,
+    pub(crate) size_names: Vec<String>,
+    pub(crate) parameter_names: Vec<String>,
+    /// True of parameters that are arrays.
+    pub(crate) is_array: Vec<bool>,
+    pub(crate) description: Description,
+    pub(crate) places: Places,
+    pub(crate) prepare: Stage,
+    pub(crate) functions: Vec<(Purpose, FunctionCode)>,
+    pub(crate) gradient: GradientSource,
+    /// True if the gradient is the two halves one after the other.
+    pub(crate) gradient_is_apart: bool,
+    pub(crate) field: FieldSource,
+    /// The vector function of the force.
+    pub(crate) force: Option<Purpose>,
+    /// The pieces of `Split`, the outermost first; none if it is missing.
+    pub(crate) pieces: Vec<Part>,
+    /// Those of `Nystrom`: the kick, and the piece that is at most quadratic in the momenta.
+    pub(crate) nystrom: Option<[Part; 2]>,
+}
+
+impl Code {
+    /// The code of a system, or the feature for which there is none.
+    pub(crate) fn of(system: &System, sizes: &[usize]) -> Result<Code, String> {
+        let System {
+            model,
+            program,
+            structure,
+            ..
+        } = system;
+        let places = places(system, sizes);
+        let setting = Setting {
+            program,
+            sizes,
+            places: &places,
+        };
+        let prepared = &program.prepared;
+        let (prepare, _) = stage(setting, Kind::Prepare, &program.prepare, &[], prepared)?;
+        let mut functions = Vec::new();
+        for function in &program.functions {
+            // Derivatives by parameters are not part of a run.
+            if function.purpose != Purpose::ParameterGradient {
+                functions.push((function.purpose, of_function(setting, function)?));
+            }
+        }
+        let mut vectors = model.vectors.iter();
+        let force = vectors.position(|vector| vector.usage == VectorUse::Force);
+        let halves = [Purpose::GradientQ, Purpose::GradientP];
+        let (pieces, split) = pieces(model, structure);
+        let (nystrom, nystrom_missing) = nystrom(structure, &pieces);
+        let described = Described::of(model, structure, &system.text);
+        let mut description = description(model, structure, described, &places);
+        let mut lack = |marker: &'static str, reason: Option<Reason>| {
+            let missing = reason.map(|reason| Missing {
+                marker: marker.into(),
+                message: reason.message.into(),
+                label: reason.label.into(),
+                note: reason.note.into(),
+            });
+            description.missing.to_mut().extend(missing);
+        };
+        let separable = structure.separable.clone().err();
+        lack("Separable", separable.or_else(|| no_kick(structure)));
+        lack("Split", split);
+        lack("Nystrom", nystrom_missing);
+        lack(
+            "QuadraticKinetic",
+            structure.quadratic_kinetic.clone().err(),
+        );
+        lack("Unforced", structure.unforced.clone().err());
+        lack("Exact", structure.exact.clone().err());
+        lack("Autonomous", structure.autonomous.clone().err());
+        Ok(Code {
+            sizes: sizes.to_vec(),
+            size_names: model.sizes.clone(),
+            parameter_names: model.parameters.iter().map(|of| of.name.clone()).collect(),
+            is_array: (model.parameters.iter().map(|of| of.shape != Shape::Scalar)).collect(),
+            description,
+            prepare,
+            functions,
+            gradient: system.gradient,
+            gradient_is_apart: are_apart(program, Purpose::Gradient, halves),
+            field: system.field,
+            force: force.map(|at| Purpose::Vector(at as u16)),
+            pieces,
+            nystrom,
+            places,
+        })
+    }
+
+    /// The number of the function of a purpose.
+    #[inline(always)]
+    pub(crate) fn number(&self, purpose: Purpose) -> Option<usize> {
+        self.functions
+            .iter()
+            .position(|(known, _)| *known == purpose)
+    }
+}
+
+/// The places of coordinates and of arrays.
+fn places(system: &System, sizes: &[usize]) -> Places {
+    let model = &system.model;
+    let extent = |form: &Affine| value(form, sizes).max(0) as usize;
+    let mut len = 0;
+    let groups = model.groups.iter().map(|group| {
+        let rows = group.shape.rows().map_or(1, extent);
+        let first = len;
+        len += rows * usize::from(group.shape.columns());
+        (first, rows)
+    });
+    let groups = groups.collect();
+    let mut data = 0;
+    let parameters = model.parameters.iter().map(|parameter| {
+        let (count, columns) = match &parameter.shape {
+            Shape::Scalar => (0, 1),
+            Shape::Vector(rows) | Shape::Lattice(rows, _) => (extent(rows), 1),
+            Shape::Matrix(rows, columns) => (extent(rows) * extent(columns), extent(columns)),
+        };
+        let first = data;
+        data += count;
+        (first, columns)
+    });
+    let parameters = parameters.collect();
+    let hoisted = system.program.hoisted.iter().map(|array| {
+        let first = data;
+        data += extent(&array.rows);
+        first
+    });
+    let hoisted = hoisted.collect();
+    Places {
+        groups,
+        len,
+        parameters,
+        hoisted,
+        data,
+    }
+}
+
+fn of_function(setting: Setting, function: &Function) -> Result<FunctionCode, String> {
+    let mut coefficients = Vec::new();
+    computed(&function.coefficient, &mut coefficients);
+    let kind = match function.purpose {
+        Purpose::Piece(_) => Kind::InPlace,
+        _ => Kind::Plain,
+    };
+    let (steps, results) = (&function.evaluation, &function.results);
+    let (evaluation, read) = stage(setting, kind, steps, &coefficients, results)?;
+    let (coefficient, _) = stage(setting, Kind::Plain, &function.coefficient, &[], &read)?;
+    let cleared = function.cleared.iter().map(|target| match target {
+        Target::Phase(column) => {
+            let to = match column.side {
+                Side::Q => To::Q,
+                Side::P => To::P,
+            };
+            let (first, rows) = setting.places.groups[usize::from(column.group)];
+            let first = first + rows * usize::from(column.column);
+            Ok((to, first, first + rows))
+        }
+        _ => Err("derivatives by parameters".to_owned()),
+    });
+    let cleared = cleared.collect::<Result<_, String>>()?;
+    Ok(FunctionCode {
+        coefficient,
+        evaluation,
+        cleared,
+    })
+}
+
+/// The reason against a kick that is not a plain one.
+fn no_kick(structure: &Verdicts) -> Option<Reason> {
+    match structure.kick {
+        Some(Kick::Plain) | None => None,
+        Some(_) => Some(later(
+            "its force depends on momenta, and the kick of such a force",
+        )),
+    }
+}
+
+/// The reason for what compiled definitions alone have.
+fn later(what: &str) -> Reason {
+    Reason {
+        message: format!("{what} is not there for definitions at run time"),
+        label: "needs it".to_owned(),
+        note: "compile the definition with `hamiltonian!`, or use a scheme for any H: `Gauss`, `ImplicitMidpoint`"
+            .to_owned(),
+    }
+}
+
+/// The pieces of the splitting, or the reason against one.
+fn pieces(model: &Model, structure: &Verdicts) -> (Vec<Part>, Option<Reason>) {
+    let reason = structure.split.clone().err().or_else(|| no_kick(structure));
+    if reason.is_some() {
+        return (Vec::new(), reason);
+    }
+    if model.pieces.is_empty() {
+        let mut halves = vec![Part::Kick, Part::Drift];
+        if structure.is_drift_first() {
+            halves.reverse();
+        }
+        return (halves, None);
+    }
+    for piece in &model.pieces {
+        let name = &piece.name;
+        if !piece.flow.merges() {
+            let what = format!("the piece `{name}`, whose terms do not commute,");
+            return (Vec::new(), Some(later(&what)));
+        }
+        if piece.flow == ExactFlow::Exponential {
+            let what = format!("the matrix exponential of the piece `{name}`");
+            return (Vec::new(), Some(later(&what)));
+        }
+    }
+    let mut all: Vec<Part> = (0..model.pieces.len()).map(Part::Piece).collect();
+    if structure.is_forced_apart() {
+        all.push(Part::Kick);
+    }
+    (all, None)
+}
+
+/// The two pieces of Nyström schemes, or the reason against them.
+fn nystrom(structure: &Verdicts, pieces: &[Part]) -> (Option<[Part; 2]>, Option<Reason>) {
+    match &structure.nystrom {
+        Err(reason) => (None, Some(reason.clone())),
+        Ok(_) if pieces.is_empty() => {
+            let missing = "the splitting of this H";
+            (None, Some(later(missing)))
+        }
+        Ok(Nystrom::Halves) => (Some([Part::Kick, Part::Drift]), None),
+        Ok(Nystrom::Pieces(numbers)) => (Some(numbers.map(Part::Piece)), None),
+    }
+}
+
+fn description(
+    model: &Model,
+    structure: &Verdicts,
+    described: Described,
+    places: &Places,
+) -> Description {
+    let groups = model.groups.iter().zip(&places.groups);
+    let group = |(group, (first, _)): (&model::Group, &(usize, usize))| Group {
+        coordinate: group.coordinate.clone().into(),
+        momentum: group.momentum.clone().into(),
+        rank: match &group.shape {
+            Shape::Scalar => 0,
+            Shape::Vector(_) => 1,
+            Shape::Matrix(..) => 2,
+            Shape::Lattice(_, axes) => axes.len(),
+        },
+        part: 0,
+        offset: *first,
+        columns: group.shape.columns().into(),
+    };
+    let observable =
+        |one: hamiltonian_language::analyse::described::DescribedObservable| Observable {
+            name: one.name.into(),
+            kind: match one.kind {
+                model::ObservableKind::Monitor => ObservableKind::Monitor,
+                model::ObservableKind::Invariant => ObservableKind::Invariant,
+                model::ObservableKind::Event => ObservableKind::Event,
+            },
+            depends_on_time: one.timed,
+            reads: one.reads,
+        };
+    let piece = |one: hamiltonian_language::analyse::described::DescribedPiece| NamedPiece {
+        name: one.name.into(),
+        formula: one.formula.into(),
+        jumps: one.jumps,
+    };
+    Description {
+        name: model.name.clone().into(),
+        formula: described.formula.into(),
+        groups: groups.map(group).collect(),
+        observables: described.observables.into_iter().map(observable).collect(),
+        cyclic: structure
+            .cyclic
+            .iter()
+            .map(|name| name.clone().into())
+            .collect(),
+        pieces: described.pieces.into_iter().map(piece).collect(),
+        fictitious_time: model.evolution.clone().map(Into::into),
+        is_forced: !model.force.is_empty(),
+        growth: structure.growth,
+        jumps: described.jumps,
+        missing: Vec::new().into(),
+    }
+}

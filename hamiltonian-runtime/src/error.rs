@@ -1,0 +1,108 @@
+//! Why a definition is not made a system.
+
+use crate::diagnostics::Place;
+use hamiltonian_core::errors::InputError;
+use std::fmt::{self, Display, Formatter};
+
+/// Why [`Definition::system`](crate::Definition::system) makes no system.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum SystemError {
+    /// The definition has something that systems at run time do not have, or not yet.
+    #[non_exhaustive]
+    NotCarried {
+        /// The feature.
+        feature: String,
+        /// Its place.
+        place: Place,
+    },
+    /// A value has the name of no parameter and of no size.
+    #[non_exhaustive]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The names that the definition declares.
+        known: Vec<String>,
+    },
+    /// A parameter without a default, or a size, has no value.
+    #[non_exhaustive]
+    NoValue {
+        /// Its name.
+        name: String,
+    },
+    /// A size is negative or not whole, or a list has the place of a number or of a size.
+    #[non_exhaustive]
+    NoNumber {
+        /// The name of the parameter or size.
+        name: String,
+        /// What is expected: `a number`, `a size`.
+        expected: &'static str,
+    },
+    /// A list has another number of elements than the array that is declared.
+    #[non_exhaustive]
+    Length {
+        /// The name of the array.
+        name: String,
+        /// The number of its elements.
+        expected: usize,
+        /// The number of elements given.
+        found: usize,
+    },
+    /// A parameter is NaN.
+    #[non_exhaustive]
+    NaN {
+        /// Its name.
+        name: String,
+    },
+    /// An array of these sizes does not fit into memory.
+    #[non_exhaustive]
+    Memory {
+        /// Its name.
+        name: String,
+    },
+    /// An index leaves its range for these sizes.
+    Input(InputError),
+}
+
+impl Display for SystemError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotCarried { feature, place } => write!(
+                f,
+                "{place}: {feature}: systems defined at run time do not have this, compile the definition with \
+                 `hamiltonian!`"
+            ),
+            Self::Unknown { name, known } if known.is_empty() => {
+                write!(f, "there is no parameter `{name}`: the definition has none")
+            }
+            Self::Unknown { name, known } => write!(
+                f,
+                "there is no parameter or size `{name}`; there are `{}`",
+                known.join("`, `")
+            ),
+            Self::NoValue { name } => {
+                write!(f, "`{name}` has no default: give it a value")
+            }
+            Self::NoNumber { name, expected } => write!(f, "`{name}` must be {expected}"),
+            Self::Length {
+                name,
+                expected,
+                found,
+            } => write!(f, "`{name}` must have {expected} elements, found {found}"),
+            Self::NaN { name } => write!(f, "the parameter `{name}` is NaN, and must be a number"),
+            Self::Memory { name } => write!(
+                f,
+                "`{name}` does not fit into memory: the sizes are too large"
+            ),
+            Self::Input(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for SystemError {}
+
+impl From<InputError> for SystemError {
+    fn from(error: InputError) -> SystemError {
+        SystemError::Input(error)
+    }
+}

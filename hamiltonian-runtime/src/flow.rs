@@ -1,0 +1,154 @@
+//! The vector field and the flows of pieces, for a step coefficient.
+//!
+//! Input: a prepared system and a coefficient. Output: [`Field`], [`PartFlow`], and [`Pieces`] of a splitting. Invariant:
+//! the numbers of the coefficient are computed when a flow is made; nothing allocates when it moves a point.
+
+use crate::code::Part;
+use crate::machine::Arrays;
+use crate::prepared::{Flat, Prepared, at};
+use hamiltonian_core::Vector;
+use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, VectorField};
+use hamiltonian_lanes::Real;
+use hamiltonian_language::analyse::structure::FieldSource;
+use hamiltonian_symbolic::program::Purpose;
+
+/// A function with the numbers of a step coefficient.
+#[derive(Debug, Clone)]
+struct Folded<T> {
+    /// The number of the function; `None` if there is none.
+    number: Option<usize>,
+    numbers: Vec<T>,
+}
+
+impl<T: Real> Folded<T> {
+    fn new(prepared: &Prepared<T>, purpose: Purpose, c: T) -> Self {
+        Folded {
+            number: prepared.code.number(purpose),
+            numbers: prepared.folded(purpose, c),
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate(&self, prepared: &Prepared<T>, arrays: Arrays<'_, T>) {
+        if let Some(number) = self.number {
+            prepared.evaluate(number, &self.numbers, arrays, &mut []);
+        }
+    }
+}
+
+/// The vector field of a system that is defined at run time, scaled by a step coefficient.
+#[derive(Debug, Clone)]
+pub struct Field<T: Real> {
+    prepared: Prepared<T>,
+    c: T,
+    /// The kick and the drift, or the field.
+    parts: Vec<Folded<T>>,
+}
+
+impl<T: Real> Field<T> {
+    pub(crate) fn new(prepared: &Prepared<T>, c: T) -> Self {
+        let purposes: &[Purpose] = match prepared.code.field {
+            FieldSource::Halves => &[Purpose::Kick, Purpose::Drift],
+            FieldSource::Whole => &[Purpose::VectorField],
+            FieldSource::OfGradient => &[],
+        };
+        let parts = purposes.iter();
+        let parts = parts.map(|purpose| Folded::new(prepared, *purpose, c));
+        Field {
+            parts: parts.collect(),
+            prepared: prepared.clone(),
+            c,
+        }
+    }
+}
+
+impl<T: Real> VectorField<Flat<T>> for Field<T> {
+    #[inline(always)]
+    fn add(&self, t: T, q: &Flat<T>, p: &Flat<T>, into_q: &mut Flat<T>, into_p: &mut Flat<T>) {
+        if self.parts.is_empty() {
+            let (mut x, mut y) = (into_q.clone(), into_p.clone());
+            let _ = self.prepared.energy_and_gradient(t, q, p, &mut x, &mut y);
+            into_q.accumulate(self.c, &y);
+            into_p.accumulate(-self.c, &x);
+        }
+        for part in &self.parts {
+            let arrays = Arrays {
+                into_q: into_q.as_mut_slice(),
+                into_p: into_p.as_mut_slice(),
+                ..at(t, q, p)
+            };
+            part.evaluate(&self.prepared, arrays);
+        }
+    }
+}
+
+/// The flow of a piece of H for a duration.
+#[derive(Debug, Clone)]
+pub struct PartFlow<T: Real> {
+    prepared: Prepared<T>,
+    part: Part,
+    folded: Folded<T>,
+}
+
+impl<T: Real> PartFlow<T> {
+    pub(crate) fn new(prepared: &Prepared<T>, part: Part, c: T) -> Self {
+        let purpose = match part {
+            Part::Kick => Purpose::Kick,
+            Part::Drift => Purpose::Drift,
+            Part::Piece(number) => Purpose::Piece(number as u16),
+        };
+        PartFlow {
+            prepared: prepared.clone(),
+            part,
+            folded: Folded::new(prepared, purpose, c),
+        }
+    }
+}
+
+impl<T: Real> Flow<Point<Flat<T>>> for PartFlow<T> {
+    const NAME: &'static str = "a piece of H";
+    type Work = ();
+
+    #[inline(always)]
+    fn apply(&self, t: T, x: &mut Point<Flat<T>>, (): &mut ()) {
+        let (q, p) = (&mut x.q, &mut x.p);
+        let point = Arrays {
+            t,
+            ..Arrays::none()
+        };
+        let arrays = match self.part {
+            Part::Kick => Arrays {
+                q: q.as_slice(),
+                into_p: p.as_mut_slice(),
+                ..point
+            },
+            Part::Drift => Arrays {
+                p: p.as_slice(),
+                into_q: q.as_mut_slice(),
+                ..point
+            },
+            Part::Piece(_) => Arrays {
+                into_q: q.as_mut_slice(),
+                into_p: p.as_mut_slice(),
+                ..point
+            },
+        };
+        self.folded.evaluate(&self.prepared, arrays);
+    }
+}
+
+/// The flows of pieces one after the other.
+#[derive(Debug, Clone)]
+pub struct Inside<T: Real>(pub(crate) Vec<PartFlow<T>>);
+
+impl<T: Real> Flow<Point<Flat<T>>> for Inside<T> {
+    const NAME: &'static str = "the inner pieces of H";
+    type Work = ();
+
+    #[inline(always)]
+    fn apply(&self, t: T, x: &mut Point<Flat<T>>, (): &mut ()) {
+        for flow in &self.0 {
+            flow.apply(t, x, &mut ());
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! Prepared systems over any scalar.
+//!
+//! Input: code, the numbers of parameters. Output: [`Prepared`], which runs its functions.
+//! Invariant: numbers that depend on parameters alone are computed once, those of a step coefficient once for each flow.
+
+use crate::code::Code;
+use crate::machine::{Arrays, Given, Pool, run};
+use crate::op::{FunctionCode, Held, Stage};
+use hamiltonian_core::nalgebra::DVector;
+use hamiltonian_core::schemes::author::{Arithmetic, gather};
+use hamiltonian_lanes::{Pack, Real};
+use hamiltonian_language::analyse::structure::GradientSource;
+use hamiltonian_symbolic::program::Purpose;
+use std::fmt;
+use std::sync::Arc;
+
+/// The numbers that a function holds: those of its coefficient stage, and those of its evaluation.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct HeldOf<T> {
+    pub(crate) coefficient: Vec<T>,
+    pub(crate) evaluation: Vec<T>,
+}
+
+/// A system with all numbers that depend on its parameters alone.
+#[derive(Clone)]
+pub struct Prepared<T: Real> {
+    pub(crate) code: Arc<Code>,
+    /// Of each function what it holds.
+    pub(crate) held: Arc<Vec<HeldOf<T>>>,
+    /// The arrays of parameters, and those that preparation fills.
+    pub(crate) data: Arc<Vec<T>>,
+    pub(crate) pool: Pool<T>,
+    /// The kick for −1 and the drift for 1, or the field for −1, of which the gradient is made.
+    pub(crate) unit: Arc<Vec<Vec<T>>>,
+    pub(crate) arithmetic: Arithmetic,
+}
+
+impl<T: Real> fmt::Debug for Prepared<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Prepared")
+            .field("system", &self.code.description.name)
+            .field("held", &self.held)
+            .field("data", &self.data)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What a stage holds.
+fn held<T: Real>(stage: &Stage, scalars: &[T], prepared: &[T]) -> Vec<T> {
+    let number = |held: &Held| match *held {
+        Held::Constant(hi, lo) => T::constant(hi, lo),
+        Held::Scalar(number) => scalars[usize::from(number)],
+        Held::Prepared(number) => prepared[number as usize],
+    };
+    stage.held.iter().map(number).collect()
+}
+
+impl<T: Real> Prepared<T> {
+    /// Prepares a system from the numbers of each parameter.
+    pub(crate) fn new(code: &Arc<Code>, parameters: &[Vec<f64>]) -> Self {
+        let lifted = |number: &f64| T::constant(*number, 0.0);
+        let mut scalars = vec![T::zero(); parameters.len()];
+        let mut data = vec![T::constant(f64::NAN, 0.0); code.places.data];
+        for (at, numbers) in parameters.iter().enumerate() {
+            if code.is_array[at] {
+                let (first, _) = code.places.parameters[at];
+                let numbers = numbers.iter().map(lifted);
+                for (to, number) in data[first..].iter_mut().zip(numbers) {
+                    *to = number;
+                }
+            } else if let Some(number) = numbers.first() {
+                scalars[at] = lifted(number);
+            }
+        }
+        let pool = Pool::new();
+        let mut prepared = vec![T::zero(); code.prepare.results.len()];
+        let given = held(&code.prepare, &scalars, &[]);
+        let mut arrays = Arrays {
+            into_data: &mut data,
+            ..Arrays::none()
+        };
+        run(
+            &code.prepare,
+            Given {
+                held: &given,
+                folded: &[],
+                data: &[],
+            },
+            &pool,
+            &mut arrays,
+            &mut prepared,
+        );
+        let of_function = |(_, function): &(Purpose, FunctionCode)| HeldOf {
+            coefficient: held(&function.coefficient, &scalars, &prepared),
+            evaluation: held(&function.evaluation, &scalars, &prepared),
+        };
+        let all = code.functions.iter().map(of_function).collect();
+        Prepared::whole(code.clone(), all, data, Arithmetic::default())
+    }
+
+    /// A system of its parts.
+    fn whole(code: Arc<Code>, held: Vec<HeldOf<T>>, data: Vec<T>, arithmetic: Arithmetic) -> Self {
+        let mut made = Prepared {
+            code,
+            held: Arc::new(held),
+            data: Arc::new(data),
+            pool: Pool::new(),
+            unit: Arc::new(Vec::new()),
+            arithmetic,
+        };
+        let unit = match made.code.gradient {
+            GradientSource::Written => Vec::new(),
+            GradientSource::Halves => {
+                let (minus, one) = (-T::one(), T::one());
+                vec![
+                    made.folded(Purpose::Kick, minus),
+                    made.folded(Purpose::Drift, one),
+                ]
+            }
+            GradientSource::Field => vec![made.folded(Purpose::VectorField, -T::one())],
+        };
+        made.unit = Arc::new(unit);
+        made
+    }
+
+    /// One system with a member in each lane.
+    pub(crate) fn gathered<P: Pack>(members: &[&Self]) -> Prepared<T::Over<P>> {
+        let first = members[0];
+        let lanes = |len: usize, of: &dyn Fn(&Self, usize) -> T| -> Vec<T::Over<P>> {
+            let one = |at| gather::number::<T, P, Self>(members, |member| of(member, at));
+            (0..len).map(one).collect()
+        };
+        let functions = first.held.iter().enumerate();
+        let held = functions.map(|(f, held)| HeldOf {
+            coefficient: lanes(held.coefficient.len(), &|member, at| {
+                member.held[f].coefficient[at]
+            }),
+            evaluation: lanes(held.evaluation.len(), &|member, at| {
+                member.held[f].evaluation[at]
+            }),
+        });
+        let held = held.collect();
+        let data = lanes(first.data.len(), &|member, at| member.data[at]);
+        Prepared::whole(first.code.clone(), held, data, first.arithmetic)
+    }
+
+    pub(crate) fn fits(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.code, &other.code) || self.code == other.code
+    }
+
+    pub(crate) fn equals(&self, other: &Self) -> bool {
+        let is_same = Arc::ptr_eq(&self.held, &other.held) && Arc::ptr_eq(&self.data, &other.data);
+        is_same || self.held == other.held && self.data == other.data
+    }
+
+    /// The numbers of a function for a step coefficient.
+    pub(crate) fn folded(&self, purpose: Purpose, c: T) -> Vec<T> {
+        let Some(number) = self.code.number(purpose) else {
+            return Vec::new();
+        };
+        let mut folded = vec![T::zero(); self.code.functions[number].1.coefficient.results.len()];
+        self.fold(number, c, &mut folded);
+        folded
+    }
+
+    #[inline(always)]
+    fn fold(&self, number: usize, c: T, folded: &mut [T]) {
+        let stage = &self.code.functions[number].1.coefficient;
+        let held = &self.held[number].coefficient;
+        let mut arrays = Arrays {
+            c,
+            ..Arrays::none()
+        };
+        run(
+            stage,
+            Given {
+                held,
+                folded: &[],
+                data: &self.data,
+            },
+            &self.pool,
+            &mut arrays,
+            folded,
+        );
+    }
+
+    /// Runs the evaluation of a function.
+    #[inline(always)]
+    pub(crate) fn evaluate(
+        &self,
+        number: usize,
+        folded: &[T],
+        mut arrays: Arrays<'_, T>,
+        results: &mut [T],
+    ) {
+        let function = &self.code.functions[number].1;
+        for range in &function.cleared {
+            arrays.clear(*range);
+        }
+        let held = &self.held[number].evaluation;
+        run(
+            &function.evaluation,
+            Given {
+                held,
+                folded,
+                data: &self.data,
+            },
+            &self.pool,
+            &mut arrays,
+            results,
+        );
+    }
+
+    /// The value of a function that returns one.
+    #[inline(always)]
+    pub(crate) fn value(&self, purpose: Purpose, arrays: Arrays<'_, T>) -> T {
+        let mut results = [T::constant(f64::NAN, 0.0)];
+        if let Some(number) = self.code.number(purpose) {
+            self.evaluate(number, &[], arrays, &mut results);
+        }
+        results[0]
+    }
+
+    /// Runs a function with a step coefficient, if it is there.
+    #[inline(always)]
+    pub(crate) fn call(&self, purpose: Purpose, folded: &[T], arrays: Arrays<'_, T>) -> bool {
+        let number = self.code.number(purpose);
+        if let Some(number) = number {
+            self.evaluate(number, folded, arrays, &mut []);
+        }
+        number.is_some()
+    }
+
+    /// Adds what a function adds for a coefficient, whose numbers are on the stack where they are few.
+    #[inline(always)]
+    pub(crate) fn add(&self, purpose: Purpose, c: T, arrays: Arrays<'_, T>) {
+        const FEW: usize = 32;
+        let Some(number) = self.code.number(purpose) else {
+            return;
+        };
+        let count = self.code.functions[number].1.coefficient.results.len();
+        if count <= FEW {
+            let mut folded = [T::zero(); FEW];
+            self.fold(number, c, &mut folded[..count]);
+            self.evaluate(number, &folded[..count], arrays, &mut []);
+        } else {
+            let folded = self.folded(purpose, c);
+            self.evaluate(number, &folded, arrays, &mut []);
+        }
+    }
+}
+
+/// The vector of coordinates, and that of momenta.
+pub(crate) type Flat<T> = DVector<T>;
+
+/// The arrays of an evaluation at a point.
+#[inline(always)]
+pub(crate) fn at<'a, T: Real>(t: T, q: &'a Flat<T>, p: &'a Flat<T>) -> Arrays<'a, T> {
+    Arrays {
+        t,
+        q: q.as_slice(),
+        p: p.as_slice(),
+        ..Arrays::none()
+    }
+}

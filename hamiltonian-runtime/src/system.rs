@@ -1,0 +1,196 @@
+//! Systems whose H is known at run time alone.
+//!
+//! Input: code and numbers. Output: [`RuntimeSystem`]. Invariant: its type has every marker, so that every scheme takes it;
+//! what is not proven of its H is in its description, and a run whose scheme requires it is refused.
+
+use crate::code::{Code, Part};
+use crate::flow::{Inside, PartFlow};
+use crate::prepared::{Flat, Prepared};
+use hamiltonian_core::nalgebra::{Const, Dyn, OMatrix};
+use hamiltonian_core::schemes::author::{Description, Piece, Pieces, Point};
+use hamiltonian_core::{
+    Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
+};
+use hamiltonian_lanes::{Pack, Real};
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// A system that was defined at run time.
+///
+/// Its coordinates are one vector of numbers, and so are its momenta: group after group in the order of the declaration,
+/// an array `q[n][3]` column after column. It is a [`System`] as any other: all schemes, runs, ensembles and observers of
+/// `hamiltonian` take it. A run whose scheme requires a structure that H is not proven to have is refused with the reason.
+///
+/// ```
+/// use hamiltonian::prelude::*;
+/// use hamiltonian_runtime::{Definition, Values};
+///
+/// let coupled = Definition::parse("struct Coupled {} H(q; p) = (q^2 + 1)*(p^2 + 1)/2 + sin(q*p)", "coupled.txt")?;
+/// let system = coupled.system(Values::new())?;
+/// let start = || State::new(vec![-3.0], vec![0.0]);
+///
+/// let mut run = Integrator::new(&system, Gauss::<3>::default(), start(), 0.01)?;
+/// run.advance(10)?;
+/// let error = Integrator::new(&system, StormerVerlet::default(), start(), 0.01).unwrap_err();
+/// assert!(error.to_string().contains("`StormerVerlet` needs H = T(p) + V(q)"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct RuntimeSystem {
+    code: Arc<Code>,
+    /// The numbers of each parameter.
+    parameters: Arc<Vec<Vec<f64>>>,
+}
+
+impl RuntimeSystem {
+    pub(crate) fn new(code: Arc<Code>, parameters: Vec<Vec<f64>>) -> Self {
+        let parameters = Arc::new(parameters);
+        RuntimeSystem { code, parameters }
+    }
+
+    /// The number of coordinates, which is that of momenta.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.code.places.len
+    }
+}
+
+impl System for RuntimeSystem {
+    type Shape = OMatrix<(), Dyn, Const<1>>;
+    type Prepared<T: Real> = Prepared<T>;
+
+    fn description(&self) -> &Description {
+        &self.code.description
+    }
+
+    fn describe_parameters(&self, out: &mut dyn Write) -> std::fmt::Result {
+        for (name, size) in self.code.size_names.iter().zip(&self.code.sizes) {
+            writeln!(out, "{name} = {size}")?;
+        }
+        let parameters = self.code.parameter_names.iter().zip(&*self.parameters);
+        for ((name, numbers), is_array) in parameters.zip(&self.code.is_array) {
+            for (at, number) in numbers.iter().enumerate() {
+                match is_array {
+                    true => writeln!(out, "{name}[{at}] = {number:?}")?,
+                    false => writeln!(out, "{name} = {number:?}")?,
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn prepare<T: Real>(&self) -> Prepared<T> {
+        Prepared::new(&self.code, &self.parameters)
+    }
+
+    fn zeros<T: Real>(&self) -> Flat<T> {
+        Flat::from_element(self.code.places.len, T::zero())
+    }
+
+    fn gather<T: Real, P: Pack>(members: &[&Prepared<T>]) -> Prepared<T::Over<P>> {
+        Prepared::gathered::<P>(members)
+    }
+
+    fn fits<T: Real>(a: &Prepared<T>, b: &Prepared<T>) -> bool {
+        a.fits(b)
+    }
+
+    fn equals<T: Real>(a: &Prepared<T>, b: &Prepared<T>) -> bool {
+        a.equals(b)
+    }
+}
+
+impl Unforced for RuntimeSystem {}
+impl Exact for RuntimeSystem {}
+impl QuadraticKinetic for RuntimeSystem {}
+impl Autonomous for RuntimeSystem {}
+
+/// A piece by its use, which the prepared system has a flow for.
+#[derive(Debug, Clone, Copy)]
+pub enum RuntimePiece {
+    /// V.
+    Kick,
+    /// T.
+    Drift,
+    /// The kick of Nyström schemes.
+    NystromKick,
+    /// The piece beside it, at most quadratic in the momenta.
+    Quadratic,
+}
+
+impl<T: Real> Piece<T, Prepared<T>> for RuntimePiece {
+    type Point = Point<Flat<T>>;
+    type Flow = PartFlow<T>;
+
+    fn flow(&self, prepared: &Prepared<T>, c: T) -> PartFlow<T> {
+        // A run is refused before its flows are made, if they are not there.
+        let [kick, quadratic] = prepared.code.nystrom.unwrap_or([Part::Kick, Part::Drift]);
+        let part = match self {
+            RuntimePiece::Kick => Part::Kick,
+            RuntimePiece::Drift => Part::Drift,
+            RuntimePiece::NystromKick => kick,
+            RuntimePiece::Quadratic => quadratic,
+        };
+        PartFlow::new(prepared, part, c)
+    }
+}
+
+/// The pieces of a splitting, as many as the definition has.
+#[derive(Debug, Clone, Copy)]
+pub struct RuntimePieces;
+
+impl<T: Real> Pieces<T, Prepared<T>> for RuntimePieces {
+    type Point = Point<Flat<T>>;
+    type Outer = PartFlow<T>;
+    type Inner = Inside<T>;
+
+    fn outer(&self, prepared: &Prepared<T>, c: T) -> PartFlow<T> {
+        let first = prepared.code.pieces.first();
+        PartFlow::new(prepared, first.copied().unwrap_or(Part::Kick), c)
+    }
+
+    fn inner(&self, prepared: &Prepared<T>, down: T, up: T) -> Inside<T> {
+        let pieces = prepared.code.pieces.get(1..).unwrap_or_default();
+        let Some((last, between)) = pieces.split_last() else {
+            return Inside(Vec::new());
+        };
+        let way_down = between
+            .iter()
+            .map(|part| PartFlow::new(prepared, *part, down));
+        let turn = PartFlow::new(prepared, *last, down + up);
+        let way_up = between
+            .iter()
+            .rev()
+            .map(|part| PartFlow::new(prepared, *part, up));
+        Inside(way_down.chain([turn]).chain(way_up).collect())
+    }
+}
+
+impl Split for RuntimeSystem {
+    type Pieces<T: Real> = RuntimePieces;
+    fn pieces<T: Real>() -> RuntimePieces {
+        RuntimePieces
+    }
+}
+
+impl Separable for RuntimeSystem {
+    type Kick<T: Real> = RuntimePiece;
+    type Drift<T: Real> = RuntimePiece;
+    fn kick<T: Real>() -> RuntimePiece {
+        RuntimePiece::Kick
+    }
+    fn drift<T: Real>() -> RuntimePiece {
+        RuntimePiece::Drift
+    }
+}
+
+impl Nystrom for RuntimeSystem {
+    type Kick<T: Real> = RuntimePiece;
+    type Quadratic<T: Real> = RuntimePiece;
+    fn kick<T: Real>() -> RuntimePiece {
+        RuntimePiece::NystromKick
+    }
+    fn quadratic<T: Real>() -> RuntimePiece {
+        RuntimePiece::Quadratic
+    }
+}

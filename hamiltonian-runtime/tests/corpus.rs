@@ -1,0 +1,289 @@
+//! The functions of every definition of the repository have the bits of the engine's interpreter.
+//!
+//! Input: the definitions of examples and tests, numbers for their parameters and a point. Output: a panic with the first
+//! function that differs. Invariant: a definition that is left out is so by the name of a feature.
+
+use crate::common::{definitions, numbers};
+use hamiltonian::schemes::author::{self, Dynamics, Flow, Piece, Pieces, VectorField};
+use hamiltonian::{Separable, Split, System};
+use hamiltonian_language::analyse::{self, analyse};
+use hamiltonian_language::{read, report::Report};
+use hamiltonian_runtime::{Definition, PartFlow, RuntimeSystem, SystemError, Value, Values};
+use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
+use hamiltonian_symbolic::index::{Affine, Size};
+use hamiltonian_symbolic::interpret::{Point, run};
+use hamiltonian_symbolic::model::Shape;
+use hamiltonian_symbolic::program::{Purpose, Target};
+use std::collections::BTreeMap;
+
+type Vector = hamiltonian::nalgebra::DVector<f64>;
+
+/// The size that each name has.
+const SIZE: usize = 5;
+
+fn extent(form: &Affine, size: usize) -> usize {
+    let value = form.value(&|_| unreachable!("extents have no loops"), &|_: Size| {
+        size as i64
+    });
+    usize::try_from(value).expect("extents are not negative")
+}
+
+/// The system for the engine's interpreter.
+fn analysed(text: &str) -> Option<analyse::System> {
+    let mut report = Report::default();
+    let checked = read(text.parse().expect("it lexes"), &mut report).1?;
+    analyse(&checked, &mut report).map(|analysis| analysis.whole)
+}
+
+/// Numbers for all parameters.
+fn values(system: &analyse::System, size: usize) -> Values {
+    let mut next = numbers(7);
+    let mut values = Values::new();
+    for name in &system.model.sizes {
+        values = values.with(name, size);
+    }
+    for parameter in &system.model.parameters {
+        let value = match &parameter.shape {
+            Shape::Scalar => Value::Number(next()),
+            Shape::Vector(rows) | Shape::Lattice(rows, _) => {
+                Value::List((0..extent(rows, size)).map(|_| next()).collect())
+            }
+            Shape::Matrix(rows, columns) => {
+                let count = extent(rows, size) * extent(columns, size);
+                Value::List((0..count).map(|_| next()).collect())
+            }
+        };
+        values = values.with(&parameter.name, value);
+    }
+    values
+}
+
+/// The point of the interpreter with the same numbers.
+fn point(system: &analyse::System, size: usize, [q, p]: [&Vector; 2]) -> Point<f64> {
+    let mut next = numbers(7);
+    let mut point = Point::new();
+    (point.t, point.c) = (0.3, 0.7);
+    point.sizes = vec![size; system.model.sizes.len()];
+    for (number, parameter) in (0..).zip(&system.model.parameters) {
+        let array = Array::Parameter(Parameter(number));
+        point.scalars.push(f64::NAN);
+        match &parameter.shape {
+            Shape::Scalar => point.scalars[usize::from(number)] = next(),
+            Shape::Vector(rows) | Shape::Lattice(rows, _) => {
+                let list = (0..extent(rows, size)).map(|_| next()).collect();
+                point.arrays.insert(array, vec![list]);
+            }
+            Shape::Matrix(rows, columns) => {
+                let (rows, columns) = (extent(rows, size), extent(columns, size));
+                let mut lists = vec![vec![0.0; rows]; columns];
+                for row in 0..rows {
+                    lists.iter_mut().for_each(|column| column[row] = next());
+                }
+                point.arrays.insert(array, lists);
+            }
+        }
+    }
+    let mut first = 0;
+    for (number, group) in (0..).zip(&system.model.groups) {
+        let rows = group.shape.rows().map_or(1, |rows| extent(rows, size));
+        for column in 0..group.shape.columns() {
+            for (side, from) in [(Side::Q, q), (Side::P, p)] {
+                let at = Column {
+                    side,
+                    group: number,
+                    column,
+                };
+                let list = from.as_slice()[first..first + rows].to_vec();
+                let directions = list.iter().map(|x| x * 1.25).collect();
+                point.arrays.insert(Array::Phase(at), vec![list.clone()]);
+                point.arrays.insert(Array::Direction(at), vec![directions]);
+                point.outputs.insert(Target::Phase(at), vec![list]);
+            }
+            first += rows;
+        }
+    }
+    point
+}
+
+/// The outputs of one side in flat order.
+fn flat(system: &analyse::System, point: &Point<f64>, side: Side) -> Vec<f64> {
+    let mut all = Vec::new();
+    for (number, group) in (0..).zip(&system.model.groups) {
+        for column in 0..group.shape.columns() {
+            let at = Column {
+                side,
+                group: number,
+                column,
+            };
+            all.extend(&point.outputs[&Target::Phase(at)][0]);
+        }
+    }
+    all
+}
+
+/// True if both are equal bit for bit; all NaNs are one.
+fn same(a: &[f64], b: &[f64]) -> bool {
+    let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan();
+    a.len() == b.len() && a.iter().zip(b).all(equal)
+}
+
+/// Moves a point by a flow.
+fn moved(flow: &PartFlow<f64>, t: f64, q: &mut Vector, p: &mut Vector) {
+    let mut point = author::Point {
+        q: q.clone(),
+        p: p.clone(),
+    };
+    flow.apply(t, &mut point, &mut ());
+    (*q, *p) = (point.q, point.p);
+}
+
+/// The functions of a system against the interpreter; returns how many were compared.
+fn compare(text: &str, system: &analyse::System, made: &RuntimeSystem, size: usize) -> usize {
+    let mut next = numbers(3);
+    let mut vector = || Vector::from_fn(made.degrees_of_freedom(), |_, _| next());
+    let (q, p) = (vector(), vector());
+    let point = point(system, size, [&q, &p]);
+    let prepared = made.prepare::<f64>();
+    let has = |marker: &str| {
+        let mut missing = made.description().missing.iter();
+        missing.all(|missing| missing.marker != marker)
+    };
+    let mut compared = 0;
+    for function in &system.program.functions {
+        // Inner pieces are compared in runs. Derivatives by parameters are not offered.
+        let is_offered = match function.purpose {
+            Purpose::Energy
+            | Purpose::EnergyAndGradient
+            | Purpose::TimeDerivative
+            | Purpose::HessianVector
+            | Purpose::Gradient
+            | Purpose::GradientQ
+            | Purpose::GradientP
+            | Purpose::VectorField
+            | Purpose::Observable(_) => true,
+            Purpose::Kick => has("Separable"),
+            Purpose::Drift => has("Separable"),
+            Purpose::Piece(0) => has("Split"),
+            Purpose::Push | Purpose::Rates | Purpose::Linear => false,
+            Purpose::Piece(_) | Purpose::Vector(_) | Purpose::ParameterGradient => false,
+        };
+        if !is_offered {
+            continue;
+        }
+        let mut outcome = point.clone();
+        let found = run(&system.program, function, &point);
+        outcome.outputs = found.outputs;
+        let [due_q, due_p] = [Side::Q, Side::P].map(|side| flat(system, &outcome, side));
+        let (mut own_q, mut own_p) = (q.clone(), p.clone());
+        let (t, v) = (point.t, [&q * 1.25, &p * 1.25]);
+        let mut results = Vec::new();
+        match function.purpose {
+            Purpose::Energy => results.push(prepared.energy(t, &q, &p)),
+            Purpose::EnergyAndGradient => {
+                results.push(prepared.energy_and_gradient(t, &q, &p, &mut own_q, &mut own_p));
+            }
+            Purpose::TimeDerivative => results.push(prepared.time_derivative(t, &q, &p)),
+            Purpose::HessianVector => {
+                prepared.hessian_vector(t, &q, &p, &v[0], &v[1], &mut own_q, &mut own_p);
+            }
+            Purpose::Gradient => prepared.gradient(t, &q, &p, &mut own_q, &mut own_p),
+            Purpose::GradientQ => prepared.gradient_q(t, &q, &p, &mut own_q),
+            Purpose::GradientP => prepared.gradient_p(t, &q, &p, &mut own_p),
+            Purpose::VectorField => {
+                prepared
+                    .field(point.c)
+                    .add(t, &q, &p, &mut own_q, &mut own_p);
+                let (mut x, mut y) = (q.clone(), p.clone());
+                prepared.add_field(point.c, t, &q, &p, &mut x, &mut y);
+                assert!(same(x.as_slice(), own_q.as_slice()), "{text}");
+                assert!(same(y.as_slice(), own_p.as_slice()), "{text}");
+            }
+            Purpose::Observable(number) => {
+                let before = &system.model.observables[..usize::from(number)];
+                let before: usize = before.iter().map(|of| of.components.len()).sum();
+                for k in 0..found.results.len() {
+                    results.push(prepared.observable(before + k, t, &q, &p));
+                }
+            }
+            Purpose::Kick => {
+                let kick = <RuntimeSystem as Separable>::kick::<f64>();
+                moved(&kick.flow(&prepared, point.c), t, &mut own_q, &mut own_p);
+            }
+            Purpose::Drift => {
+                let drift = <RuntimeSystem as Separable>::drift::<f64>();
+                moved(&drift.flow(&prepared, point.c), t, &mut own_q, &mut own_p);
+            }
+            Purpose::Piece(_) => {
+                let pieces = <RuntimeSystem as Split>::pieces::<f64>();
+                moved(&pieces.outer(&prepared, point.c), t, &mut own_q, &mut own_p);
+            }
+            _ => unreachable!("it is not offered"),
+        }
+        let purpose = function.purpose;
+        assert!(same(&results, &found.results), "{purpose:?} of {text}");
+        assert!(same(own_q.as_slice(), &due_q), "{purpose:?} of {text}");
+        assert!(same(own_p.as_slice(), &due_p), "{purpose:?} of {text}");
+        compared += 1;
+    }
+    compared
+}
+
+#[test]
+fn functions_have_the_bits_of_the_interpreter() {
+    let definitions = definitions();
+    assert!(definitions.len() > 300, "{} definitions", definitions.len());
+    let (mut functions, mut systems, mut refused) = (0, 0, 0);
+    let mut left_out: BTreeMap<String, usize> = BTreeMap::new();
+    // The rest belongs to the long sweeps.
+    let is_heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
+    for text in definitions.iter().step_by(if is_heavy { 1 } else { 3 }) {
+        let (made, due) = (Definition::parse(text, "text"), analysed(text));
+        assert_eq!(made.is_ok(), due.is_some(), "{text}");
+        let (Ok(definition), Some(due)) = (made, due) else {
+            refused += 1;
+            continue;
+        };
+        // Loops of 32 iterations and more sum in trees.
+        for size in [SIZE, 37] {
+            if size != SIZE && due.model.sizes.is_empty() {
+                continue;
+            }
+            match definition.system(values(&due, size)) {
+                Ok(made) => {
+                    functions += compare(text, &due, &made, size);
+                    systems += 1;
+                }
+                Err(error @ SystemError::NotCarried { .. }) => {
+                    let (_, feature) = error.to_string().split_once(": ").map_or_else(
+                        || panic!("{error}"),
+                        |(place, feature)| (place.to_owned(), feature.to_owned()),
+                    );
+                    let words: Vec<&str> = feature.split(' ').take(2).collect();
+                    *left_out.entry(words.join(" ")).or_default() += 1;
+                }
+                // Sizes that do not fit each other.
+                Err(SystemError::Input(_)) => {}
+                Err(error) => panic!("{error}: {text}"),
+            }
+        }
+    }
+    println!("{systems} systems, {functions} functions, {refused} refused, left out: {left_out:?}");
+    assert!(systems > 90 && functions > 700, "{systems}, {functions}");
+    let known = ["the function", "the coordinates", "another time,"];
+    for feature in left_out.keys() {
+        assert!(known.contains(&feature.as_str()), "{feature}");
+    }
+}
+
+#[test]
+fn another_number_has_other_bits() {
+    let text = "struct Pendulum { g = 9.81 } H(q; p) = p^2/2 - g*cos(q)";
+    let (definition, due) = (Definition::parse(text, "text"), analysed(text));
+    let (definition, due) = (definition.expect("it is one"), due.expect("it is one"));
+    let g = numbers(7)();
+    let made = definition
+        .system([("g", g * (1.0 + f64::EPSILON))])
+        .expect("it has all");
+    let differs = std::panic::catch_unwind(|| compare(text, &due, &made, SIZE));
+    assert!(differs.is_err());
+}

@@ -1,0 +1,7 @@
+//! Definitions at run time: the errors of the macro, the bits of the interpreter and of compiled runs.
+
+mod common;
+mod corpus;
+mod diagnostics;
+mod refusals;
+mod runs;

@@ -1,0 +1,142 @@
+//! What a run or a system is refused for.
+
+use hamiltonian::Error;
+use hamiltonian::errors::StartError;
+use hamiltonian::prelude::*;
+use hamiltonian::schemes::Srkn6b;
+use hamiltonian_runtime::{Definition, RuntimeSystem, SystemError, Values};
+
+fn system(text: &str) -> RuntimeSystem {
+    let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    definition
+        .system(Values::new())
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The error of a run with this scheme.
+fn refused<M: Scheme<RuntimeSystem>>(system: &RuntimeSystem, scheme: M) -> (String, String) {
+    let n = system.degrees_of_freedom();
+    let start = State::new(vec![0.5; n], vec![0.25; n]);
+    match Integrator::new(system, scheme, start, 0.1)
+        .map(|_| ())
+        .unwrap_err()
+    {
+        Error::Start(error) => match *Box::new(error) {
+            StartError::Structure {
+                ref marker,
+                ref message,
+                ..
+            } => ((**marker).to_owned(), (**message).to_owned()),
+            ref other => panic!("{other}"),
+        },
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn schemes_that_do_not_fit_are_refused_with_the_words_of_the_macro() {
+    let coupled = system("struct Coupled {} H(q; p) = p^2/2 + q^4 + 1/(2 + sin(q)*cos(p))");
+    let (marker, message) = refused(&coupled, StormerVerlet::default());
+    assert_eq!(marker, "Separable");
+    assert!(
+        message.starts_with("H of `Coupled` is not separable: the term `"),
+        "{message}"
+    );
+    assert!(message.ends_with("` couples q and p"), "{message}");
+    let (marker, message) = refused(&coupled, BlanesMoan4);
+    assert_eq!(marker, "Split");
+    assert!(
+        message.contains("is not split into exact flows"),
+        "{message}"
+    );
+    let (marker, _) = refused(&coupled, Srkn6b);
+    assert_eq!(marker, "Nystrom");
+
+    // The negative control: the same schemes run the same H without the term.
+    let free = system("struct Free {} H(q; p) = p^2/2 + q^4");
+    let start = || State::new(vec![0.5], vec![0.25]);
+    assert!(Integrator::new(&free, StormerVerlet::default(), start(), 0.1).is_ok());
+    assert!(Integrator::new(&free, BlanesMoan4, start(), 0.1).is_ok());
+    assert!(Integrator::new(&free, Srkn6b, start(), 0.1).is_ok());
+}
+
+#[test]
+fn a_force_of_the_momenta_has_no_kick_yet() {
+    let text = "struct Damped { gamma = 0.1 } H(q; p) = p^2/2 + q^2/2; force(q; p) = -gamma*p";
+    let damped = system(text);
+    let (marker, message) = refused(&damped, StormerVerlet::default());
+    assert_eq!(marker, "Separable");
+    assert!(message.contains("definitions at run time"), "{message}");
+    let start = State::new(vec![0.5], vec![0.25]);
+    assert!(Integrator::new(&damped, Gauss::<2>::default(), start, 0.1).is_ok());
+}
+
+#[test]
+fn what_is_not_carried_is_named_with_its_place() {
+    for (text, feature, at) in [
+        (
+            "struct A {}\nfn f(x) = sin, (cos);\nH = p^2/2 + f(q)",
+            "the function `f`",
+            "text:2:4",
+        ),
+        (
+            "struct A {} H(x, y; px, py) = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2);\ncoordinates polar(x, y)",
+            "the coordinates `polar`",
+            "text:2:13",
+        ),
+        (
+            "struct A {} H(x; p) = p^2/2 - 1/x;\ndt = x*ds",
+            "another time",
+            "text:2:1",
+        ),
+        (
+            "struct A { n: usize } H(u[n][n]; p[n][n]) = sum(i in 0..n, j in 0..n) { p[i][j]^2/2 + u[i][j]^2 }",
+            "the coordinates `u` on a lattice",
+            "text:1:25",
+        ),
+    ] {
+        let definition =
+            Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+        let values = match definition.sizes().next() {
+            Some(_) => Values::new().with("n", 3),
+            None => Values::new(),
+        };
+        let error = definition.system(values).map(|_| ()).unwrap_err();
+        let shown = error.to_string();
+        assert!(matches!(error, SystemError::NotCarried { .. }), "{shown}");
+        assert!(shown.starts_with(at) && shown.contains(feature), "{shown}");
+    }
+}
+
+#[test]
+fn values_that_do_not_fit_are_refused() {
+    let text = "struct A { n: usize, g, m: [n] } H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) + g*q[i]^2 } + q[2]";
+    let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    let with = |n: f64, g: f64, m: &[f64]| {
+        let values = Values::new().with("n", n).with("g", g).with("m", m);
+        definition
+            .system(values)
+            .map(|_| ())
+            .map_err(|error| error.to_string())
+    };
+    assert_eq!(with(3.0, 1.0, &[1.0; 3]), Ok(()));
+    for (n, g, m, words) in [
+        (-3.0, 1.0, &[1.0; 3][..], "`n` must be a size"),
+        (2.5, 1.0, &[1.0; 3], "`n` must be a size"),
+        (f64::NAN, 1.0, &[1.0; 3], "`n` must be a size"),
+        (1e18, 1.0, &[1.0; 3], "`n` must be a size"),
+        (8e15, 1.0, &[1.0; 3], "does not fit into memory"),
+        (2.0, 1.0, &[1.0; 2], "`q[2]` reaches 2"),
+        (3.0, f64::NAN, &[1.0; 3], "`g` is NaN"),
+        (3.0, 1.0, &[1.0; 2], "`m` must have 3 elements, found 2"),
+    ] {
+        let error = with(n, g, m).unwrap_err();
+        assert!(error.contains(words), "{error}");
+    }
+    let error = definition.system([("n", 3), ("g", 1)]).unwrap_err();
+    assert_eq!(error.to_string(), "`m` has no default: give it a value");
+    let error = definition
+        .system(Values::new().with("n", [1.0]))
+        .unwrap_err();
+    assert!(matches!(error, SystemError::NoNumber { .. }), "{error}");
+}

@@ -1,0 +1,306 @@
+//! Runs of definitions at run time have the bits of compiled runs that do not fuse.
+//!
+//! Input: definitions, each compiled and read at run time from the same tokens. Output: a panic with the first component
+//! that differs. Invariant: six schemes are compiled, no more.
+
+use hamiltonian::prelude::*;
+use hamiltonian::schemes::Srkn6b;
+use hamiltonian::{Error, Vector};
+use hamiltonian_runtime::{Definition, RuntimeSystem, Values};
+
+fn made(text: &str, values: Values) -> RuntimeSystem {
+    let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    definition
+        .system(values)
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A compiled definition `$name`, and its text.
+macro_rules! both {
+    ($name:ident: $($definition:tt)*) => {
+        mod $name {
+            use hamiltonian::prelude::*;
+            hamiltonian! { $($definition)* }
+            pub const TEXT: &str = stringify!($($definition)*);
+        }
+    };
+}
+
+both!(pendulum: pub struct Pendulum { m = 1.0, l = 10.0, g = 9.81 } H(theta; p) = p^2/(2*m*l^2) - m*g*l*cos(theta));
+both!(henon: pub struct Henon { lambda = 1.0 }
+    H(x, y; px, py) = (px^2 + py^2)/2 + (x^2 + y^2)/2 + lambda*(x^2*y - y^3/3));
+both!(product: pub struct Product {} H(q; p) = (q^2 + 1)*(p^2 + 1)/2);
+both!(driven: pub struct Driven { a = 0.3, omega = 2.0 } H(q; p; t) = p^2/2 + q^4/4 - a*q*cos(omega*t));
+both!(chain: pub struct Chain { n: usize, k = 1.0, m: [n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) + k*(exp(q[(i + 1) % n] - q[i]) - 1) });
+both!(bodies: pub struct Bodies { n: usize, G = 1.0, m: [n] }
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) });
+both!(damped: pub struct Damped { gamma = 0.1 }
+    H(q; p) = p^2/2 - cos(q); force(q; p) = -gamma*p*abs(p));
+both!(switched: pub struct Switched { k = 3.0 }
+    H(x, y; u, v) = (u^2 + v^2)/2 + if x > y { k*(x - y)^2/2 } else { sqrt(1 + (x - y)^2) } + atan2(y, 2 + x));
+
+/// The end of a run, or its error.
+fn end<S: System, M: Scheme<S>>(
+    system: &S,
+    scheme: M,
+    start: State<hamiltonian::VectorOf<S>>,
+    step: f64,
+) -> Result<Vec<u64>, Error> {
+    let mut run = Integrator::new(system, scheme, start, step)?;
+    let state = run.advance(200)?;
+    let all = state.q.components().chain(state.p.components());
+    Ok(all.map(f64::to_bits).collect())
+}
+
+/// Compares the ends of a compiled run and of one at run time, from flat coordinates and momenta.
+macro_rules! agree {
+    ($compiled:expr, $text:expr, $values:expr, $scheme:expr, $q:expr, $p:expr, $step:expr) => {{
+        let (compiled, own) = ($compiled, made($text, $values));
+        let (q, p): (Vec<f64>, Vec<f64>) = ($q.to_vec(), $p.to_vec());
+        let mut start = State {
+            t: 0.0,
+            q: compiled.zeros::<f64>(),
+            p: compiled.zeros::<f64>(),
+        };
+        for k in 0..q.len() {
+            *start.q.component_mut(k) = q[k];
+            *start.p.component_mut(k) = p[k];
+        }
+        let due = end(&compiled, $scheme, start, $step).unwrap_or_else(|error| panic!("{error}"));
+        let found = end(&own, $scheme, State::new(q, p), $step);
+        assert_eq!(
+            found.unwrap_or_else(|error| panic!("{error}")),
+            due,
+            "{}",
+            $text
+        );
+    }};
+}
+
+#[test]
+fn separable_systems() {
+    let values = Values::new;
+    let pendulum = pendulum::Pendulum::default;
+    agree!(
+        pendulum(),
+        pendulum::TEXT,
+        values(),
+        StormerVerlet::default(),
+        [0.5],
+        [3.0],
+        0.1
+    );
+    agree!(
+        pendulum(),
+        pendulum::TEXT,
+        values(),
+        BlanesMoan4,
+        [0.5],
+        [3.0],
+        0.1
+    );
+    agree!(
+        pendulum(),
+        pendulum::TEXT,
+        values(),
+        Srkn6b,
+        [0.5],
+        [3.0],
+        0.1
+    );
+    agree!(
+        pendulum(),
+        pendulum::TEXT,
+        values(),
+        RungeKutta4,
+        [0.5],
+        [3.0],
+        0.1
+    );
+    let henon = henon::Henon::default;
+    agree!(
+        henon(),
+        henon::TEXT,
+        values(),
+        BlanesMoan4,
+        [0.1, -0.1],
+        [0.3, 0.2],
+        0.1
+    );
+    agree!(
+        henon(),
+        henon::TEXT,
+        values(),
+        Gauss::<2>::default(),
+        [0.1, -0.1],
+        [0.3, 0.2],
+        0.1
+    );
+    agree!(
+        henon(),
+        henon::TEXT,
+        values(),
+        ImplicitMidpoint::default(),
+        [0.1, -0.1],
+        [0.3, 0.2],
+        0.1
+    );
+    let driven = driven::Driven::default;
+    agree!(
+        driven(),
+        driven::TEXT,
+        values(),
+        StormerVerlet::default(),
+        [1.0],
+        [0.0],
+        0.05
+    );
+    agree!(
+        driven(),
+        driven::TEXT,
+        values(),
+        Gauss::<2>::default(),
+        [1.0],
+        [0.0],
+        0.05
+    );
+}
+
+#[test]
+fn pieces_forces_and_conditions() {
+    let values = Values::new;
+    let product = || product::Product {};
+    agree!(
+        product(),
+        product::TEXT,
+        values(),
+        BlanesMoan4,
+        [-3.0],
+        [0.4],
+        0.01
+    );
+    agree!(
+        product(),
+        product::TEXT,
+        values(),
+        ImplicitMidpoint::default(),
+        [-3.0],
+        [0.4],
+        0.01
+    );
+    let damped = damped::Damped::default;
+    agree!(
+        damped(),
+        damped::TEXT,
+        values(),
+        Gauss::<2>::default(),
+        [1.0],
+        [0.5],
+        0.1
+    );
+    agree!(
+        damped(),
+        damped::TEXT,
+        values(),
+        RungeKutta4,
+        [1.0],
+        [0.5],
+        0.1
+    );
+    let switched = switched::Switched::default;
+    let (q, p) = ([0.3, -0.2], [0.1, 0.7]);
+    agree!(
+        switched(),
+        switched::TEXT,
+        values(),
+        StormerVerlet::default(),
+        q,
+        p,
+        0.1
+    );
+    agree!(switched(), switched::TEXT, values(), RungeKutta4, q, p, 0.1);
+}
+
+#[test]
+fn loops_over_arrays() {
+    for n in [3, 50] {
+        let m: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * i as f64).collect();
+        let (q, p): (Vec<f64>, Vec<f64>) = (0..n)
+            .map(|i| (0.3 * f64::sin(i as f64), 0.2 * f64::cos(i as f64)))
+            .unzip();
+        let values = || Values::new().with("n", n).with("m", m.clone());
+        let chain = || chain::Chain::new(n, m.clone()).unwrap();
+        agree!(
+            chain(),
+            chain::TEXT,
+            values(),
+            StormerVerlet::default(),
+            q,
+            p,
+            0.1
+        );
+        agree!(
+            chain(),
+            chain::TEXT,
+            values(),
+            Gauss::<2>::default(),
+            q,
+            p,
+            0.1
+        );
+        agree!(chain(), chain::TEXT, values(), RungeKutta4, q, p, 0.1);
+    }
+    let m = vec![1.0, 0.5, 0.25];
+    let values = || Values::new().with("n", 3).with("m", m.clone());
+    let bodies = || bodies::Bodies::new(3, m.clone()).unwrap();
+    let q = [1.0, -1.0, 0.1, 0.2, 0.3, 2.0, 0.0, 0.4, -0.3];
+    let p = [0.1, -0.2, 0.3, 0.4, -0.1, 0.2, 0.0, 0.1, 0.2];
+    agree!(bodies(), bodies::TEXT, values(), BlanesMoan4, q, p, 0.01);
+    agree!(
+        bodies(),
+        bodies::TEXT,
+        values(),
+        ImplicitMidpoint::default(),
+        q,
+        p,
+        0.01
+    );
+}
+
+#[test]
+fn another_parameter_ends_elsewhere() {
+    let text = pendulum::TEXT;
+    let run = |g: f64| {
+        let system = made(text, [("g", g)].into());
+        end(
+            &system,
+            StormerVerlet::default(),
+            State::new(vec![0.5], vec![3.0]),
+            0.1,
+        )
+    };
+    assert_eq!(run(9.81).unwrap(), run(9.81).unwrap());
+    assert_ne!(run(9.81).unwrap(), run(9.810_000_000_000_002).unwrap());
+}
+
+#[test]
+fn members_of_an_ensemble_have_the_bits_of_their_runs() {
+    let definition =
+        Definition::parse(pendulum::TEXT, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    let system = |g: f64| definition.system([("g", g)]).unwrap();
+    let g = |index: usize| 9.0 + 0.125 * index as f64;
+    let start = |member: Member| (system(g(member.index)), State::new(vec![0.5], vec![3.0]));
+    let mut ensemble = Ensemble::new(11, start, StormerVerlet::default(), 0.1)
+        .unwrap()
+        .reproducible();
+    ensemble.advance(200);
+    for (index, state) in ensemble.states().enumerate() {
+        let state = state.unwrap();
+        let found = [state.q[0].to_bits(), state.p[0].to_bits()];
+        let start = State::new(vec![0.5], vec![3.0]);
+        let due = end(&system(g(index)), StormerVerlet::default(), start, 0.1).unwrap();
+        assert_eq!(found.to_vec(), due, "member {index}");
+    }
+}

@@ -296,6 +296,23 @@ impl<'a, S: System, M: Scheme<S>, O, R, A: Rounding> Sweep<'a, S, M, O, R, A> {
     }
 
     /// Sets the seed from which [`Member::seed`] is computed. The default is 0.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |member: Member| {
+    ///     // From 0 to 1; a generator of random numbers would be made from the seed here.
+    ///     let random = member.seed as f64 / u64::MAX as f64;
+    ///     (Oscillator {}, State::new([random], [0.0]))
+    /// };
+    /// let sum = Sweep::new(1_000, start, ImplicitMidpoint::default(), 0.01)
+    ///     .with_seed(7)
+    ///     .with_steps(100)
+    ///     .record(["H"], |end| [end.energy()])
+    ///     .fold(0.0, |sum, row| sum + row.values[0])?;
+    /// assert!((sum / 1e3 - 1.0 / 6.0).abs() < 0.02); // ⟨q²⟩/2
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn with_seed(mut self, seed: u64) -> Self {
         self.seed = seed;

@@ -17,7 +17,7 @@ pub enum StartError {
     /// The start has a NaN or an infinity in it.
     #[non_exhaustive]
     NotFinite {
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// Its time.
         time: f64,
@@ -39,7 +39,7 @@ pub enum StartError {
         lane: Option<u32>,
         /// The first parameter that is NaN or infinite, `m[1] = NaN`, if there is one.
         parameter: Option<Box<str>>,
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The time of the start.
         time: f64,
@@ -48,7 +48,7 @@ pub enum StartError {
         /// Its momenta.
         p: Box<[f64]>,
     },
-    /// The start of a system in another time (`dt = g*ds`) is not on the shell H = 0. Orbits off the shell are not those
+    /// The start of a time-transformed system (`dt = g*ds`) is not on the shell H = 0. Orbits off the shell are not those
     /// of the declared system.
     #[non_exhaustive]
     Shell {
@@ -59,7 +59,7 @@ pub enum StartError {
         /// Its value on the shell.
         due: f64,
     },
-    /// The monitor function g of another time, dt = g ds, is not positive.
+    /// The monitor function g of a time-transformed system, dt = g ds, is not positive.
     #[non_exhaustive]
     Monitor {
         /// Its value at the start.
@@ -97,7 +97,7 @@ pub enum StartError {
     /// A new state of a run is at another time than the run.
     #[non_exhaustive]
     OtherTime {
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The time of the state.
         time: f64,

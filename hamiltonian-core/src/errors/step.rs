@@ -20,7 +20,7 @@ pub enum StepError {
         piece: Option<Box<str>>,
         /// The first lane in which it happened, if the scalar has several.
         lane: Option<u32>,
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The time at the end of that step.
         time: f64,
@@ -36,7 +36,7 @@ pub enum StepError {
         step: u64,
         /// The first lane that was not solved, if the scalar has several.
         lane: Option<u32>,
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The time at its beginning.
         time: f64,

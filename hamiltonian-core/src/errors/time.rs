@@ -11,7 +11,7 @@ pub enum TimeError {
     /// Whole steps from the current time do not meet the target.
     #[non_exhaustive]
     OffGrid {
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The target time.
         target: f64,
@@ -23,7 +23,7 @@ pub enum TimeError {
     /// No number of steps leads to the target: it is NaN, infinite, or 2⁵³ steps ahead and more.
     #[non_exhaustive]
     Unreachable {
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The target time.
         target: f64,
@@ -31,7 +31,7 @@ pub enum TimeError {
     /// The target lies behind the run.
     #[non_exhaustive]
     Behind {
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The target time.
         target: f64,
@@ -44,7 +44,7 @@ pub enum TimeError {
     /// The target is more than one step from the current time.
     #[non_exhaustive]
     Far {
-        /// The name of the run's time: `t`, in another time the one that it has there.
+        /// The name of the run's time: `t`, or that of a time-transformed system (`dt = g*ds`).
         clock: Box<str>,
         /// The target time.
         target: f64,

@@ -141,7 +141,7 @@ pub struct Stretch<
     /// The columns that are written.
     pub columns: [&'a mut [T]; C],
     /// For each store the place of the first iteration's element in its column.
-    pub starts: [usize; S],
+    pub offsets: [usize; S],
     /// The partial sums.
     pub sums: &'a mut [[T; STRIDE]; A],
     /// The arithmetic: lanes or one iteration after the other, and in lanes, fused products or none.
@@ -226,7 +226,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         }
         let mut s = 0;
         while s < S {
-            self.starts[s] += count;
+            self.offsets[s] += count;
             s += 1;
         }
     }
@@ -241,16 +241,16 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         });
     }
 
-    /// For each column the least and the largest start of a store. `None` if stores lie too far apart for
+    /// For each column the least and the largest offset of a store. `None` if stores lie too far apart for
     /// slabs, or if results that wait have other bits outside of lanes.
     fn ends<B: Body<G, R, W>, const W: usize>(&self) -> Option<[[usize; 2]; C]> {
         if has_shared(B::STORES) && self.arithmetic.fused {
             return None;
         }
         let mut ends = [[usize::MAX, 0]; C];
-        for (store, &start) in B::STORES.iter().zip(&self.starts) {
+        for (store, &offset) in B::STORES.iter().zip(&self.offsets) {
             let [least, most] = &mut ends[store.column];
-            (*least, *most) = (start.min(*least), start.max(*most));
+            (*least, *most) = (offset.min(*least), offset.max(*most));
         }
         let is_near = |[least, most]: &[usize; 2]| most.saturating_sub(*least) <= REACH;
         ends.iter().all(is_near).then_some(ends)
@@ -280,9 +280,9 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
                 (*column, *after) = core::mem::take(column).split_at_mut(least + middle);
             }
         }
-        let mut starts = self.starts;
-        for (store, start) in B::STORES.iter().zip(&mut starts) {
-            *start -= ends[store.column][0];
+        let mut offsets = self.offsets;
+        for (store, offset) in B::STORES.iter().zip(&mut offsets) {
+            *offset -= ends[store.column][0];
         }
         let mut no_sums = ([[T::zero(); STRIDE]; A], [[T::zero(); STRIDE]; A]);
         let mut first = Some(Stretch {
@@ -298,7 +298,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             number: self.number + middle,
             reads: self.reads.map(|read| &read[middle..]),
             columns: after,
-            starts,
+            offsets,
             sums: &mut no_sums.1,
             ..self
         });
@@ -330,9 +330,9 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
                 false => T::zero(),
             };
             let out = B::compute(self.given, self.reads.map(|read| read[k]), number);
-            for (store, start) in B::STORES.iter().zip(self.starts) {
-                if start + k >= ends[store.column][0] + middle {
-                    let place = &mut self.columns[store.column][start + k];
+            for (store, offset) in B::STORES.iter().zip(self.offsets) {
+                if offset + k >= ends[store.column][0] + middle {
+                    let place = &mut self.columns[store.column][offset + k];
                     *place = changed(store.change, *place, store.by.map(|by| out[by]));
                 }
             }
@@ -364,7 +364,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             given,
             reads,
             columns,
-            starts,
+            offsets,
             sums,
             ..
         } = self;
@@ -383,7 +383,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             let mut s = 0;
             while s < B::STORES.len() {
                 let store = &B::STORES[s];
-                let place = &mut columns[store.column][starts[s] + k];
+                let place = &mut columns[store.column][offsets[s] + k];
                 *place = changed(store.change, *place, store.by.map(|by| out[by]));
                 s += 1;
             }

@@ -60,7 +60,7 @@ impl Needs {
     pub const QUADRATIC_KINETIC: Self = Needs(1 << 5);
     /// H(q, p) without t, [`Autonomous`](crate::Autonomous).
     pub const AUTONOMOUS: Self = Needs(1 << 6);
-    /// A system in another time, [`TimeTransformed`](crate::TimeTransformed). The other traits are those of the system
+    /// A time-transformed system, [`TimeTransformed`](crate::TimeTransformed). The other traits are those of the system
     /// inside.
     pub const TIME_TRANSFORMED: Self = Needs(1 << 7);
 

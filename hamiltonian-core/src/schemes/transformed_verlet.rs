@@ -1,4 +1,4 @@
-//! Störmer–Verlet in another time.
+//! Störmer–Verlet for a time-transformed system.
 //!
 //! Input: H = ½pᵀM⁻¹p + V(q) in the time of a monitor function g(q). Output: [`TransformedVerlet`].
 //! Invariant: one ∂V/∂q a step; only two equations, for one number each, are implicit.

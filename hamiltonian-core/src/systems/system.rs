@@ -501,7 +501,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     }
 }
 
-/// The declared H at a state: in another time, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
+/// The declared H at a state: for a time-transformed system, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
 #[inline(always)]
 pub(crate) fn declared_energy<T: Real, S: System>(
     prepared: &S::Prepared<T>,

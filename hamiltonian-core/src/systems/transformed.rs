@@ -1,4 +1,4 @@
-//! Another time by a monitor function: K = g(q)·(H + p_t) as a system of its own.
+//! Time transformed by a monitor function: K = g(q)·(H + p_t) as a system of its own.
 //!
 //! Input: a system, and a function g > 0 of its coordinates. Output: [`TimeTransformed`], whose
 //! time is s with dt = g ds. Invariant: orbits on the shell K = 0 are those of H, and the lengths

@@ -29,7 +29,7 @@ pub(super) fn packs<
         given,
         mut reads,
         mut columns,
-        mut starts,
+        mut offsets,
         sums,
         ..
     } = stretch;
@@ -52,7 +52,7 @@ pub(super) fn packs<
         r += 1;
     }
     let has_shared = const { has_shared(B::STORES) };
-    let mut waiting = Waiting::<T, S, W>::new(B::STORES, starts, length, is_followed);
+    let mut waiting = Waiting::<T, S, W>::new(B::STORES, offsets, length, is_followed);
     let does_wait = has_shared && waiting.is_any();
     let mut is_cut = [false; C];
     let mut s = 0;
@@ -61,10 +61,10 @@ pub(super) fn packs<
         if !store.is_shared {
             if !is_cut[store.column] {
                 let column = core::mem::take(&mut columns[store.column]);
-                columns[store.column] = &mut column[starts[s]..starts[s] + length];
+                columns[store.column] = &mut column[offsets[s]..offsets[s] + length];
                 is_cut[store.column] = true;
             }
-            starts[s] = 0;
+            offsets[s] = 0;
         }
         s += 1;
     }
@@ -76,7 +76,7 @@ pub(super) fn packs<
     while s < B::STORES.len() && rest > 0 {
         let store = &B::STORES[s];
         if waiting.is_taken_back(B::STORES, s) {
-            let place = starts[s] + length - STRIDE;
+            let place = offsets[s] + length - STRIDE;
             before[s] = T::gather::<P>(&columns[store.column][place..place + STRIDE]);
         }
         s += 1;
@@ -111,7 +111,7 @@ pub(super) fn packs<
                             T::scatter::<P>(out[b], &mut waiting.results[b][place..place + STRIDE]);
                         }
                     } else {
-                        let place = if store.is_shared { starts[s] + k } else { k };
+                        let place = if store.is_shared { offsets[s] + k } else { k };
                         let places = &mut columns[store.column][place..place + STRIDE];
                         let by = [out[store.by[0]], out[store.by[1]]];
                         let new = changed(store.change, T::gather::<P>(places), by);
@@ -135,7 +135,7 @@ pub(super) fn packs<
             while s < B::STORES.len() {
                 let store = &B::STORES[s];
                 if waiting.is_taken_back(B::STORES, s) {
-                    let place = if store.is_shared { starts[s] + k } else { k };
+                    let place = if store.is_shared { offsets[s] + k } else { k };
                     T::scatter::<P>(before[s], &mut columns[store.column][place..place + STRIDE]);
                 }
                 s += 1;

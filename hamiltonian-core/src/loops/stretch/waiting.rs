@@ -13,7 +13,7 @@
 //! Iteration k − 1 adds `d[k−1]` to `f[k]`, and iteration k then subtracts `d[k]`. One after the other gives
 //! (f\[k\] + d\[k−1\]) − d\[k\], and lanes must give the same bits. Four lanes compute d\[4\], …, d\[7\] at once. If they
 //! subtracted these from f\[4\], …, f\[7\] at once, only f\[4\] would have received its d\[3\] before. So the results wait for
-//! a block. The stores have the starts 0 and 1. In descending order of starts, the block first adds d\[3\], …, d\[6\] to
+//! a block. The stores have the offsets 0 and 1. In descending order of offsets, the block first adds d\[3\], …, d\[6\] to
 //! f\[4\], …, f\[7\], where d\[3\] is kept from the block before, and then subtracts d\[4\], …, d\[7\]. Each f\[k\] has met its two
 //! changes in the order of the iterations. f\[8\] still lacks d\[7\], which is kept for the next block.
 
@@ -23,20 +23,20 @@ use hamiltonian_lanes::{Pack, Real};
 /// Results of a block of iterations on their way to columns that several stores of an iteration reach.
 ///
 /// The further ahead a store reaches, the earlier the iteration that reaches a given element. So each
-/// element is changed by the stores in descending order of their starts, all at once where the starts
+/// element is changed by the stores in descending order of their offsets, all at once where the offsets
 /// are close to each other; results of the block before are kept for that. A store that reaches no element
 /// of another one does not wait.
 pub(super) struct Waiting<T, const S: usize, const W: usize> {
     pub(super) results: [[T; CARRY + BLOCK]; W],
-    starts: [usize; S],
-    /// The stores, by descending start.
+    offsets: [usize; S],
+    /// The stores, by descending offset.
     order: [usize; S],
     /// For each store its group: the first one of those that reach common elements, in order; `NONE` if it
     /// does not wait.
     pub(super) group: [usize; S],
     /// For each group the next element to be changed.
     next: [usize; S],
-    /// For each group the least and the largest start.
+    /// For each group the least and the largest offset.
     ends: [[usize; 2]; S],
     /// True if the elements that iterations after the last one would change too are left to them.
     is_followed: bool,
@@ -49,7 +49,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     #[inline(always)]
     pub(super) fn new(
         stores: &[ColumnStore],
-        starts: [usize; S],
+        offsets: [usize; S],
         length: usize,
         is_followed: bool,
     ) -> Self {
@@ -57,7 +57,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
         let mut s = 0;
         while s < S {
             let mut place = s;
-            while place > 0 && starts[order[place - 1]] < starts[s] {
+            while place > 0 && offsets[order[place - 1]] < offsets[s] {
                 order[place] = order[place - 1];
                 place -= 1;
             }
@@ -74,14 +74,14 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
             while below < S && stores[order[below]].column != stores[s].column {
                 below += 1;
             }
-            if stores[s].is_shared && below < S && starts[s] - starts[order[below]] < length {
+            if stores[s].is_shared && below < S && offsets[s] - offsets[order[below]] < length {
                 if group[s] == NONE {
                     group[s] = s;
-                    ends[s] = [starts[s]; 2];
+                    ends[s] = [offsets[s]; 2];
                 }
                 let first = group[s];
                 group[order[below]] = first;
-                ends[first][0] = starts[order[below]];
+                ends[first][0] = offsets[order[below]];
             }
             k += 1;
         }
@@ -93,7 +93,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
         }
         Waiting {
             results: [[T::zero(); CARRY + BLOCK]; W],
-            starts,
+            offsets,
             order,
             group,
             next,
@@ -148,7 +148,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
                 for s in self.order {
                     if self.group[s] == g {
                         let column = &mut *columns[stores[s].column];
-                        self.one_store::<P>(&stores[s], column, self.starts[s] + at, end - at);
+                        self.one_store::<P>(&stores[s], column, self.offsets[s] + at, end - at);
                     }
                 }
             }
@@ -186,7 +186,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
                 let s = self.order[k];
                 let store = &stores[s];
                 if self.group[s] == g {
-                    let place = element - self.starts[s] + CARRY - at;
+                    let place = element - self.offsets[s] + CARRY - at;
                     let a = T::gather::<P>(&self.results[store.by[0]][place..place + STRIDE]);
                     let b = T::gather::<P>(&self.results[store.by[1]][place..place + STRIDE]);
                     value = changed(store.change, value, [a, b]);
@@ -215,9 +215,9 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     ) {
         let element = self.next[g];
         for s in self.order {
-            let (store, start) = (&stores[s], self.starts[s]);
-            if self.group[s] == g && element >= start && element - start < end {
-                let place = element - start + CARRY - at;
+            let (store, offset) = (&stores[s], self.offsets[s]);
+            if self.group[s] == g && element >= offset && element - offset < end {
+                let place = element - offset + CARRY - at;
                 let by = [
                     self.results[store.by[0]][place],
                     self.results[store.by[1]][place],
@@ -234,10 +234,10 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
         &self,
         store: &ColumnStore,
         column: &mut [T],
-        start: usize,
+        offset: usize,
         count: usize,
     ) {
-        let places = &mut column[start..start + count];
+        let places = &mut column[offset..offset + count];
         let [a, b] = store.by.map(|by| &self.results[by][CARRY..CARRY + count]);
         let mut k = 0;
         while k < count {

@@ -1,7 +1,7 @@
 //! Reasons to refuse a run.
 //!
 //! Input: a step, a start. Output: nothing, or the error. Invariant: a run begins where H and all its
-//! first derivatives are finite, and in another time on the shell H = 0.
+//! first derivatives are finite, and for a time-transformed system on the shell H = 0.
 
 use super::{numbers, parameter_without_value, parameters};
 use crate::errors::{Error, StartError};
@@ -36,7 +36,7 @@ pub(crate) fn check_state<T: Real, S: System>(
 }
 
 /// Returns an error for a state that cannot replace another one of a run: of another time or shape, with a NaN or an
-/// infinity, or for which a run cannot begin. In another time, first moves the state onto the shell.
+/// infinity, or for which a run cannot begin. The state of a time-transformed system is first moved onto the shell.
 pub(crate) fn check_change<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     from: &State<VectorOf<S, T>>,
@@ -58,7 +58,7 @@ pub(crate) fn check_change<T: Real, S: System>(
     Ok(check_values::<T, S>(prepared, to, String::new)?)
 }
 
-/// In another time, sets the momentum of time to −h, so that H = g·(h + p_t) = 0. Nothing is done otherwise.
+/// Sets the momentum of time of a time-transformed system to −h, so that H = g·(h + p_t) = 0.
 pub(super) fn onto_shell<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     state: &mut State<VectorOf<S, T>>,
@@ -143,8 +143,8 @@ fn check_needs(scheme: Entry, description: &Description) -> Result<(), StartErro
     }
 }
 
-/// Returns an error if H or a first derivative is not finite, or if the start is off the shell of
-/// another time.
+/// Returns an error if H or a first derivative is not finite, or if the start of a
+/// time-transformed system is off its shell.
 pub(super) fn check_values<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     start: &State<VectorOf<S, T>>,

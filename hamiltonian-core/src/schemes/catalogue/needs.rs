@@ -144,7 +144,7 @@ pub trait Otherwise {
 
 impl<M, S> Otherwise for &Is<M, S> {}
 
-/// The system of this number, and the same in another time.
+/// The system of this number, and the same with its time transformed.
 pub type InTime<const TRAIT: usize> = TimeTransformed<Without<TRAIT>, Without<NONE>>;
 
 /// The entry of a scheme, and what the bounds of its implementation require.

@@ -196,9 +196,9 @@ pub struct Description {
     pub cyclic: Cow<'static, [Text]>,
     /// The pieces of [`Split`](super::Split), the outermost first; none if H does not split.
     pub pieces: Cow<'static, [NamedPiece]>,
-    /// The name of the time s of a system in another time, dt = g ds: there H is g·(h + p_t) with h the
+    /// The name of the time s of a time-transformed system, dt = g ds: there H is g·(h + p_t) with h the
     /// declared one, its last coordinate is the time t, and its last momentum is p_t = −h on the shell
-    /// H = 0, on which alone orbits are those of h. Runs ask starts for it and show h as the energy.
+    /// H = 0, on which alone orbits are those of h. Runs require starts on it and show h as the energy.
     pub fictitious_time: Option<Text>,
     /// True if a force acts on the momenta besides −∂H/∂q.
     pub is_forced: bool,
@@ -243,7 +243,7 @@ impl Description {
         }
     }
 
-    /// The name of the time of a run: `t`, in another time the one that it has there.
+    /// The name of the time of a run: `t`, or that of a time-transformed system.
     #[must_use]
     pub fn clock(&self) -> &str {
         self.fictitious_time.as_deref().unwrap_or("t")

@@ -7,7 +7,7 @@
 //! Two routes lead here. An ensemble gathers the prepared systems of its members ([`System::gather`]). A
 //! scheme of a single run passes an [`InLanes`] kernel to [`in_lanes`], which chooses the pack at the
 //! level of the CPU, and [`Dynamics::in_pack`] gathers one system into all lanes of it. A system made
-//! of others, such as one in another time, passes its kernel on to each of them in turn.
+//! of others, such as a time-transformed one, passes its kernel on to each of them in turn.
 
 use super::{Dynamics, System, VectorOf};
 use crate::systems::vector::{Over, Vector};

@@ -364,7 +364,7 @@ impl Writer<'_> {
         let columns: Vec<String> = (stretch.columns.iter())
             .map(|column| format!("&mut {column}[..]"))
             .collect();
-        let starts: Vec<&str> = (stretch.stores.iter())
+        let offsets: Vec<&str> = (stretch.stores.iter())
             .map(|store| store.start.as_deref().unwrap_or("0usize"))
             .collect();
         let (first, sums) = match stretch.sums.is_empty() {
@@ -373,11 +373,11 @@ impl Writer<'_> {
         };
         let stretch_text = format!(
             "__h::Stretch {{ length: _l{d}, first: {first}, number: _i{d}, given: [{}], \
-             reads: [{}], columns: [{}], starts: [{}], sums: {sums}, arithmetic: {} }}",
+             reads: [{}], columns: [{}], offsets: [{}], sums: {sums}, arithmetic: {} }}",
             names(&stretch.given),
             reads.join(", "),
             columns.join(", "),
-            starts.join(", "),
+            offsets.join(", "),
             self.arithmetic,
         );
         match self.is_nest {

@@ -30,18 +30,38 @@ pub(crate) enum Part {
     Piece(usize),
 }
 
+/// The purposes that steps ask for.
+const OFTEN: [Purpose; 9] = [
+    Purpose::Energy,
+    Purpose::EnergyAndGradient,
+    Purpose::Gradient,
+    Purpose::GradientQ,
+    Purpose::GradientP,
+    Purpose::HessianVector,
+    Purpose::VectorField,
+    Purpose::Kick,
+    Purpose::Drift,
+];
+
+/// The number of the function of a purpose.
+fn position(functions: &[(Purpose, FunctionCode)], purpose: Purpose) -> Option<usize> {
+    functions.iter().position(|(known, _)| *known == purpose)
+}
+
 /// A system at given sizes.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Code {
     pub(crate) sizes: Vec<usize>,
     pub(crate) size_names: Vec<String>,
     pub(crate) parameter_names: Vec<String>,
-    /// True of parameters that are arrays.
-    pub(crate) is_array: Vec<bool>,
+    /// The extents of parameters; none of a number.
+    pub(crate) extents: Vec<Vec<usize>>,
     pub(crate) description: Description,
     pub(crate) places: Places,
     pub(crate) prepare: Stage,
     pub(crate) functions: Vec<(Purpose, FunctionCode)>,
+    /// The numbers of the functions of [`OFTEN`].
+    pub(crate) often: [Option<usize>; OFTEN.len()],
     pub(crate) gradient: GradientSource,
     /// True if the gradient is the two halves one after the other.
     pub(crate) gradient_is_apart: bool,
@@ -109,9 +129,10 @@ impl Code {
             sizes: sizes.to_vec(),
             size_names: model.sizes.clone(),
             parameter_names: model.parameters.iter().map(|of| of.name.clone()).collect(),
-            is_array: (model.parameters.iter().map(|of| of.shape != Shape::Scalar)).collect(),
+            extents: (model.parameters.iter().map(|of| extents(&of.shape, sizes))).collect(),
             description,
             prepare,
+            often: OFTEN.map(|purpose| position(&functions, purpose)),
             functions,
             gradient: system.gradient,
             gradient_is_apart: are_apart(program, Purpose::Gradient, halves),
@@ -126,9 +147,29 @@ impl Code {
     /// The number of the function of a purpose.
     #[inline(always)]
     pub(crate) fn number(&self, purpose: Purpose) -> Option<usize> {
-        self.functions
-            .iter()
-            .position(|(known, _)| *known == purpose)
+        match purpose {
+            Purpose::Energy => self.often[0],
+            Purpose::EnergyAndGradient => self.often[1],
+            Purpose::Gradient => self.often[2],
+            Purpose::GradientQ => self.often[3],
+            Purpose::GradientP => self.often[4],
+            Purpose::HessianVector => self.often[5],
+            Purpose::VectorField => self.often[6],
+            Purpose::Kick => self.often[7],
+            Purpose::Drift => self.often[8],
+            _ => position(&self.functions, purpose),
+        }
+    }
+}
+
+/// The extents of a parameter.
+fn extents(shape: &Shape, sizes: &[usize]) -> Vec<usize> {
+    let extent = |form: &Affine| value(form, sizes).max(0) as usize;
+    match shape {
+        Shape::Scalar => Vec::new(),
+        Shape::Vector(rows) => vec![extent(rows)],
+        Shape::Matrix(rows, columns) => vec![extent(rows), extent(columns)],
+        Shape::Lattice(_, axes) => axes.iter().map(extent).collect(),
     }
 }
 

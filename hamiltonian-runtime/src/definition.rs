@@ -60,7 +60,7 @@ impl Definition {
     /// errors.
     ///
     /// A name that nothing declares is a parameter without a default, if the definition does not begin with
-    /// `struct Name { … }`.
+    /// `struct Name { … }`. The text stays in the memory of the thread, since errors refer to it.
     ///
     /// # Errors
     /// [`Diagnostics`] with the messages of the macro: all errors of the first stage that has any.

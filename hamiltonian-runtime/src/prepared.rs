@@ -62,7 +62,7 @@ impl<T: Real> Prepared<T> {
         let mut scalars = vec![T::zero(); parameters.len()];
         let mut data = vec![T::constant(f64::NAN, 0.0); code.places.data];
         for (at, numbers) in parameters.iter().enumerate() {
-            if code.is_array[at] {
+            if !code.extents[at].is_empty() {
                 let (first, _) = code.places.parameters[at];
                 let numbers = numbers.iter().map(lifted);
                 for (to, number) in data[first..].iter_mut().zip(numbers) {

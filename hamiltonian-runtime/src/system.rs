@@ -7,6 +7,7 @@ use crate::code::{Code, Part};
 use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
 use hamiltonian_core::nalgebra::{Const, Dyn, OMatrix};
+use hamiltonian_core::private;
 use hamiltonian_core::schemes::author::{Description, Piece, Pieces, Point};
 use hamiltonian_core::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
@@ -68,13 +69,8 @@ impl System for RuntimeSystem {
             writeln!(out, "{name} = {size}")?;
         }
         let parameters = self.code.parameter_names.iter().zip(&*self.parameters);
-        for ((name, numbers), is_array) in parameters.zip(&self.code.is_array) {
-            for (at, number) in numbers.iter().enumerate() {
-                match is_array {
-                    true => writeln!(out, "{name}[{at}] = {number:?}")?,
-                    false => writeln!(out, "{name} = {number:?}")?,
-                }
-            }
+        for ((name, numbers), extents) in parameters.zip(&self.code.extents) {
+            private::describe_parameter(out, name, extents, numbers)?;
         }
         Ok(())
     }

@@ -109,6 +109,24 @@ fn what_is_not_carried_is_named_with_its_place() {
 }
 
 #[test]
+fn definitions_and_systems_go_to_other_threads() {
+    fn goes<T: Send + Sync>() {}
+    goes::<Definition>();
+    goes::<RuntimeSystem>();
+}
+
+#[test]
+fn parameters_are_described_as_those_of_compiled_systems() {
+    let text = "struct A { k = 2, w: [2][2] } H(q[2]; p[2]) = norm_squared(p)/2 + k*w[0][1]*q[0]^2 + w[1][0]*q[1]^2";
+    let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    let system = definition.system([("w", [1.0, 0.5, 0.25, 2.0])]).unwrap();
+    let mut described = String::new();
+    system.describe_parameters(&mut described).unwrap();
+    let due = "k = 2.0\nw[0][0] = 1.0\nw[0][1] = 0.5\nw[1][0] = 0.25\nw[1][1] = 2.0\n";
+    assert_eq!(described, due);
+}
+
+#[test]
 fn values_that_do_not_fit_are_refused() {
     let text = "struct A { n: usize, g, m: [n] } H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) + g*q[i]^2 } + q[2]";
     let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));

@@ -4,6 +4,8 @@ use hamiltonian::errors::StepError;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::Srkn6b;
 use hamiltonian::schemes::author::Dynamics;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 fn morse<T: Real>(r: T) -> T {
     let x = T::one() - (T::one() - r).exp();
@@ -230,4 +232,41 @@ fn derivatives_by_parameters_keep_the_function() {
         (gradient.m, gradient.V.fingerprint()),
         (-0.18, well.V.fingerprint())
     );
+}
+
+/// A potential x² that counts how often a text of it is written.
+#[derive(Debug, Clone)]
+struct Counted(Arc<AtomicUsize>);
+
+impl Function<1> for Counted {
+    fn value<T: Real>(&self, [x]: [T; 1]) -> T {
+        x * x
+    }
+    fn fingerprint(&self) -> u64 {
+        self.0.fetch_add(1, Relaxed) as u64
+    }
+}
+
+/// The text of the parameters is written when a run is saved, not when it begins or changes.
+#[test]
+fn a_run_that_is_not_saved_writes_no_parameters() -> Result<(), Error> {
+    let written = Arc::new(AtomicUsize::new(0));
+    let well = Well::new(Counted(Arc::clone(&written)));
+    let start = State::new([0.5, 0.2], [0.0, 0.1]);
+    let mut run = Integrator::new(&well, StormerVerlet::default(), start, 0.01)?;
+    run.advance(3)?;
+    run.set_system(&well)?;
+    run.set_state(run.state().clone())?;
+    run.clone().advance(1)?;
+    assert_eq!(written.load(Relaxed), 0);
+    // By a system of the same parameters in another time, also.
+    let timed = TimeTransformed::new(well.clone(), well);
+    let start = timed.start(run.state())?;
+    let timed = Integrator::new(&timed, Gauss::<2>::default(), start, 0.01)?;
+    assert_eq!(written.load(Relaxed), 0);
+    run.checkpoint();
+    assert_eq!(written.load(Relaxed), 1);
+    timed.checkpoint();
+    assert_eq!(written.load(Relaxed), 3);
+    Ok(())
 }

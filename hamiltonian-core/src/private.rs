@@ -60,7 +60,8 @@ pub use crate::systems::state::{Gradient, Plain, Point, State};
 pub use crate::systems::system::gather::{InPack, Kept, in_pack};
 pub use crate::systems::system::{
     Arithmetic, Autonomous, Description, Dynamics, Exact, Group, NamedPiece, Nystrom, Observable,
-    ObservableKind, QuadraticKinetic, Separable, Split, System, Text, Unforced, VectorOf, deepest,
+    ObservableKind, ParameterText, QuadraticKinetic, Separable, Split, System, Text, Unforced,
+    VectorOf, deepest,
 };
 pub use crate::systems::uneven::Uneven;
 pub use crate::systems::vector::{IntoVector, Over, Shape, Vector};

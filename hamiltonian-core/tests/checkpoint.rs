@@ -209,6 +209,25 @@ fn another_run_is_refused() {
     assert_eq!(other(found), None);
 }
 
+/// The parameters of a saved run are those of the run.
+#[test]
+fn parameters_are_those_of_the_run() {
+    let [one, two] = [1.0, 2.0].map(|k| Spring(k, pendulum(true)));
+    let mut run = Integrator::new(&one, RungeKutta4, State::new([0.3], [0.1]), 0.01).unwrap();
+    let fits = |run: &Run<Spring, RungeKutta4>, system: &Spring| {
+        Integrator::resume(system, RungeKutta4, run.checkpoint()).is_ok()
+    };
+    let clone = run.clone();
+    run.set_system(&two).unwrap();
+    run.set_state(run.state().clone()).unwrap();
+    run.advance(3).unwrap();
+    for (run, [first, second]) in [(&run, [false, true]), (&clone, [true, false])] {
+        assert_eq!((fits(run, &one), fits(run, &two)), (first, second));
+    }
+    let resumed = Integrator::resume(&two, RungeKutta4, run.checkpoint()).unwrap();
+    assert_eq!(resumed.checkpoint(), run.checkpoint());
+}
+
 /// The part in which observer `given` differs from the `saved` one, whose run it is to go on with.
 fn goes_on_with<O: Observer<f64, Hand<Pendulum, 1>> + Clone, const N: usize>(
     observers: [O; N],

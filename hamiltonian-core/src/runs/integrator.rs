@@ -11,10 +11,9 @@ use crate::results::checkpoint::Memory;
 use crate::schemes::scheme::{CarriedBy, Entry, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, IntoStart, State};
-use crate::systems::system::{Description, Dynamics, System, VectorOf};
+use crate::systems::system::{Description, Dynamics, ParameterText, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::boxed::Box;
-use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
@@ -95,7 +94,7 @@ pub struct Integrator<T: Real, S: System, R: MapOf<T, S>, O = ()> {
     #[cfg(feature = "std")]
     pub(crate) saving: Option<(u64, std::path::PathBuf)>,
     /// The parameters with their values, by which a saved run is recognised.
-    pub(crate) parameters: String,
+    pub(crate) parameters: ParameterText,
     /// The threads on which steps are made.
     #[cfg(feature = "rayon")]
     threads: Option<Threads<R>>,
@@ -186,7 +185,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
             shown: carried.clone(),
             carried,
             clock: Clock::new(start.t, step * duration(&entry)),
-            parameters: parameters(system),
+            parameters: system.parameter_text(),
             prepared,
             recipe: Arc::new(scheme),
             entry,
@@ -359,15 +358,6 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integrato
 pub(crate) fn formula<V: Vector>(system: &Description, q: &V) -> String {
     let Description { name, formula, .. } = system;
     alloc::format!("{name}: {formula} (coordinates: {})", q.len())
-}
-
-/// The parameters of a system with their values.
-pub(crate) fn parameters<S: System>(system: &S) -> String {
-    // Capacity for a few, so that short runs spend no time on growth.
-    let mut parameters = String::with_capacity(64);
-    // Writing to a string does not fail.
-    let _ = system.describe_parameters(&mut parameters);
-    parameters
 }
 
 /// The first of the parameters that is NaN or infinite, with its value: `m[1] = NaN`.

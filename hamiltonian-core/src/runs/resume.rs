@@ -9,10 +9,10 @@ use crate::flows::map::Map;
 use crate::observers::observe::Observer;
 use crate::results::checkpoint::{Checkpoint, Memory};
 use crate::runs::integrator::Recipe;
-use crate::runs::integrator::{Integrator, MapOf, formula, parameters};
+use crate::runs::integrator::{Integrator, MapOf, formula};
 use crate::schemes::scheme::{CarriedBy, Scheme};
 use crate::systems::state::State;
-use crate::systems::system::{Arithmetic, Dynamics, System};
+use crate::systems::system::{Arithmetic, Dynamics, ParameterText, System};
 use crate::systems::vector::Vector;
 use alloc::borrow::ToOwned;
 use hamiltonian_lanes::Real;
@@ -47,7 +47,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         Checkpoint {
             system: formula(self.prepared.description(), &self.state.q),
             pieces: self.prepared.description().piece_formulas("\n"),
-            parameters: self.parameters.clone(),
+            parameters: self.parameters.write(),
             scheme: self.recipe.describe(),
             scalar: core::any::type_name::<T>().to_owned(),
             counts: [self.steps, self.began, self.clock.first, flags],
@@ -151,7 +151,8 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
         )?;
         let pieces = system.description().piece_formulas("\n");
         Checkpoint::same("piece", &checkpoint.pieces, &pieces)?;
-        Checkpoint::same("parameter", &checkpoint.parameters, &parameters(system))?;
+        let parameters = ParameterText::of_now(system);
+        Checkpoint::same("parameter", &checkpoint.parameters, &parameters)?;
         let described = Recipe::<T, S, R>::describe(&scheme);
         Checkpoint::same("scheme", &checkpoint.scheme, &described)?;
         let scalar = core::any::type_name::<T>();

@@ -31,4 +31,4 @@ pub(crate) mod transformed;
 pub(crate) mod uneven;
 pub(crate) mod vector;
 
-pub use system::{Missing, NamedPiece, Text};
+pub use system::{Missing, NamedPiece, ParameterText, Text};

@@ -7,7 +7,8 @@ use crate::errors::{Error, ObservableError};
 use crate::systems::flow::VectorField;
 use crate::systems::system::gather::{InPack, Kept, with_whole};
 use crate::systems::system::{
-    Autonomous, Description, Dynamics, System, Unforced, VectorOf, derivatives_are_free,
+    Autonomous, Description, Dynamics, ParameterText, System, Unforced, VectorOf,
+    derivatives_are_free,
 };
 use crate::systems::vector::{Over, Vector};
 use alloc::format;
@@ -84,6 +85,9 @@ impl<S: System> System for Observed<S> {
     }
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
         self.system.describe_parameters(to)
+    }
+    fn parameter_text(&self) -> ParameterText {
+        self.system.parameter_text()
     }
     fn prepare<T: Real>(&self) -> Self::Prepared<T> {
         derivatives_are_free::<T, S>();

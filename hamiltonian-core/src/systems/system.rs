@@ -8,9 +8,11 @@
 
 mod description;
 pub mod gather;
+mod parameters;
 mod structure;
 
 pub use description::{Description, Group, Missing, NamedPiece, Observable, ObservableKind, Text};
+pub use parameters::ParameterText;
 pub use structure::{Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, Unforced};
 
 use crate::errors::{Error, InputError};
@@ -203,6 +205,15 @@ pub trait System {
     /// Those of the writer.
     fn describe_parameters(&self, _: &mut dyn core::fmt::Write) -> core::fmt::Result {
         Ok(())
+    }
+
+    /// Returns the text of [`describe_parameters`](System::describe_parameters) for a run, which writes it when it is saved.
+    ///
+    /// The provided method writes the text at once. A definition keeps a copy of its parameters instead, since most runs
+    /// are never saved. So can a system by hand that implements `Clone`: `ParameterText::of(self.clone())`.
+    fn parameter_text(&self) -> ParameterText {
+        let text = ParameterText::of_now(self);
+        ParameterText::by(move || text.clone())
     }
 
     /// Computes the values that depend on parameters alone.

@@ -10,9 +10,11 @@ use crate::systems::observed::Observed;
 use crate::systems::state::{Pair, State};
 use crate::systems::system::gather::{InPack, Kept, with_whole};
 use crate::systems::system::{
-    Arithmetic, Autonomous, Description, Dynamics, Group, System, Unforced, VectorOf, deepest,
+    Arithmetic, Autonomous, Description, Dynamics, Group, ParameterText, System, Unforced,
+    VectorOf, deepest,
 };
 use crate::systems::vector::{Over, Vector, dot};
+use alloc::format;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
@@ -178,6 +180,12 @@ where
         let Description { name, formula, .. } = self.monitor.description();
         writeln!(to, "in the time of {name}: {formula}")?;
         self.monitor.describe_parameters(to)
+    }
+    fn parameter_text(&self) -> ParameterText {
+        let [system, monitor] = [self.system.parameter_text(), self.monitor.parameter_text()];
+        let Description { name, formula, .. } = self.monitor.description();
+        let time = format!("in the time of {name}: {formula}\n");
+        ParameterText::by(move || system.write() + &time + &monitor.write())
     }
     fn prepare<T: Real>(&self) -> Self::Prepared<T> {
         InNewTime {

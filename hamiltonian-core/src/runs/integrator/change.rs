@@ -5,13 +5,12 @@
 
 use super::checks::{check_change, check_values, onto_shell};
 use super::part::Part;
-use super::{Integrator, MapOf, check_step, duration, parameters};
+use super::{Integrator, MapOf, check_step, duration};
 use crate::errors::Error;
 use crate::flows::map::{Clock, Step};
 use crate::observers::observe::Observer;
 use crate::systems::state::{Carried, IntoStart, State};
-use crate::systems::system::{Dynamics, System, VectorOf};
-use alloc::string::String;
+use crate::systems::system::{Dynamics, ParameterText, System, VectorOf};
 use hamiltonian_lanes::{Mask, Real};
 
 impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
@@ -90,9 +89,9 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         let mut prepared = system.prepare();
         let mut state = self.state.clone();
         onto_shell::<T, S>(&prepared, &mut state);
-        check_values::<T, S>(&prepared, &state, || parameters(system))?;
+        check_values::<T, S>(&prepared, &state, || ParameterText::of_now(system))?;
         prepared.set_arithmetic(self.prepared.arithmetic());
-        self.go_on_from(prepared, parameters(system), state)
+        self.go_on_from(prepared, system.parameter_text(), state)
     }
 }
 
@@ -136,7 +135,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     fn go_on_from(
         &mut self,
         prepared: S::Prepared<T>,
-        parameters: String,
+        parameters: ParameterText,
         state: State<VectorOf<S, T>>,
     ) -> Result<(), Error> {
         if let Some(error) = &self.refused {

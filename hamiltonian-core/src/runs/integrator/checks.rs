@@ -3,13 +3,13 @@
 //! Input: a step, a start. Output: nothing, or the error. Invariant: a run begins where H and all its
 //! first derivatives are finite, and for a time-transformed system on the shell H = 0.
 
-use super::{numbers, parameter_without_value, parameters};
+use super::{numbers, parameter_without_value};
 use crate::errors::{Error, StartError};
 use crate::observers::output::names;
 use crate::schemes::scheme::{Entry, Needs, Scheme};
 use crate::systems::state::State;
 use crate::systems::system::{
-    Description, Dynamics, System, VectorOf, check_shape_like, declared_energy,
+    Description, Dynamics, ParameterText, System, VectorOf, check_shape_like, declared_energy,
 };
 use crate::systems::vector::Vector;
 use alloc::format;
@@ -92,7 +92,7 @@ pub(crate) fn check_start<T: Real, S: System>(
 ) -> Result<S::Prepared<T>, Error> {
     check_state(system, start)?;
     let prepared = system.prepare();
-    check_values::<T, S>(&prepared, start, || parameters(system))?;
+    check_values::<T, S>(&prepared, start, || ParameterText::of_now(system))?;
     Ok(prepared)
 }
 

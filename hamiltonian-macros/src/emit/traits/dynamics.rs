@@ -350,7 +350,8 @@ impl<'a> Emission<'a> {
         }
         let body = with_self(&lines.join("?;\n"));
         format!(
-            "fn describe_parameters(&self, _out: &mut dyn __h::Write) -> __h::fmt::Result {{\n{body}\n}}\n"
+            "fn describe_parameters(&self, _out: &mut dyn __h::Write) -> __h::fmt::Result {{\n{body}\n}}\n\
+             fn parameter_text(&self) -> __h::ParameterText {{ __h::ParameterText::of(__h::Clone::clone(self)) }}\n"
         )
     }
 

@@ -58,6 +58,7 @@ mod switched;
 #[path = "../hamiltonian-symbolic/tests/common/mod.rs"]
 mod symbolic;
 pub mod systems;
+mod tolerance;
 #[allow(dead_code, unused_imports)]
 #[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]
 mod tree;

@@ -48,6 +48,7 @@ pub use crate::loops::slabs::rows;
 pub use crate::loops::stretch::{
     Body, Change, ColumnStore, LONG, Mode, Nest, STRIDE, Stretch, nest, total, worth, wrapped,
 };
+pub use crate::schemes::{Gauss, GaussNystrom, ToTolerance};
 pub use crate::systems::fit::ListOf;
 use crate::systems::flow::{Flow, Piece, Pieces};
 pub use crate::systems::function::Function;

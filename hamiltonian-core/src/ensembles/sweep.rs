@@ -14,6 +14,7 @@ use crate::errors::Error;
 use crate::observers::observe::{Observer, Unobserved};
 use crate::results::shard::Shard;
 use crate::schemes::scheme::Scheme;
+use crate::schemes::{Adaptive, ToTolerance, Tolerance};
 use crate::systems::state::State;
 use crate::systems::system::{System, VectorOf};
 use alloc::boxed::Box;
@@ -100,6 +101,40 @@ pub struct Sweep<'a, S: System, M, O = (), R = (), A = Fused> {
 const CHUNK: usize = 4800;
 /// The smallest default number, the lanes of the widest pack.
 const LANES: usize = 80;
+
+impl<'a, S: ToTolerance> Sweep<'a, S, Adaptive<S::Scheme>>
+where
+    Adaptive<S::Scheme>: Scheme<S>,
+{
+    /// Describes a sweep over members with steps from a tolerance, each its own, as
+    /// [`Integrator::to_tolerance`](crate::Integrator::to_tolerance) has them. It still needs an end and a record.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let make = |member: Member| (Oscillator {}, State::new([member.index as f64], [0.0]));
+    /// let table = Sweep::to_tolerance(4, make, 1e-10)
+    ///     .with_end(10.0)
+    ///     .record(["q"], |end| [end.state.q[0]])
+    ///     .collect()?;
+    /// for row in table.iter() {
+    ///     assert!((row[1] - row[0] * 10.0_f64.cos()).abs() < 1e-8);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn to_tolerance(
+        count: usize,
+        make: impl Fn(Member) -> (S, State<VectorOf<S>>) + Send + Sync + 'a,
+        tolerance: impl Into<Tolerance>,
+    ) -> Self {
+        Self::new(
+            count,
+            make,
+            Adaptive::new(S::Scheme::default(), tolerance),
+            1.0,
+        )
+    }
+}
 
 impl<'a, S: System, M: Scheme<S>> Sweep<'a, S, M> {
     /// Describes a sweep over `count` members with the step size `step`. It still needs an end and a record. `make` makes

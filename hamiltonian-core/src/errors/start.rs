@@ -14,6 +14,14 @@ pub enum StartError {
         /// The step given.
         value: f64,
     },
+    /// The tolerance is negative, NaN or infinite, or both of its numbers are zero.
+    #[non_exhaustive]
+    Tolerance {
+        /// The relative tolerance given.
+        relative: f64,
+        /// The absolute tolerance given.
+        absolute: f64,
+    },
     /// The start has a NaN or an infinity in it.
     #[non_exhaustive]
     NotFinite {
@@ -124,6 +132,12 @@ impl Display for StartError {
                 f,
                 "a step must be finite and not zero, found {}",
                 Number(*value)
+            ),
+            Self::Tolerance { relative, absolute } => write!(
+                f,
+                "a tolerance must be positive and finite, found {} relative and {} absolute",
+                Number(*relative),
+                Number(*absolute)
             ),
             Self::NotFinite { clock, time, q, p } => write!(
                 f,

@@ -45,6 +45,22 @@ pub enum StepError {
         /// The number of iterations made.
         iterations: u32,
     },
+    /// The estimated error of a step was above the tolerance for every size that moves the time, as at a collision.
+    #[non_exhaustive]
+    Refused {
+        /// The number of the step, counted from 1.
+        step: u64,
+        /// The first lane that was refused, if the scalar has several.
+        lane: Option<u32>,
+        /// The name of the run's time.
+        clock: Box<str>,
+        /// The time at its beginning.
+        time: f64,
+        /// The relative tolerance.
+        relative: f64,
+        /// The absolute tolerance.
+        absolute: f64,
+    },
 }
 
 impl Display for StepError {
@@ -98,6 +114,21 @@ impl Display for StepError {
                 f,
                 "step {step} from {clock} = {} was not solved{}: residual {residual:e} after \
                  {iterations} iterations; a shorter step, or more iterations, may solve it",
+                Number(*time),
+                Lane(*lane)
+            ),
+            Self::Refused {
+                step,
+                lane,
+                clock,
+                time,
+                relative,
+                absolute,
+            } => write!(
+                f,
+                "step {step} from {clock} = {} was refused{}: its estimated error is above the tolerance, {relative:e} \
+                 relative and {absolute:e} absolute, for every size that moves {clock}; end the run before the \
+                 singularity of H, or raise the tolerance if there is none",
                 Number(*time),
                 Lane(*lane)
             ),

@@ -163,6 +163,13 @@ pub enum Cause {
         /// The number of iterations made.
         iterations: u32,
     },
+    /// The estimated error of a step was above the tolerance for every size that moves the time.
+    Refused {
+        /// The relative tolerance.
+        relative: f64,
+        /// The absolute tolerance.
+        absolute: f64,
+    },
 }
 
 /// The step for which a map is prepared.

@@ -48,6 +48,14 @@ impl Failed {
                 residual,
                 iterations,
             },
+            Cause::Refused { relative, absolute } => StepError::Refused {
+                step,
+                lane,
+                clock,
+                time: self.begin,
+                relative,
+                absolute,
+            },
             Cause::Overflow | Cause::Piece(_) => StepError::NotFinite {
                 step,
                 energy: self.energy,

@@ -163,23 +163,22 @@ pub(super) fn in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
     all
 }
 
-/// A matrix with a row for each stage, in bundles: `[bundle][j]`.
+/// Lays a matrix with a row for each stage into bundles, `[bundle][j]`; those after the last bundle stay.
 #[inline(always)]
-pub(super) fn matrix_in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
+pub(super) fn lay_in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
     matrix: &[[T; S]; S],
-) -> [[L::Bundle; S]; S] {
-    let mut all = [[L::Bundle::zero(); S]; S];
-    for (bundle, to) in all.iter_mut().enumerate().take(bundles::<T, L, S>()) {
+    to: &mut [[L::Bundle; S]; S],
+) {
+    for (bundle, to) in to.iter_mut().enumerate().take(bundles::<T, L, S>()) {
         let first = bundle * L::WIDTH;
         for (j, to) in to.iter_mut().enumerate() {
             let mut few = [matrix[first][j]; MAX_STAGES];
-            for (k, number) in few.iter_mut().enumerate() {
+            for (k, number) in few.iter_mut().enumerate().take(L::WIDTH) {
                 *number = matrix[(first + k).min(S - 1)][j];
             }
             *to = L::gather(&few[..L::WIDTH]);
         }
     }
-    all
 }
 
 /// The number of stage `j`.

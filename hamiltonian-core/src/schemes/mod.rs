@@ -36,7 +36,8 @@
 //! | [`RungeKutta4`] | | 4 | | nothing | 4 gradients |
 //!
 //! [`Composition`] makes schemes of higher order from any symmetric one, for example `KahanLi6.of(…)`. [`Paced`] gives
-//! one-step schemes reversible steps of varying length.
+//! one-step schemes reversible steps of varying length. [`Adaptive`] takes the steps of [`Gauss`] and [`GaussNystrom`] from
+//! a tolerance.
 //!
 //! With a second piece of size ε, an order (n, m) means the error O(εhⁿ + ε²hᵐ). That of `Aba1064` is
 //! (10, 6, 4): O(εh¹⁰ + ε²h⁶ + ε³h⁴).
@@ -100,12 +101,14 @@ mod discrete_gradient;
 mod runge_kutta;
 pub(crate) mod scheme;
 
+mod adaptive;
 mod composition;
 mod paced;
 mod transformed_verlet;
 
 mod catalogue;
 
+pub use adaptive::{Adaptive, Estimates, ToTolerance, Tolerance};
 pub use cheap::{CheapProcessed, CheapProcessed4};
 pub use compensated::Compensated;
 pub use composition::{Adjoint, Composition};

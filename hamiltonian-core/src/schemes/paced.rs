@@ -74,79 +74,86 @@ impl<M: OneStep, G: Clone + Debug + Send + Sync + 'static> Listed for Paced<M, G
     }
 }
 
-/// The value [`Paced`] carries: the point, and the density of steps ρ, the rate G and the time.
+/// What [`Paced`] and [`Adaptive`](super::Adaptive) carry: what their scheme carries, and the density of steps ρ, the rate
+/// G, the time, and further numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pace<V: Vector> {
-    point: Point<V>,
-    /// ρ, G, t.
-    pace: [V::Scalar; 3],
+pub struct Pace<C: Vector, const N: usize = 3> {
+    /// What the scheme carries.
+    pub(super) of: C,
+    /// ρ, G, t, and what follows.
+    pub(super) numbers: [C::Scalar; N],
 }
 
-/// The shape of a [`Pace`].
+/// The shape of a [`Pace`], where `H` is that of what the scheme carries.
 #[derive(Debug)]
-pub struct PaceShape<H>(PhantomData<H>);
+pub struct PaceShape<H, const N: usize = 3>(PhantomData<H>);
 
-impl<H: Shape> Shape for PaceShape<H> {
-    type Vector<T: Real> = Pace<H::Vector<T>>;
+impl<H: Shape, const N: usize> Shape for PaceShape<H, N> {
+    type Vector<T: Real> = Pace<H::Vector<T>, N>;
 }
 
-impl<H: Shape> CarriedShape<H> for PaceShape<H> {
-    type Of<T: Real> = Pace<H::Vector<T>>;
+impl<H: Shape, K: CarriedShape<H>, const N: usize> CarriedShape<H> for PaceShape<K, N> {
+    type Of<T: Real> = Pace<K::Of<T>, N>;
 }
 
-impl<V: Vector> Vector for Pace<V> {
-    type Scalar = V::Scalar;
-    type Shape = PaceShape<V::Shape>;
-    fn zeros_over<U: Real>(&self) -> Pace<Over<V, U>> {
+impl<C: Vector, const N: usize> Vector for Pace<C, N> {
+    type Scalar = C::Scalar;
+    type Shape = PaceShape<C::Shape, N>;
+    fn zeros_over<U: Real>(&self) -> Pace<Over<C, U>, N> {
         Pace {
-            point: self.point.zeros_over(),
-            pace: [U::zero(); 3],
+            of: self.of.zeros_over(),
+            numbers: [U::zero(); N],
         }
     }
-    const PARTS: usize = Point::<V>::PARTS + 1;
+    const PARTS: usize = C::PARTS + 1;
     #[inline(always)]
-    fn part(&self, k: usize) -> &[V::Scalar] {
-        if k < Point::<V>::PARTS {
-            self.point.part(k)
+    fn part(&self, k: usize) -> &[C::Scalar] {
+        if k < C::PARTS {
+            self.of.part(k)
         } else {
-            &self.pace
+            &self.numbers
         }
     }
     #[inline(always)]
-    fn part_mut(&mut self, k: usize) -> &mut [V::Scalar] {
-        if k < Point::<V>::PARTS {
-            self.point.part_mut(k)
+    fn part_mut(&mut self, k: usize) -> &mut [C::Scalar] {
+        if k < C::PARTS {
+            self.of.part_mut(k)
         } else {
-            &mut self.pace
+            &mut self.numbers
         }
     }
     fn zeros_like(&self) -> Self {
         Pace {
-            point: self.point.zeros_like(),
-            pace: [V::Scalar::zero(); 3],
+            of: self.of.zeros_like(),
+            numbers: [C::Scalar::zero(); N],
         }
     }
     #[inline(always)]
     fn take(&mut self) -> Self {
         Pace {
-            point: self.point.take(),
-            pace: self.pace,
+            of: self.of.take(),
+            numbers: self.numbers,
         }
     }
 }
 
-impl<V: Vector> Carried for Pace<V> {
-    type Vector = V;
+impl<C: Carried, const N: usize> Carried for Pace<C, N> {
+    type Vector = C::Vector;
     #[inline(always)]
-    fn point(&self) -> &Point<V> {
-        &self.point
+    fn point(&self) -> &Point<C::Vector> {
+        self.of.point()
     }
     #[inline(always)]
-    fn time(&self, _: V::Scalar) -> V::Scalar {
-        self.pace[2]
+    fn time(&self, _: C::Scalar) -> C::Scalar {
+        self.numbers[2]
     }
-    fn duration(&self, interval: V::Scalar) -> Option<V::Scalar> {
-        Some(interval / self.pace[0])
+    fn duration(&self, interval: C::Scalar) -> Option<C::Scalar> {
+        Some(interval / self.numbers[0])
+    }
+    fn refused(&self) -> u64 {
+        self.numbers
+            .get(4)
+            .map_or(0, |refused| refused.to_f64() as u64)
     }
 }
 
@@ -171,7 +178,7 @@ where
     M: OneStep + Scheme<S, Carried = Point<S::Shape>>,
     G: Density<S>,
 {
-    type Carried = PaceShape<S::Shape>;
+    type Carried = PaceShape<Point<S::Shape>>;
     type Map<T: Real> = Pacing<T, S, M, G>;
     fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
         self.scheme.times_of_jumps(of)
@@ -200,14 +207,14 @@ where
         prepared: &S::Prepared<T>,
         state: &State<VectorOf<S, T>>,
         _: T,
-    ) -> Pace<VectorOf<S, T>> {
+    ) -> Pace<Point<VectorOf<S, T>>> {
         let point = state.point();
         let mut velocity = point.zeros_like();
         let field = prepared.field(T::one());
         let rate = rate::<T, S, G>(&self.density, &field, state.t, &point, &mut velocity);
         Pace {
-            point,
-            pace: [T::one(), rate, state.t],
+            of: point,
+            numbers: [T::one(), rate, state.t],
         }
     }
 }
@@ -228,11 +235,11 @@ pub struct PacingWork<V: Vector, W> {
     inner: W,
 }
 
-impl<V: Vector, W: Scratch<Point<V>>> Scratch<Pace<V>> for PacingWork<V, W> {
-    fn like(like: &Pace<V>) -> Self {
+impl<V: Vector, W: Scratch<Point<V>>> Scratch<Pace<Point<V>>> for PacingWork<V, W> {
+    fn like(like: &Pace<Point<V>>) -> Self {
         PacingWork {
-            velocity: like.point.clone(),
-            inner: W::like(&like.point),
+            velocity: like.of.clone(),
+            inner: W::like(&like.of),
         }
     }
 }
@@ -244,18 +251,18 @@ where
     M: OneStep + Scheme<S, Carried = Point<S::Shape>>,
     G: Density<S>,
 {
-    type Carried = Pace<VectorOf<S, T>>;
+    type Carried = Pace<Point<VectorOf<S, T>>>;
     type Work = PacingWork<VectorOf<S, T>, <M::Map<T> as Map>::Work>;
 
     #[inline(always)]
     fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        let [density, rate_here, t] = &mut z.pace;
+        let [density, rate_here, t] = &mut z.numbers;
         *density += self.half * *rate_here;
         let h = self.epsilon / *density;
         let ends = [*t, *t + h];
-        (self.scheme).step(&self.prepared, h, ends, &mut z.point, &mut work.inner);
+        (self.scheme).step(&self.prepared, h, ends, &mut z.of, &mut work.inner);
         *t += h;
-        *rate_here = rate::<T, S, G>(&self.density, &self.field, *t, &z.point, &mut work.velocity);
+        *rate_here = rate::<T, S, G>(&self.density, &self.field, *t, &z.of, &mut work.velocity);
         *density += self.half * *rate_here;
         // There is no step for a density that is not positive.
         let gone = density.le(T::zero());
@@ -264,10 +271,10 @@ where
 
     #[cold]
     fn explain(&self, _: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
-        let [density, rate_here, t] = &mut z.pace;
+        let [density, rate_here, t] = &mut z.numbers;
         *density += self.half * *rate_here;
         let h = self.epsilon / *density;
         let map = self.scheme.prepare(&self.prepared, Step::of(h));
-        map.explain(*t, *t + h, true, &mut z.point, &mut work.inner)
+        map.explain(*t, *t + h, true, &mut z.of, &mut work.inner)
     }
 }

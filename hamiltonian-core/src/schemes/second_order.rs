@@ -4,8 +4,8 @@
 //! [`Gauss`](super::Gauss), to rounding.
 
 use super::bundles::{
-    Abreast, Apart, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles, load,
-    matrix_in_bundles, of_the_guess, product, solve, spread, store, sum,
+    Abreast, Apart, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles,
+    lay_in_bundles, load, of_the_guess, product, solve, spread, store, sum,
 };
 use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
@@ -376,6 +376,23 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         carry(point, low);
     }
 
+    /// Makes `to` the map for steps `by` times as long, to rounding.
+    #[inline(always)]
+    pub(super) fn resize(&self, by: T, to: &mut Self) {
+        to.h = self.h * by;
+        for i in 0..S {
+            to.times[i] = self.times[i] * by;
+            to.weights[i] = self.weights[i] * by;
+            to.ends[i] = self.ends[i] * by;
+            for j in 0..S {
+                to.double[0][i][j] = self.double[0][i][j] * by;
+                to.double[1][i][j] = self.double[1][i][j] * by;
+            }
+        }
+        to.drifts[0] = self.drifts[0] * by;
+        to.drifts[1] = self.drifts[1] * by;
+    }
+
     fn tableau(&self) -> NystromTableau<'_, T, S> {
         NystromTableau {
             times: &self.times,
@@ -464,6 +481,9 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
     }
 }
 
+/// What steps beside each other keep: ∂V/∂q at the stages, scratch, and the matrices in bundles.
+type KeptBeside<X, R, const S: usize> = (Stages<X, S>, BundleScratch<X, S>, [[[R; S]; S]; 2]);
+
 /// Steps whose stages lie beside each other, until one is not solved.
 struct NystromStepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
     map: &'a Eliminated<T, P, S>,
@@ -504,25 +524,26 @@ where
         } = self;
         let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
         let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
-        let mut double = [[[T::Over::<P>::zero(); S]; S]; 2];
-        for (to, from) in double.iter_mut().zip(&map.double) {
-            *to = matrix_in_bundles::<T, Beside<P, WIDTH>, S>(from);
-        }
         let ends = in_bundles::<T, Beside<P, WIDTH>, S>(&map.ends);
-        let tableau = NystromTableau {
-            times: &times,
-            weights: &weights,
-            double: &double,
-            ends: &ends,
-        };
-        let (gradients, bundles) = kept.get(
-            |_: &(Stages<D::Vector, S>, BundleScratch<D::Vector, S>)| true,
+        // The matrices too: a run of single steps would spend its time on clearing them.
+        let (gradients, bundles, double) = kept.get(
+            |_: &KeptBeside<D::Vector, T::Over<P>, S>| true,
             || {
                 let zero = z.x.q.zeros_over::<T::Over<P>>();
                 let gradients = Stages(core::array::from_fn(|_| zero.clone()));
-                (gradients, BundleScratch::new(&zero))
+                let double = [[[T::Over::<P>::zero(); S]; S]; 2];
+                (gradients, BundleScratch::new(&zero), double)
             },
         );
+        for (to, from) in double.iter_mut().zip(&map.double) {
+            lay_in_bundles::<T, Beside<P, WIDTH>, S>(from, to);
+        }
+        let tableau = NystromTableau {
+            times: &times,
+            weights: &weights,
+            double,
+            ends: &ends,
+        };
         // Moved out, they are variables of this loop alone and may stay in registers.
         let (mut of, mut scratch) = (gradients.take(), bundles.take());
         let (mut point, mut low) = (z.x.take(), z.y.y.take());

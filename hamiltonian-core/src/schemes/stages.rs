@@ -274,6 +274,17 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
 }
 
 impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
+    /// Makes `to` the map for steps `by` times as long, to rounding.
+    #[inline(always)]
+    pub(super) fn resize(&self, by: T, to: &mut Self) {
+        to.h = self.h * by;
+        for i in 0..S {
+            to.times[i] = self.times[i] * by;
+            to.weights[i] = self.weights[i] * by;
+            to.spans[i] = self.spans[i] * by;
+        }
+    }
+
     /// Δq and Δp of the unknowns.
     #[inline(always)]
     fn increments(

@@ -3,7 +3,7 @@
 use super::members::agrees;
 use super::*;
 use hamiltonian::Vector;
-use hamiltonian::schemes::Suzuki4;
+use hamiltonian::schemes::{Adaptive, Suzuki4};
 use hamiltonian_core::VectorOf;
 
 hamiltonian! {
@@ -134,4 +134,10 @@ fn members_with_variable_steps() {
         agrees(kepler, verlet);
         agrees(kepler, suzuki);
     });
+}
+
+#[test]
+fn members_to_a_tolerance() {
+    let scheme = Adaptive::new(GaussNystrom::<8>::default(), 1e-9);
+    at_each_level(|_| agrees(kepler, scheme));
 }

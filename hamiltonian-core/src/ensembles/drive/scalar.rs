@@ -13,7 +13,7 @@ use crate::runs::integrator::{Part, Recipe};
 use crate::schemes::scheme::Scheme;
 use crate::systems::domain::{self, write_state};
 use crate::systems::flow::Scratch;
-use crate::systems::state::State;
+use crate::systems::state::{Carried, State};
 use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::vec::Vec;
@@ -148,6 +148,7 @@ pub(in crate::ensembles) fn explain<T: Real, S: System, M: Scheme<S>>(
     let map = scheme.prepare(prepared, Step::of(step));
     let mut work = Scratch::like(&carried);
     let (begin, end) = (clock.at(made), clock.at(made + 1));
+    let shown = carried.time(begin);
     let cause = map.explain(begin, end, is_first, &mut carried, &mut work);
     let (q, p) = point.split_at(point.len() / 2);
     let energy = only_energy.then(|| {
@@ -165,7 +166,7 @@ pub(in crate::ensembles) fn explain<T: Real, S: System, M: Scheme<S>>(
         step: made + 1,
         lane: None,
         clock: prepared.description().clock().into(),
-        begin: begin.to_f64(),
+        begin: shown.to_f64(),
         end: reached,
         q: q.into(),
         p: p.into(),

@@ -7,8 +7,8 @@ use super::{Carries, Collocated, Stages};
 use crate::flows::iterate::Outcome;
 use crate::flows::map::Clock;
 use crate::schemes::bundles::{
-    Abreast, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles, load,
-    matrix_in_bundles, product, solve, spread, store, sum,
+    Abreast, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles, lay_in_bundles,
+    load, product, solve, spread, store, sum,
 };
 use crate::schemes::compensated::carry;
 use crate::systems::flow::VectorField;
@@ -230,33 +230,34 @@ where
         } = self;
         let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
         let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
-        let mut matrices = [[[[T::Over::<P>::zero(); S]; S]; 2]; 2];
+        let field = system.field(T::Over::<P>::one());
+        // The matrices too: a run of single steps would spend its time on clearing them.
+        let (scratch, matrices) = kept.get(
+            |_| true,
+            || {
+                let zero = z.x.zeros_over::<T::Over<P>>();
+                let stages = Stages(core::array::from_fn(|_| zero.clone()));
+                let scratch = StepScratch::<D::Vector, S> {
+                    slopes: stages.clone(),
+                    points: stages,
+                    next: zero,
+                };
+                (scratch, [[[[T::Over::<P>::zero(); S]; S]; 2]; 2])
+            },
+        );
         for (to, from) in matrices
             .as_flattened_mut()
             .iter_mut()
             .zip(map.matrices.as_flattened())
         {
-            *to = matrix_in_bundles::<T, Beside<P, WIDTH>, S>(from);
+            lay_in_bundles::<T, Beside<P, WIDTH>, S>(from, to);
         }
         let tableau = Tableau {
             h: map.h,
             times: &times,
             weights: &weights,
-            matrices: &matrices,
+            matrices,
         };
-        let field = system.field(T::Over::<P>::one());
-        let scratch = kept.get(
-            |_| true,
-            || {
-                let zero = z.x.zeros_over::<T::Over<P>>();
-                let stages = Stages(core::array::from_fn(|_| zero.clone()));
-                StepScratch::<D::Vector, S> {
-                    slopes: stages.clone(),
-                    points: stages,
-                    next: zero,
-                }
-            },
-        );
         // Moved out, they are variables of this loop alone and may stay in registers.
         let mut here = StepScratch {
             slopes: scratch.slopes.take(),

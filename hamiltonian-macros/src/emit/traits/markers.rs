@@ -40,7 +40,7 @@ pub fn of_pieces(
     marker(out, context, name, &declaration, pieces.err(), &items);
 }
 
-/// `QuadraticKinetic`, `Autonomous`, `Unforced` and `Exact`, `Display` and `Default`.
+/// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact`, `ToTolerance`, `Display` and `Default`.
 pub fn implementations(context: Context) -> String {
     let (structure, generics) = (&context.definition.structure, context.generics);
     let (mut out, mut known) = (String::new(), String::new());
@@ -63,6 +63,16 @@ pub fn implementations(context: Context) -> String {
             }
         }
     }
+    let scheme = match (&structure.quadratic_kinetic, &structure.unforced) {
+        (Ok(()), Ok(())) => "GaussNystrom",
+        _ => "Gauss",
+    };
+    let _ = writeln!(
+        out,
+        "impl{} __h::ToTolerance for {} {{ type Scheme = __h::{scheme}<8>; }}",
+        generics.declaration(),
+        generics.system_type(),
+    );
     let text = &context.definition.text;
     let texts = context.definition.checked.item.as_ref().map(|_| {
         let (constants, system) = generics.over_f64();

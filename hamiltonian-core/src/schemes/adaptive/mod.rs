@@ -1,0 +1,400 @@
+//! Steps from a tolerance.
+//!
+//! Input: Gauss collocation with an estimate of its error ([`Estimates`]), and a [`Tolerance`]. Output: [`Adaptive`],
+//! whose steps are constant where those do as well, and vary reversibly elsewhere. Invariant: no decision depends on a
+//! clock, on other lanes, or on the parts into which a run is divided.
+
+mod pilot;
+mod timescale;
+mod tolerance;
+
+use super::paced::{Pace, PaceShape};
+use crate::errors::Error;
+use crate::flows::map::{Cause, Map, Step};
+use crate::schemes::scheme::{CarriedBy, Entry, Form, Listed, OneStep, Scheme};
+use crate::systems::flow::Scratch;
+use crate::systems::state::{Carried, Point, State};
+use crate::systems::system::{Description, Dynamics, System, VectorOf};
+use crate::systems::vector::Vector;
+use hamiltonian_lanes::{Mask, Real};
+use timescale::Derivatives;
+pub use tolerance::{Estimates, Tail, Tolerance};
+use tolerance::{MapBy, WorkBy, larger};
+
+/// A system with a scheme that follows a tolerance, for
+/// [`Integrator::to_tolerance`](crate::Integrator::to_tolerance).
+///
+/// `hamiltonian!` implements it: the scheme is [`GaussNystrom`](super::GaussNystrom) if T is proven to be quadratic and no
+/// force acts, and [`Gauss`](super::Gauss) otherwise, each with eight stages. A system written by hand names its scheme:
+///
+/// ```
+/// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::ToTolerance;
+#[doc = include_str!("../../doc/oscillator.md")]
+///
+/// fn scheme<S: ToTolerance>(_: &S) -> String {
+///     S::Scheme::default().entry().to_string()
+/// }
+/// use hamiltonian::schemes::author::Listed;
+/// assert_eq!(scheme(&Oscillator {}), "GaussNystrom (8 stages)");
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` names no scheme that follows a tolerance",
+    label = "this run takes its scheme from the system",
+    note = "in generic code bound the system, `S: ToTolerance`",
+    note = "a system written by hand: `impl ToTolerance for … {{ type Scheme = Gauss<8>; }}`"
+)]
+pub trait ToTolerance: System + Sized {
+    /// The scheme.
+    type Scheme: Estimates<Self> + Default;
+}
+
+/// Gauss collocation with steps from a tolerance.
+///
+/// A step is refused, and repeated with a smaller size, if its estimated error is above the tolerated one. A pilot of at
+/// most 16 steps from the start chooses how sizes follow each other:
+///
+/// - *Constant*, if the smallest of the pilot's sizes takes at most twice as many steps as varying sizes do. The steps are
+///   then those of the scheme alone, and symplectic. A refused step halves the size from there on; after the second time a
+///   pilot chooses anew.
+/// - *Varying* otherwise. The density of steps ρ follows the time scale of the orbit as in [`Paced`](super::Paced), with
+///   G = d ln Q/dt of
+///
+///   ```text
+///   Q⁴ = (|q⃛|²|p̈|² + |q̈|²|p⃛|²)/(|q̈|²|ṗ|² + |q̇|²|p̈|²)
+///   ```
+///
+///   which is ω⁴ for an oscillator and r⁻⁶ for Kepler's problem, up to a factor. These steps are reversible: the error of
+///   H does not drift.
+///
+/// A refused step ends reversibility there: the density is larger from then on.
+/// [`Integrator::refused_steps`](crate::Integrator::refused_steps) counts such steps. A few near the start mean nothing; a
+/// number that grows through a long run means that Q does not describe the motion, and that H may drift.
+///
+/// Time is carried as in [`Paced`](super::Paced): the clock of a run counts its step parameter, whose size does not matter
+/// and whose sign is the direction. [`Integrator::to_tolerance`](crate::Integrator::to_tolerance) sets it to the first
+/// step.
+///
+/// Source: E. Hairer, G. Söderlind, SIAM J. Sci. Comput. 26 (2005) 1838, eq. 2.8, doi:10.1137/040606995, with Q of this
+/// library.
+///
+/// ```
+/// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::Adaptive;
+#[doc = include_str!("../../doc/oscillator.md")]
+///
+/// let scheme = Adaptive::new(GaussNystrom::<8>::default(), 1e-10);
+/// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 1.0)?;
+/// let end = run.advance_until(10.0)?;
+/// assert!((end.q[0] - 10.0_f64.cos()).abs() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Adaptive<M> {
+    scheme: M,
+    tolerance: Tolerance,
+}
+
+impl<M> Adaptive<M> {
+    /// Returns the scheme with steps from this tolerance. See [`Tolerance`] for its norm.
+    #[must_use]
+    pub fn new(scheme: M, tolerance: impl Into<Tolerance>) -> Self {
+        Adaptive {
+            scheme,
+            tolerance: tolerance.into(),
+        }
+    }
+}
+
+impl<M: OneStep> Listed for Adaptive<M> {
+    fn entry(&self) -> Entry {
+        let of = self.scheme.entry();
+        Entry {
+            name: "Adaptive",
+            variant: of.variant,
+            preserves: Form::Nothing,
+            source: "Hairer, Söderlind 2005, eq. 2.8, doi:10.1137/040606995",
+            ..of
+        }
+    }
+}
+
+/// The numbers that [`Adaptive`] carries beside the scheme's: ρ, G, t; for constant steps the largest ρ, 0 for others; the
+/// number of refused steps; the low word of t; ρ/Q as it is due, and as the pilot found it.
+const NUMBERS: usize = 8;
+
+/// What [`Adaptive`] carries.
+type Follows<C> = Pace<C, NUMBERS>;
+
+/// The largest ρ of a single step of a given size, which is not refused.
+const ALONE: f64 = f64::MAX;
+
+impl<S, M> Scheme<S> for Adaptive<M>
+where
+    S: System,
+    M: Estimates<S>,
+{
+    type Carried = PaceShape<M::Carried, NUMBERS>;
+    type Map<T: Real> = Following<T, S, M>;
+    fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
+        self.scheme.times_of_jumps(of)
+    }
+    fn check<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+    ) -> Result<(), Error> {
+        self.tolerance.check()?;
+        self.scheme.check(prepared, state)
+    }
+    #[inline(always)]
+    fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
+        Following {
+            map: self.scheme.prepare(prepared, Step::of(step.h)),
+            field: prepared.field(T::one()),
+            tail: Tail::new(),
+            tolerance: self.tolerance,
+            parameter: step.h,
+        }
+    }
+    fn start<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> Follows<CarriedBy<M, S, T>> {
+        let map = Scheme::<S>::prepare(self, prepared, Step::of(h));
+        let of = self.scheme.start(prepared, state, h);
+        pilot::start(&map, state.t, of)
+    }
+    fn start_alone<T: Real>(
+        &self,
+        prepared: &S::Prepared<T>,
+        state: &State<VectorOf<S, T>>,
+        h: T,
+    ) -> Follows<CarriedBy<M, S, T>> {
+        let [zero, one] = [T::zero(), T::one()];
+        Pace {
+            of: self.scheme.start_alone(prepared, state, h),
+            numbers: [
+                one,
+                zero,
+                state.t,
+                T::constant(ALONE, 0.0),
+                zero,
+                zero,
+                one,
+                one,
+            ],
+        }
+    }
+}
+
+/// The map of [`Adaptive`].
+pub struct Following<T: Real, S: System, M: Estimates<S>> {
+    /// The map for the step parameter.
+    map: MapBy<M, S, T>,
+    field: <S::Prepared<T> as Dynamics<T>>::Field,
+    tail: Tail<T>,
+    tolerance: Tolerance,
+    parameter: T,
+}
+
+/// The scratch of [`Following`].
+pub struct FollowingWork<C: Carried, M, W> {
+    /// The map for a step of `by` times the parameter.
+    map: Option<M>,
+    by: C::Scalar,
+    inner: W,
+    before: C,
+    after: C,
+    derivatives: Derivatives<C::Vector>,
+}
+
+impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W> {
+    fn like(like: &Follows<C>) -> Self {
+        FollowingWork {
+            map: None,
+            by: C::Scalar::zero(),
+            inner: W::like(&like.of),
+            before: like.of.clone(),
+            after: like.of.clone(),
+            derivatives: Derivatives::like(like.of.point()),
+        }
+    }
+}
+
+/// The scratch of the map for a system and a scheme.
+type WorkOf<T, S, M> = FollowingWork<CarriedBy<M, S, T>, MapBy<M, S, T>, WorkBy<M, S, T>>;
+
+/// A number without its derivatives: sizes of steps are no functions of the start.
+#[inline(always)]
+fn fixed<T: Real>(x: T) -> T {
+    if T::LANES == 1 {
+        T::constant(x.to_f64(), 0.0)
+    } else {
+        x.with_derivative(T::zero())
+    }
+}
+
+/// x^(1/16), near the exponent 2/37 with which a size follows from an error that is proportional to h^18.5.
+#[inline(always)]
+fn root<T: Real>(x: T) -> T {
+    x.sqrt().sqrt().sqrt().sqrt()
+}
+
+/// The estimated error that sizes aim at, in units of the tolerated one.
+const AIM: f64 = 0.25;
+/// The density of steps follows Q up to this factor, and its inverse.
+const APART: f64 = 0.25;
+/// The factor of ρ/Q after a refused step, and the most after all of them.
+const HIGHER: [f64; 2] = [1.125, 8.0];
+/// The most by which a step is longer than the density at its beginning says.
+const LONGER: f64 = 3.0;
+/// The smallest step in units of the rounding of t.
+const STUCK: f64 = 0.01;
+/// The most attempts at a step.
+const ATTEMPTS: u32 = 60;
+
+impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
+    /// Makes one step of h = `by`·parameter. Returns its estimated error.
+    #[inline(always)]
+    fn attempt(&self, by: T, t: T, of: &mut CarriedBy<M, S, T>, work: &mut WorkOf<T, S, M>) -> T {
+        let h = self.parameter * by;
+        if by.equals(T::one()).all() {
+            self.map.step(t, t + h, of, &mut work.inner);
+        } else {
+            if work.map.is_none() {
+                work.map = Some(M::copy(&self.map));
+            }
+            if let Some(map) = &mut work.map {
+                if !by.equals(work.by).all() {
+                    M::resize(&self.map, by, map);
+                    work.by = by;
+                }
+                map.step(t, t + h, of, &mut work.inner);
+            }
+        }
+        M::error(&self.tail, self.tolerance, h, work.before.point(), of)
+    }
+
+    /// Q⁴ and G, with differences over 1/32 of a step.
+    #[inline(always)]
+    fn scale(
+        &self,
+        h: T,
+        t: T,
+        point: &Point<VectorOf<S, T>>,
+        derivatives: &mut Derivatives<VectorOf<S, T>>,
+    ) -> [T; 2] {
+        let tau = h * T::constant(1.0 / 32.0, 0.0);
+        derivatives.scale(&self.field, t, point, tau)
+    }
+}
+
+impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
+    type Carried = Follows<CarriedBy<M, S, T>>;
+    type Work = WorkOf<T, S, M>;
+
+    #[inline(always)]
+    fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        let [zero, one] = [T::zero(), T::one()];
+        let [
+            before,
+            mut rate,
+            t,
+            limit,
+            mut refused,
+            mut low,
+            mut unit,
+            first,
+        ] = z.numbers;
+        let half = self.parameter * T::constant(0.5, 0.0);
+        let is_constant = zero.lt(limit);
+        // A step is at most so many times longer than the density says: an estimate is worth nothing far beyond.
+        let least = before * T::constant(LONGER.recip(), 0.0);
+        let followed = before + half * rate;
+        let jumps = !least.le(followed) & !is_constant;
+        let mut density = T::select(jumps, least, followed);
+        refused += T::select(jumps, one, zero);
+        work.before.copy_from(&z.of);
+        let mut changed = T::Mask::splat(false);
+        let mut open = T::Mask::splat(true);
+        let mut attempts = 0;
+        loop {
+            let error = self.attempt(fixed(density.recip()), t, &mut z.of, work);
+            let alone = T::constant(ALONE, 0.0).le(limit);
+            // This is false for NaN, of a step that was not solved.
+            let fine = alone | error.le(one);
+            let refuses = open & !fine;
+            attempts += 1;
+            if !refuses.any() {
+                break;
+            }
+            work.after.copy_where(open & fine, &z.of);
+            open = refuses;
+            changed = changed | refuses;
+            if attempts == ATTEMPTS {
+                z.of.poison(refuses);
+                break;
+            }
+            let smaller = density / shrink(error);
+            let smaller = T::select(is_constant, density + density, smaller);
+            density = T::select(refuses, fixed(smaller), density);
+            refused += T::select(refuses, one, zero);
+            z.of.copy_from(&work.before);
+        }
+        if attempts > 1 {
+            z.of.copy_where(!open, &work.after);
+        }
+        let h = self.parameter * fixed(density.recip()) + low;
+        let end = t + h;
+        low = h - (end - t);
+        // Steps that no longer move the time end at a singularity.
+        let stuck = h.abs().lt(t.abs() * T::constant(T::epsilon() * STUCK, 0.0));
+        if stuck.any() {
+            z.of.poison(stuck);
+        }
+        if !is_constant.all() {
+            let [scale, found] = self.scale(h, end, z.of.point(), &mut work.derivatives);
+            rate = T::select(is_constant, zero, fixed(found));
+            let dense = fixed(scale.sqrt().sqrt());
+            let is_known = zero.lt(dense) & dense.finite() & !is_constant;
+            let here = density + half * rate;
+            let [more, most] = HIGHER.map(|x| T::constant(x, 0.0));
+            let higher = unit * more;
+            let higher = T::select(higher.lt(first * most), higher, first * most);
+            unit = T::select(is_known & changed, higher, unit);
+            let due = unit * dense;
+            let apart = T::constant(APART, 0.0);
+            let astray = is_known & !((due * apart).le(here) & (here * apart).le(due));
+            refused += T::select(astray, one, zero);
+            // Sparser steps come one by one.
+            let less = here * T::constant(0.5, 0.0);
+            density = T::select(astray, larger(due, less), here);
+        }
+        z.numbers = [density, rate, end, limit, refused, low, unit, first];
+        let lost = changed & is_constant & limit.lt(density);
+        if lost.any() {
+            pilot::again(self, lost, z);
+        }
+    }
+
+    /// A step whose end is not finite was refused at every size that moves the time.
+    #[cold]
+    fn explain(&self, _: T, _: T, _: bool, _: &mut Self::Carried, _: &mut Self::Work) -> Cause {
+        Cause::Refused {
+            relative: self.tolerance.relative,
+            absolute: self.tolerance.absolute,
+        }
+    }
+}
+
+/// The factor of the size after a step with this error was refused.
+#[inline(always)]
+fn shrink<T: Real>(error: T) -> T {
+    let [least, most, unknown] = [0.1, 0.9, 0.25].map(|x| T::constant(x, 0.0));
+    let factor = root(T::constant(AIM, 0.0) / error);
+    let factor = T::select(factor.lt(most), larger(factor, least), most);
+    T::select(error.finite(), factor, unknown)
+}

@@ -1,0 +1,407 @@
+//! Runs to a tolerance: what their errors are, that varying steps do not drift, and what is refused.
+
+use crate::allocator::allocations;
+use crate::common::is_heavy;
+use hamiltonian::errors::{Error, StartError, StepError};
+use hamiltonian::lanes::DoubleDouble;
+use hamiltonian::prelude::*;
+use hamiltonian::schemes::author::Listed;
+use hamiltonian::schemes::{Adaptive, ToTolerance, Tolerance};
+use std::f64::consts::TAU;
+
+hamiltonian! {
+    /// Kepler's problem.
+    pub struct Kepler {}
+    H(q[2]; p[2]) = (p[0]^2 + p[1]^2)/2 - 1/sqrt(q[0]^2 + q[1]^2)
+}
+
+hamiltonian! {
+    /// An oscillator: harmonic, quartic, a pendulum, and mixtures of them.
+    pub struct Oscillator { harmonic = 0.0, quartic = 0.0, gravity = 0.0 }
+    H(q; p) = p^2/2 + harmonic*q^2/2 + quartic*q^4/4 - gravity*cos(q)
+}
+
+hamiltonian! {
+    /// The paper's (34).
+    pub struct Coupled {}
+    H(q; p) = (q^2 + 1)*(p^2 + 1)/2
+}
+
+hamiltonian! {
+    /// The restricted three-body problem, in the rotating frame.
+    pub struct Restricted { mu = 0.012277471 }
+    H(x, y; px, py) = (px^2 + py^2)/2 + y*px - x*py - (1 - mu)/sqrt((x + mu)^2 + y^2) - mu/sqrt((x - 1 + mu)^2 + y^2)
+}
+
+hamiltonian! {
+    /// An oscillator with friction.
+    pub struct Damped {}
+    H(q; p) = p^2/2 + q^2/2;
+    force(q; p) = -p/10
+}
+
+/// Kepler's problem at the pericentre of an orbit with a = 1; at the apocentre for negative e.
+fn kepler(e: f64) -> StateOf<Kepler> {
+    State::new([1.0 - e, 0.0], [0.0, ((1.0 + e) / (1.0 - e)).sqrt()])
+}
+
+/// Arenstorf's orbit, which closes after this time (Hairer, Nørsett, Wanner 1993, II.0).
+const ARENSTORF: f64 = 17.065_216_560_157_963;
+
+fn arenstorf() -> StateOf<Restricted> {
+    // p = v + (−y, x).
+    State::new([0.994, 0.0], [0.0, 0.994 - 2.001_585_106_379_082_5])
+}
+
+fn pendulum() -> Oscillator {
+    let gravity = 1.0;
+    Oscillator {
+        gravity,
+        ..Oscillator::default()
+    }
+}
+
+fn quartic() -> Oscillator {
+    let quartic = 1.0;
+    Oscillator {
+        quartic,
+        ..Oscillator::default()
+    }
+}
+
+/// A problem to an end, as the tests see all of them.
+struct Problem {
+    name: String,
+    size: f64,
+    end: Box<dyn Fn(&[f64], f64) -> Vec<f64>>,
+    exact: Box<dyn Fn() -> Vec<f64>>,
+    start: Vec<f64>,
+}
+
+fn problem<S>(name: &str, system: S, start: StateOf<S>, t: f64) -> Problem
+where
+    S: ToTolerance + Clone + 'static,
+    Adaptive<S::Scheme>: Scheme<S>,
+    StateOf<S>: 'static,
+{
+    let shape = start.q.clone();
+    let values = start.to_vec();
+    let beside = system.clone();
+    let exact = move || {
+        // In double-double arithmetic, at a tolerance that f64 does not have.
+        let mut wide = State {
+            t: DoubleDouble::from(0.0),
+            q: beside.zeros::<DoubleDouble>(),
+            p: beside.zeros::<DoubleDouble>(),
+        };
+        for i in 0..start.q.len() {
+            *wide.q.component_mut(i) = start.q.component(i).into();
+            *wide.p.component_mut(i) = start.p.component(i).into();
+        }
+        let scheme = Adaptive::new(S::Scheme::default(), 1e-19);
+        let mut run = Integrator::new(&beside, scheme, wide, DoubleDouble::from(1.0)).unwrap();
+        let end = run.advance_until(t.into()).unwrap();
+        end.to_vec().into_iter().map(|x| x.hi()).collect()
+    };
+    let end = move |values: &[f64], tolerance: f64| {
+        let start = State::from_slice(&shape, values).unwrap();
+        let mut run = Integrator::to_tolerance(&system, start, tolerance).unwrap();
+        run.advance_until(t).unwrap().to_vec()
+    };
+    let size = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    Problem {
+        name: name.into(),
+        size,
+        end: Box::new(end),
+        exact: Box::new(exact),
+        start: values,
+    }
+}
+
+fn problems() -> Vec<Problem> {
+    let mut all = Vec::new();
+    for e in [0.0, 0.3, 0.6, 0.9, 0.99, -0.6, -0.9, -0.99] {
+        all.push(problem(
+            &format!("Kepler, e = {e}"),
+            Kepler {},
+            kepler(e),
+            4.3 * TAU,
+        ));
+    }
+    let oscillator = |harmonic, quartic, gravity| Oscillator {
+        harmonic,
+        quartic,
+        gravity,
+    };
+    for (system, q, p) in [
+        (oscillator(1.0, 0.0, 0.0), 1.0, 0.0),
+        (oscillator(0.0, 1.0, 0.0), 1.0, 0.0),
+        (oscillator(0.0, 1.0, 0.0), 0.0, 30.0),
+        (oscillator(0.0, 0.0, 1.0), 2.5, 0.0),
+        (oscillator(0.0, 0.0, 1.0), 3.1, 0.01),
+        (oscillator(0.0, 0.0, 1.0), 0.0, 2.5),
+        (oscillator(-1.0, 1.0, 0.0), 0.01, 0.0),
+    ] {
+        let name = format!("{system:?} from {q}, {p}");
+        all.push(problem(&name, system, State::new([q], [p]), 30.0));
+    }
+    for (q, p) in [(1.0, 1.0), (0.0, 0.3), (3.0, 0.0)] {
+        all.push(problem(
+            &format!("(34) from {q}, {p}"),
+            Coupled {},
+            State::new([q], [p]),
+            20.0,
+        ));
+    }
+    all.push(problem(
+        "Arenstorf",
+        Restricted::default(),
+        arenstorf(),
+        0.9 * ARENSTORF,
+    ));
+    all.push(problem(
+        "a friction",
+        Damped {},
+        State::new([1.0], [0.0]),
+        20.0,
+    ));
+    all
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+}
+
+/// The error of an end is at most 100 × tolerance × condition number. The condition number is the largest change of the
+/// end for a change of the start, by differences.
+#[test]
+fn errors_follow_tolerances() {
+    let mut separated = 0_usize;
+    // Some of the problems stand for all of them.
+    let (skipped, every, least) = if is_heavy() { (0, 1, 8) } else { (4, 6, 1) };
+    for Problem {
+        name,
+        size,
+        end,
+        exact,
+        start,
+    } in problems().into_iter().skip(skipped).step_by(every)
+    {
+        let exact = exact();
+        let condition = (0..start.len())
+            .map(|i| {
+                let by = 1e-6 * size;
+                let [more, less] = [by, -by].map(|by| {
+                    let mut start = start.clone();
+                    start[i] += by;
+                    end(&start, 1e-13)
+                });
+                distance(&more, &less) / (2.0 * by)
+            })
+            .fold(1.0, f64::max);
+        let largest = exact
+            .iter()
+            .chain(&start)
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        for tolerance in [1e-4, 1e-7, 1e-10, 1e-13] {
+            let error = distance(&end(&start, tolerance), &exact) / largest;
+            let bound = 100.0 * tolerance * condition;
+            println!(
+                "{name}: {tolerance:e}: {error:.1e}, {:.1e} of the bound",
+                error / bound
+            );
+            assert!(
+                error <= bound,
+                "{name} at {tolerance:e}: {error:e} above {bound:e}"
+            );
+            separated += usize::from(tolerance == 1e-4 && error > 100.0 * 1e-13 * condition);
+        }
+    }
+    // The bounds tell runs of other tolerances.
+    assert!(separated >= least, "{separated}");
+}
+
+/// The largest |ΔH| of each tenth of n steps.
+fn tenths<S: System>(
+    system: &S,
+    n: u64,
+    energy: f64,
+    mut step: impl FnMut() -> StateOf<S>,
+) -> Vec<f64> {
+    (0..10)
+        .map(|_| {
+            (0..n / 10).fold(0.0, |most: f64, _| {
+                most.max((system.energy(&step()) - energy).abs())
+            })
+        })
+        .collect()
+}
+
+/// Reversible steps of varying length keep H; steps by a function of the point before them, as a negative control, do
+/// not.
+#[test]
+fn varying_steps_do_not_drift() {
+    let n = if is_heavy() { 10_000_000 } else { 8_000 };
+    let energy = Kepler {}.energy(&kepler(0.9));
+    let mut run = Integrator::to_tolerance(&Kepler {}, kepler(0.9), 1e-7).unwrap();
+    let mut steps = || run.advance(1).unwrap().clone();
+    let kept = tenths(&Kepler {}, n, energy, &mut steps);
+    let refused = run.refused_steps();
+    println!("{kept:?}, {refused} refused");
+    assert!(kept[9] < 3.0 * kept[1] && kept[1] > 1e-13, "{kept:?}");
+
+    let mut run =
+        Integrator::new(&Kepler {}, GaussNystrom::<2>::default(), kepler(0.9), 1e-2).unwrap();
+    let mut steps = || {
+        let q = run.state().q;
+        run.change_step(0.2 * (q[0] * q[0] + q[1] * q[1]).powf(0.75))
+            .unwrap();
+        run.advance(1).unwrap().clone()
+    };
+    let drifted = tenths(&Kepler {}, n, energy, &mut steps);
+    println!("negative control: {drifted:?}");
+    assert!(drifted[9] > 3.0 * drifted[1], "{drifted:?}");
+}
+
+/// Constant steps are those of the scheme: the error of H stays that of rounding.
+#[test]
+fn constant_steps_keep_the_energy() {
+    let n = if is_heavy() { 10_000_000 } else { 10_000 };
+    let start = State::new([1.0], [0.0]);
+    let mut run = Integrator::to_tolerance(&quartic(), start.clone(), 1e-13).unwrap();
+    run.advance(100).unwrap();
+    let step = run.state().t / 100.0;
+    let kept = tenths(&quartic(), n, quartic().energy(&start), || {
+        run.advance(1).unwrap().clone()
+    });
+    let duration = run.state().t / run.steps() as f64;
+    println!(
+        "{kept:?}, steps of {step} and {duration}, {} refused",
+        run.refused_steps()
+    );
+    assert!(run.refused_steps() <= 2);
+    // A random walk of roundings of H, which is 1/4.
+    let walk = (n as f64).sqrt() * f64::EPSILON;
+    assert!(kept[9] < 4.0 * walk, "{kept:?} beside {walk:e}");
+}
+
+#[test]
+fn the_structure_names_the_scheme() {
+    fn of<S: ToTolerance>(_: &S) -> String {
+        S::Scheme::default().entry().to_string()
+    }
+    assert_eq!(of(&Kepler {}), "GaussNystrom (8 stages)");
+    assert_eq!(of(&Coupled {}), "Gauss (8 stages)");
+    assert_eq!(of(&Restricted::default()), "Gauss (8 stages)");
+    assert_eq!(of(&Damped {}), "Gauss (8 stages)");
+}
+
+/// The bits depend on neither blocks, nor observers, nor a saved run in between.
+#[test]
+fn the_same_run_has_the_same_bits() {
+    let new = || Integrator::to_tolerance(&Kepler {}, kepler(0.9), 1e-9).unwrap();
+    let mut whole = new();
+    let end = whole.advance(300).unwrap().clone();
+    let mut parts = new().observe(EnergyDrift::new());
+    for n in [1, 2, 97, 150, 50] {
+        parts.advance(n).unwrap();
+    }
+    assert_eq!(parts.state(), &end);
+    let mut first = new();
+    let saved = first
+        .advance(123)
+        .map(|_| ())
+        .map(|()| first.checkpoint())
+        .unwrap();
+    let scheme = Adaptive::new(GaussNystrom::<8>::default(), 1e-9);
+    let mut resumed = Integrator::resume(&Kepler {}, scheme, saved).unwrap();
+    assert_eq!(resumed.advance(177).unwrap(), &end);
+    assert_eq!(resumed.refused_steps(), whole.refused_steps());
+    // Nothing allocates in steps.
+    assert_eq!(allocations(|| drop(whole.advance(300).map(|_| ()))), 0);
+}
+
+/// States between steps, and backwards.
+#[test]
+fn any_time_in_both_directions() {
+    let system = pendulum();
+    let start = State::new([2.5], [0.0]);
+    let fine = |t: f64| {
+        let mut run = Integrator::to_tolerance(&system, start.clone(), 1e-14).unwrap();
+        run.advance_until(t).unwrap()
+    };
+    for sign in [1.0, -1.0] {
+        let scheme = Adaptive::new(GaussNystrom::<8>::default(), 1e-11);
+        let mut run = Integrator::new(&system, scheme, start.clone(), sign).unwrap();
+        for state in run.states_at([0.01, 0.5, 0.77, 3.0, 3.1].map(|t| sign * t)) {
+            let state = state.unwrap();
+            // q is even and p odd in t.
+            let exact = fine(state.t.abs());
+            let errors = [state.q[0] - exact.q[0], state.p[0] - sign * exact.p[0]];
+            assert!(
+                errors.iter().all(|x| x.abs() < 1e-9),
+                "{errors:?} at {}",
+                state.t
+            );
+        }
+    }
+}
+
+/// Derivatives by the start are those of the orbit: sizes of steps have none.
+#[test]
+fn derivatives_by_the_start() {
+    let system = pendulum();
+    let end = |q: f64| {
+        let mut run = Integrator::to_tolerance(&system, State::new([q], [0.0]), 1e-13).unwrap();
+        run.advance_until(7.0).unwrap().q[0]
+    };
+    let by = 1e-4;
+    let difference = (end(2.0 + by) - end(2.0 - by)) / (2.0 * by);
+    let start = State::over([Dual::variable(2.0)], [Dual::fixed(0.0)]);
+    let mut run = Integrator::to_tolerance(&system, start, 1e-13).unwrap();
+    let found = run.advance_until(Dual::fixed(7.0)).unwrap().q[0];
+    assert!(
+        (found.eps / difference - 1.0).abs() < 1e-6,
+        "{} {difference}",
+        found.eps
+    );
+}
+
+#[test]
+fn what_no_step_can_meet_is_refused() {
+    let with = |tolerance: Tolerance| {
+        Integrator::to_tolerance(&Kepler {}, kepler(0.5), tolerance).unwrap_err()
+    };
+    for relative in [0.0, -1e-6, f64::NAN, f64::INFINITY] {
+        let error = with(relative.into());
+        assert!(
+            matches!(error, Error::Start(StartError::Tolerance { .. })),
+            "{error}"
+        );
+    }
+    let error = with(Tolerance {
+        relative: 1e-6,
+        absolute: -1.0,
+    });
+    assert_eq!(
+        error.to_string(),
+        "a tolerance must be positive and finite, found 1e-6 relative and -1 absolute"
+    );
+    // A fall into the centre.
+    let start = State::new([1.0, 0.0], [0.0, 0.0]);
+    let mut run = Integrator::to_tolerance(&Kepler {}, start, 1e-9).unwrap();
+    let error = run.advance_until(10.0).unwrap_err();
+    assert!(
+        matches!(error, Error::Step(StepError::Refused { .. })),
+        "{error}"
+    );
+    // t = π/(2√2).
+    assert!(
+        (run.time() - 1.110_720_734_539_592).abs() < 1e-6,
+        "{}",
+        run.time()
+    );
+    println!("{error}");
+}

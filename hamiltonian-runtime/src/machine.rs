@@ -243,15 +243,17 @@ fn execute<T: Real>(
             }
             Op::Div(to, a, b) => r[to as usize] = r[a as usize] / r[b as usize],
             Op::Recip(to, a) => r[to as usize] = r[a as usize].recip(),
-            Op::Call(to, function, a) => r[to as usize] = function.eval(&[r[a as usize]]),
+            Op::Call(to, function, a) => r[to as usize] = function.eval_apart(&[r[a as usize]]),
             Op::CallTwo(to, function, a, b) => {
-                r[to as usize] = function.eval(&[r[a as usize], r[b as usize]]);
+                r[to as usize] = function.eval_apart(&[r[a as usize], r[b as usize]]);
             }
             Op::CallThree(to, function, a, b, c) => {
-                r[to as usize] = function.eval(&[r[a as usize], r[b as usize], r[c as usize]]);
+                r[to as usize] =
+                    function.eval_apart(&[r[a as usize], r[b as usize], r[c as usize]]);
             }
             Op::SinCos(sin, cos, a) => {
-                let (s, c) = r[a as usize].sin_cos();
+                let angle = r[a as usize];
+                let (s, c) = T::out_of_line(|| angle.sin_cos());
                 r[sin as usize] = s;
                 r[cos as usize] = c;
             }

@@ -68,7 +68,7 @@ fn a_force_of_the_momenta_has_no_kick_yet() {
     assert_eq!(marker, "Separable");
     assert!(message.contains("definitions at run time"), "{message}");
     let start = State::new(vec![0.5], vec![0.25]);
-    assert!(Integrator::new(&damped, Gauss::<2>::default(), start, 0.1).is_ok());
+    assert!(Integrator::new(&damped, Gauss::<8>::default(), start, 0.1).is_ok());
 }
 
 #[test]

@@ -133,7 +133,7 @@ fn separable_systems() {
         henon(),
         henon::TEXT,
         values(),
-        Gauss::<2>::default(),
+        Gauss::<8>::default(),
         [0.1, -0.1],
         [0.3, 0.2],
         0.1
@@ -161,7 +161,7 @@ fn separable_systems() {
         driven(),
         driven::TEXT,
         values(),
-        Gauss::<2>::default(),
+        Gauss::<8>::default(),
         [1.0],
         [0.0],
         0.05
@@ -195,7 +195,7 @@ fn pieces_forces_and_conditions() {
         damped(),
         damped::TEXT,
         values(),
-        Gauss::<2>::default(),
+        Gauss::<8>::default(),
         [1.0],
         [0.5],
         0.1
@@ -245,7 +245,7 @@ fn loops_over_arrays() {
             chain(),
             chain::TEXT,
             values(),
-            Gauss::<2>::default(),
+            Gauss::<8>::default(),
             q,
             p,
             0.1

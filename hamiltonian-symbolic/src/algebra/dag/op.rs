@@ -164,10 +164,21 @@ macro_rules! operations {
 
         impl Op {
             /// The function's value.
-            #[inline(always)]
             pub fn eval<T: Real>(self, arguments: &[T]) -> T {
                 match (self, arguments) {
                     $((Op::$variant, &[$($arg),+]) => operations!(@call $name $($arg)+),)+
+                    (op, arguments) => unreachable!("{op:?} of {} arguments", arguments.len()),
+                }
+            }
+
+            /// The function's value, for code that runs in packs: each function is compiled apart, with the instructions
+            /// of the pack, so that a caller is not as long as all of them together.
+            #[inline(always)]
+            pub fn eval_apart<T: Real>(self, arguments: &[T]) -> T {
+                match (self, arguments) {
+                    $((Op::$variant, &[$($arg),+]) => {
+                        T::out_of_line(|| operations!(@call $name $($arg)+))
+                    })+
                     (op, arguments) => unreachable!("{op:?} of {} arguments", arguments.len()),
                 }
             }

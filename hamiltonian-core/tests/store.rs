@@ -300,7 +300,7 @@ fn bad_layouts_and_data_are_refused() {
     let error = store.write(3, &data(&good, 2)).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "chunk 3: `chunk` has 3 values, and must have 3"
+        "there is no chunk 3: the layout has 3, and the last is chunk 2"
     );
     assert_eq!(tree(&path), before);
 

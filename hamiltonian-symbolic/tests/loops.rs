@@ -4,7 +4,7 @@
 use crate::common::{model, parse, system};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
-use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::index::{Affine, Domain, Size};
 use hamiltonian_symbolic::loops::{Sample, field, sample, unroll, unroll_nodes, unrolled};
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, Shape};
 use hamiltonian_symbolic::print::text;
@@ -232,4 +232,25 @@ fn derivatives_by_element_are_those_of_the_system_written_out() {
         }
     }
     assert!(checked > 200);
+}
+
+/// Values are exact, or none if they need more than 64 bits.
+#[test]
+fn values_of_affine_forms_are_checked() {
+    let (i, n) = (Domain(0), Size(0));
+    let form = |k: i64, constant: i64| Affine {
+        constant,
+        loops: vec![(i, k)],
+        sizes: vec![(n, -k)],
+        products: vec![(vec![n, n], 3)],
+    };
+    let value = |form: &Affine, i: i64, n: i64| form.checked_value(&|_| i, &|_| n);
+    assert_eq!(value(&form(2, 5), 7, 4), Some(2 * 7 - 2 * 4 + 3 * 16 + 5));
+    // Terms may be larger than their sum.
+    let large = 1 << 62;
+    assert_eq!(value(&form(large, -1), 9, 8), Some(large + 3 * 64 - 1));
+    assert_eq!(value(&form(large, 0), 10, 8), None);
+    assert_eq!(value(&form(0, 0), 0, 1 << 40), None);
+    assert_eq!(value(&form(0, i64::MAX), 0, 0), Some(i64::MAX));
+    assert_eq!(value(&form(0, i64::MAX), 0, 1), None);
 }

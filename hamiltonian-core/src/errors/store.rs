@@ -56,12 +56,20 @@ pub enum StoreError {
     Shape {
         /// The number of the chunk.
         chunk: u64,
-        /// The array, or `chunk` for a number beyond the last chunk.
+        /// The array.
         array: Box<str>,
         /// The number of values given.
         found: usize,
         /// The number the layout has.
         expected: usize,
+    },
+    /// The layout has no chunk of this number.
+    #[non_exhaustive]
+    NoChunk {
+        /// The number of the chunk.
+        chunk: u64,
+        /// The number of chunks.
+        chunks: u64,
     },
     /// The disk is full, or a quota is used up. Chunks written before are intact.
     #[non_exhaustive]
@@ -126,6 +134,11 @@ impl Display for StoreError {
             } => write!(
                 f,
                 "chunk {chunk}: `{array}` has {found} values, and must have {expected}"
+            ),
+            Self::NoChunk { chunk, chunks } => write!(
+                f,
+                "there is no chunk {chunk}: the layout has {chunks}, and the last is chunk {}",
+                chunks.saturating_sub(1)
             ),
             Self::Full { path } => write!(
                 f,

@@ -7,7 +7,7 @@
 use super::Checker;
 use crate::ast::ExprId;
 use crate::checked::{Bound, Extent, Reach};
-use hamiltonian_symbolic::index::{Affine, End, Size};
+use hamiltonian_symbolic::index::{Affine, End, Size, TRIED};
 use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Span;
 
@@ -27,10 +27,24 @@ impl Checker<'_> {
         for half in [form, &negated].map(positive) {
             let greatest = self.extreme(&half, End::Greatest);
             let greatest = self.fitting(raw, greatest)?;
+            self.fits_where_tried(raw, &positive(&greatest))?;
             let span = self.ast.nodes[raw.0 as usize].spans.start;
             self.fits_at(span, &positive(&greatest));
         }
         Some(())
+    }
+
+    /// Refuses a sum of positive terms over sizes that needs more than 64 bits at sizes at which the engine evaluates it.
+    fn fits_where_tried(&mut self, raw: ExprId, form: &Affine) -> Option<()> {
+        // The form depends on no loop.
+        let value = form.checked_value(&|_| 0, &|_| TRIED);
+        if value.is_none() {
+            let message = format!(
+                "values of this index or range need more than 64 bits for sizes of {TRIED}"
+            );
+            self.error_over(raw, message, "write smaller factors or shorter ranges");
+        }
+        value.map(|_| ())
     }
 
     /// Records that a sum of positive terms over sizes must fit a `usize`.

@@ -19,6 +19,12 @@ pub struct Size(pub u16);
 /// The most loops that one arena tells apart.
 pub const LOOPS: usize = MEMBERS;
 
+/// The largest size at which the engine evaluates indices and ranges, to refute statements.
+pub const TRIED: i64 = 256;
+
+/// The invariant of indices and ranges at the sizes at which they are evaluated.
+const FITS: &str = "a value of an index or a range fits 64 bits";
+
 /// A set of loops.
 pub type Loops = Set<Domain>;
 
@@ -162,14 +168,29 @@ impl Affine {
         (self.loops.is_empty() && !self.has_sizes()).then_some(self.constant)
     }
     /// The value for given loop variables and sizes.
+    ///
+    /// # Panics
+    /// If it needs more than 64 bits. The language refuses forms that do so for sizes up to [`TRIED`].
     pub fn value(&self, variable: &impl Fn(Domain) -> i64, size: &impl Fn(Size) -> i64) -> i64 {
-        let loops: i64 = self.loops.iter().map(|&(d, k)| k * variable(d)).sum();
-        let sizes: i64 = self.sizes.iter().map(|&(s, k)| k * size(s)).sum();
-        let product = |sizes: &[Size]| sizes.iter().map(|s| size(*s)).product::<i64>();
-        let products: i64 = (self.products.iter())
-            .map(|(sizes, k)| k * product(sizes))
-            .sum();
-        self.constant + loops + sizes + products
+        self.checked_value(variable, size).expect(FITS)
+    }
+    /// The value for given loop variables and sizes; `None` if it needs more than 64 bits.
+    pub fn checked_value(
+        &self,
+        variable: &impl Fn(Domain) -> i64,
+        size: &impl Fn(Size) -> i64,
+    ) -> Option<i64> {
+        // In 128 bits, terms of different signs may be larger than their sum.
+        let wide = i128::from;
+        let loops = (self.loops.iter()).map(|&(d, k)| Some(wide(k) * wide(variable(d))));
+        let sizes = (self.sizes.iter()).map(|&(s, k)| Some(wide(k) * wide(size(s))));
+        let products = self.products.iter().map(|(sizes, k)| {
+            let mut sizes = sizes.iter();
+            sizes.try_fold(wide(*k), |product, s| product.checked_mul(wide(size(*s))))
+        });
+        let mut terms = loops.chain(sizes).chain(products);
+        let sum = terms.try_fold(wide(self.constant), |sum, term| sum.checked_add(term?));
+        sum.and_then(|sum| i64::try_from(sum).ok())
     }
     /// The factor of a loop variable.
     #[must_use]
@@ -431,6 +452,9 @@ impl Index {
         }
     }
     /// The value for given loop variables and sizes.
+    ///
+    /// # Panics
+    /// As [`Affine::value`].
     pub fn value(&self, variable: &impl Fn(Domain) -> i64, size: &impl Fn(Size) -> i64) -> i64 {
         let value = self.affine.value(variable, size);
         let last = match &self.modulo {
@@ -439,7 +463,10 @@ impl Index {
         };
         match &self.outer {
             Some(outer) => {
-                outer.index.value(variable, size) * outer.extent.value(variable, size) + last
+                let (index, extent) = (&outer.index, &outer.extent);
+                let before = index.value(variable, size);
+                let before = before.checked_mul(extent.value(variable, size));
+                before.and_then(|n| n.checked_add(last)).expect(FITS)
             }
             None => last,
         }

@@ -175,8 +175,8 @@ impl Store {
     /// Writes a chunk, unless it is present.
     ///
     /// # Errors
-    /// [`StoreError::Shape`] for data that does not fit the layout, [`StoreError::Full`],
-    /// [`StoreError::File`].
+    /// [`StoreError::NoChunk`] for a number beyond the last chunk, [`StoreError::Shape`] for data that does not fit the
+    /// layout, [`StoreError::Full`], [`StoreError::File`].
     #[inline]
     pub fn write(&self, chunk: u64, data: &ChunkData) -> Result<(), Error> {
         self.check_shape(chunk, data)?;
@@ -451,14 +451,8 @@ impl Store {
         let range = self.layout.members_of(chunk);
         let members = (range.end - range.start) as usize;
         if members == 0 {
-            let number = |chunk: u64| usize::try_from(chunk).unwrap_or(usize::MAX);
-            let error = StoreError::Shape {
-                chunk,
-                array: "chunk".into(),
-                found: number(chunk),
-                expected: number(self.layout.chunks()),
-            };
-            return Err(error.into());
+            let chunks = self.layout.chunks();
+            return Err(StoreError::NoChunk { chunk, chunks }.into());
         }
         check(STATUS, data.status.len(), members)?;
         check(TIME, data.time.len(), members)?;

@@ -28,7 +28,7 @@ pub(crate) use atoms::{Algebra, Key, Scope};
 pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_power};
 
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::index::{Affine, LOOPS, Size};
+use crate::index::{Affine, LOOPS, Size, TRIED};
 use crate::loops::{Sample, SamplePoint, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
@@ -49,9 +49,6 @@ pub(crate) const SMALL_BUDGET: Budget = Budget {
     terms: 4_000,
     products: 40_000,
 };
-
-/// The largest size that is tried.
-const LARGEST_SIZE: i64 = 256;
 
 /// The answer to the question if an expression is identically zero.
 #[derive(Clone, PartialEq, Debug)]
@@ -233,7 +230,7 @@ fn decide(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Result<bool, Unde
 
 /// The sizes at which a statement about all sizes is tried: small ones, one past every index that
 /// is given by number, and, where there are several sizes, different ones, some twice as large as others. Each is raised
-/// until the elements at fixed indices exist; none is left where they exist at no sizes up to [`LARGEST_SIZE`].
+/// until the elements at fixed indices exist; none is left where they exist at no sizes up to [`TRIED`].
 pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
     let count = model.sizes.len();
     if count == 0 {
@@ -248,7 +245,7 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
         }
     }
     let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).collect();
-    if (4..LARGEST_SIZE - 3).contains(&last) {
+    if (4..TRIED - 3).contains(&last) {
         trials.push(vec![last + 3; count]);
     }
     if count > 1 {
@@ -277,7 +274,7 @@ fn with_room(rooms: &[Affine], mut sizes: Vec<i64>) -> Option<Vec<i64>> {
         let raised = (0..sizes.len()).find_map(|at| {
             let mut more = sizes.clone();
             more[at] += 1;
-            (more[at] <= LARGEST_SIZE && value(room, &more) > before).then_some(more)
+            (more[at] <= TRIED && value(room, &more) > before).then_some(more)
         });
         sizes = raised?;
     }

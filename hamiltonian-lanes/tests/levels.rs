@@ -1,7 +1,7 @@
 //! Packs of every level this machine has, lane by lane against `f64`.
 
 use hamiltonian_lanes::{
-    Base, Cpu, Dual, Kernel, Level, Mask, Nf, Pack, Real, W, dispatch, dispatch_at_most,
+    Called, Cpu, Dual, Kernel, Level, Mask, Nf, Pack, Real, W, dispatch, dispatch_at_most,
 };
 
 /// Runs `$check::<P>()` for the packs `P` that are listed, on every level.
@@ -20,7 +20,7 @@ macro_rules! on_every_level {
         }
     }};
     ($check:ident) => {
-        on_every_level!($check: L::Scalar, L::Pack, L::Wide, Nf<L::Wide>, W<Nf<L::Pack>, 3>);
+        on_every_level!($check: L::Scalar, L::Pack, L::Wide, Nf<L::Wide>, W<Nf<L::Pack>, 3>, Called<L::Wide>);
         $check::<f64>();
         $check::<W<f64, 5>>();
     };
@@ -243,7 +243,7 @@ fn slices_of_any_length_are_loaded_and_stored() {
     on_every_level!(remainders_are_padded);
 }
 
-fn sizes_are_told_lane_by_lane<P: Base>() {
+fn sizes_are_told_lane_by_lane<P: Pack>() {
     for round in 0..100 {
         let x = numbers::<P>(round * 200);
         let pack = P::load(&x, 0.0);
@@ -307,7 +307,73 @@ fn duals_are_those_of_f64<P: Pack>() {
 
 #[test]
 fn duals_of_packs_have_the_bits_of_duals() {
-    on_every_level!(duals_are_those_of_f64: Nf<L::Pack>);
+    on_every_level!(duals_are_those_of_f64: Nf<L::Pack>, Called<Nf<L::Pack>>);
+}
+
+/// A function of up to three numbers.
+type Function<T> = fn(T, T, T) -> T;
+
+/// The functions of a scalar beside [`operations`] and [`functions_of_two`]. The numbers may be outside of their domain.
+fn functions<T: Real>() -> [Function<T>; 30] {
+    [
+        |x, _, _| x.cbrt(),
+        |x, _, _| x.floor(),
+        |x, _, _| x.round(),
+        |x, _, _| x.sin(),
+        |x, _, _| x.cos(),
+        |x, _, _| x.tan(),
+        |x, _, _| x.asin(),
+        |x, _, _| x.acos(),
+        |x, _, _| x.atan(),
+        |x, _, _| x.sinh(),
+        |x, _, _| x.cosh(),
+        |x, _, _| x.asinh(),
+        |x, _, _| x.acosh(),
+        |x, _, _| x.atanh(),
+        |x, _, _| x.exp(),
+        |x, _, _| x.exp_m1(),
+        |x, _, _| x.ln_1p(),
+        |x, _, _| x.erf(),
+        |x, _, _| x.erfc(),
+        |x, _, _| x.stumpff_2(),
+        |x, _, _| x.stumpff_3(),
+        |x, _, _| x.sin_cos().0,
+        |x, _, _| x.sin_cos().1,
+        |x, _, _| T::look_up([x], |[x]| [2.0 * x])[0],
+        |x, y, _| T::out_of_line(|| x + y),
+        |x, y, _| x.modulo(y),
+        |x, y, _| x.remainder(y),
+        |x, y, _| x.orbit_remainder(y),
+        |x, y, z| x.universal_anomaly(y, z),
+        |x, y, z| x.fma(y, z),
+    ]
+}
+
+fn calls_are_the_pack<P: Pack>() {
+    for (which, (called, inlined)) in functions::<Called<P>>()
+        .iter()
+        .zip(functions::<P>())
+        .enumerate()
+    {
+        for round in 0..200 {
+            let at = |k: u64| P::load(&numbers::<P>(round * 400 + 100 * k), 0.0);
+            let (x, y, z) = (at(0), at(1), at(2));
+            let found = lanes(called(Called(x), Called(y), Called(z)));
+            for (found, expected) in found.into_iter().zip(lanes(inlined(x, y, z))) {
+                assert_eq!(
+                    bits(found),
+                    bits(expected),
+                    "{which} of {x:?}, {y:?}, {z:?}"
+                );
+            }
+            assert_eq!(Called(x).is_finite(), x.is_finite());
+        }
+    }
+}
+
+#[test]
+fn calls_have_the_bits_of_the_pack() {
+    on_every_level!(calls_are_the_pack: L::Pack, Nf<L::Pack>);
 }
 
 struct Which;

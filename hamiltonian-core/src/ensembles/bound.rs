@@ -11,6 +11,7 @@ use crate::errors::Error;
 use crate::flows::map::Map;
 use crate::runs::integrator::{Recipe, check_scheme};
 use crate::schemes::scheme::{CarriedBy, Entry, Listed, Scheme};
+use crate::systems::compiled::Compiled;
 use crate::systems::state::{Carried, State};
 use crate::systems::system::{System, VectorOf};
 use crate::systems::vector::Vector;
@@ -122,9 +123,9 @@ where
     #[inline(always)]
     fn at<L: Level, Fused: Pack, Unfused: Pack>(self) {
         if const { A::FUSES || !L::FUSES } {
-            self.work.at::<L, Fused, M>(self.scheme);
+            self.work.at::<L, Compiled<Fused>, M>(self.scheme);
         } else {
-            self.work.at::<L, Unfused, M>(self.scheme);
+            self.work.at::<L, Compiled<Unfused>, M>(self.scheme);
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Input: the arguments of up to eight calls. Output: the values, computed in the registers that each CPU of the
 //! architecture has, so that no level is entered. Invariant: the bits are those of one call after the other.
 
+use crate::systems::compiled::Compiled;
 use hamiltonian_lanes::{AtHand, Cpu, Level, Nf, Pack, Real};
 
 /// The most calls that are computed together.
@@ -100,9 +101,9 @@ pub fn together<T: Real, C: Call, const N: usize, const WRITTEN_OUT: bool>(
         k += 1;
     }
     let all = match N {
-        0..=2 => in_pack::<T, C, Nf<<AtHand as Level>::Pack>, WRITTEN_OUT>(&padded),
-        3..=4 => in_pack::<T, C, Nf<<AtHand as Level>::Four>, WRITTEN_OUT>(&padded),
-        _ => in_pack::<T, C, Nf<<AtHand as Level>::Eight>, WRITTEN_OUT>(&padded),
+        0..=2 => in_pack::<T, C, Compiled<Nf<<AtHand as Level>::Pack>>, WRITTEN_OUT>(&padded),
+        3..=4 => in_pack::<T, C, Compiled<Nf<<AtHand as Level>::Four>>, WRITTEN_OUT>(&padded),
+        _ => in_pack::<T, C, Compiled<Nf<<AtHand as Level>::Eight>>, WRITTEN_OUT>(&padded),
     };
     let mut out = [all[0]; N];
     let mut k = 1;

@@ -12,6 +12,7 @@ mod packs;
 mod waiting;
 
 use crate::loops::slabs::{on_two_threads, slabs};
+use crate::systems::compiled::Compiled;
 use crate::systems::system::Arithmetic;
 use hamiltonian_lanes::{Kernel, Level, Nf, Real, dispatch};
 pub use nest::{Mode, Nest, nest};
@@ -274,7 +275,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             self.add_before::<B, W>(ends, middle);
         }
         let mut columns = self.columns;
-        let mut after = columns.each_mut().map(|_| &mut [][..]);
+        let mut after = no_elements();
         for ((column, after), [least, _]) in columns.iter_mut().zip(&mut after).zip(ends) {
             if *least != usize::MAX {
                 (*column, *after) = core::mem::take(column).split_at_mut(least + middle);
@@ -284,10 +285,14 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         for (store, offset) in B::STORES.iter().zip(&mut offsets) {
             *offset -= ends[store.column][0];
         }
+        let (mut before, mut rest) = (self.reads, self.reads);
+        for (before, rest) in before.iter_mut().zip(&mut rest) {
+            (*before, *rest) = before.split_at(middle);
+        }
         let mut no_sums = ([[T::zero(); STRIDE]; A], [[T::zero(); STRIDE]; A]);
         let mut first = Some(Stretch {
             length: middle,
-            reads: self.reads.map(|read| &read[..middle]),
+            reads: before,
             columns,
             sums: &mut no_sums.0,
             ..self
@@ -296,13 +301,16 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             length: self.length - middle,
             first: self.first + middle,
             number: self.number + middle,
-            reads: self.reads.map(|read| &read[middle..]),
+            reads: rest,
             columns: after,
             offsets,
             sums: &mut no_sums.1,
             ..self
         });
-        let from_0 = ends.map(|[least, most]| [0, most.saturating_sub(least)]);
+        let mut from_0 = *ends;
+        for [least, most] in &mut from_0 {
+            (*least, *most) = (0, most.saturating_sub(*least));
+        }
         on_two_threads(
             &mut || {
                 if let Some(first) = first.take() {
@@ -329,11 +337,11 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
                 true => T::constant((self.number + k) as f64, 0.0),
                 false => T::zero(),
             };
-            let out = B::compute(self.given, self.reads.map(|read| read[k]), number);
+            let out = B::compute(self.given, elements(&self.reads, k), number);
             for (store, offset) in B::STORES.iter().zip(self.offsets) {
                 if offset + k >= ends[store.column][0] + middle {
                     let place = &mut self.columns[store.column][offset + k];
-                    *place = changed(store.change, *place, store.by.map(|by| out[by]));
+                    *place = changed(store.change, *place, [out[store.by[0]], out[store.by[1]]]);
                 }
             }
         }
@@ -343,7 +351,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     #[inline(always)]
     fn reborrow(&mut self) -> Stretch<'_, T, G, R, C, S, A> {
         Stretch {
-            columns: self.columns.each_mut().map(|column| &mut **column),
+            columns: reborrowed(&mut self.columns),
             sums: &mut *self.sums,
             ..*self
         }
@@ -369,22 +377,16 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             ..
         } = self;
         for k in 0..count {
-            let mut read = [T::zero(); R];
-            let mut r = 0;
-            while r < R {
-                read[r] = reads[r][k];
-                r += 1;
-            }
             let number = match B::COUNTS {
                 true => T::constant((number + k) as f64, 0.0),
                 false => T::zero(),
             };
-            let out = B::compute(given, read, number);
+            let out = B::compute(given, elements(&reads, k), number);
             let mut s = 0;
             while s < B::STORES.len() {
                 let store = &B::STORES[s];
                 let place = &mut columns[store.column][offsets[s] + k];
-                *place = changed(store.change, *place, store.by.map(|by| out[by]));
+                *place = changed(store.change, *place, [out[store.by[0]], out[store.by[1]]]);
                 s += 1;
             }
             let mut s = 0;
@@ -395,6 +397,28 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             }
         }
     }
+}
+
+/// Element `k` of each column.
+#[inline(always)]
+fn elements<T: Real, const R: usize>(columns: &[&[T]; R], k: usize) -> [T; R] {
+    let mut all = [T::zero(); R];
+    let mut r = 0;
+    while r < R {
+        all[r] = columns[r][k];
+        r += 1;
+    }
+    all
+}
+
+/// Columns without elements. (A closure in a method would be compiled for each body of a loop.)
+fn no_elements<'a, T, const C: usize>() -> [&'a mut [T]; C] {
+    [(); C].map(|()| &mut [][..])
+}
+
+/// The same columns, borrowed for a shorter time.
+fn reborrowed<'a, T, const C: usize>(columns: &'a mut [&mut [T]; C]) -> [&'a mut [T]; C] {
+    columns.each_mut().map(|column| &mut **column)
 }
 
 /// An element after a store.
@@ -442,9 +466,9 @@ impl<
     fn run<L: Level>(self) {
         let (stretch, is_followed) = (self.stretch, self.is_followed);
         if L::FUSES && stretch.arithmetic.fused {
-            packs::<T, B, L::Eight, G, R, C, S, A, W>(stretch, is_followed);
+            packs::<T, B, Compiled<L::Eight>, G, R, C, S, A, W>(stretch, is_followed);
         } else {
-            packs::<T, B, Nf<L::Eight>, G, R, C, S, A, W>(stretch, is_followed);
+            packs::<T, B, Compiled<Nf<L::Eight>>, G, R, C, S, A, W>(stretch, is_followed);
         }
     }
 }

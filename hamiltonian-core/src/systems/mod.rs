@@ -13,7 +13,9 @@
 //! | systems made of systems | `observed`, `transformed` |
 //! | parameters that are functions | [`function`] |
 //! | coordinates of bodies | [`coordinates`] |
+//! | packs, as this crate is compiled | `compiled` |
 
+pub(crate) mod compiled;
 pub mod coordinates;
 pub(crate) mod derivatives;
 pub(crate) mod domain;

@@ -37,4 +37,4 @@ mod register;
 mod sse2;
 
 pub use dispatch::{AtHand, Cpu, Kernel, Level, dispatch, dispatch_at_most};
-pub use pack::{Base, Nf, W};
+pub use pack::{Base, Called, Nf, W};

@@ -5,6 +5,7 @@
 
 use super::packs::packs;
 use super::{Body, STRIDE, Stretch};
+use crate::systems::compiled::Compiled;
 use crate::systems::system::Arithmetic;
 use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
 
@@ -153,9 +154,9 @@ impl<
             ..
         } = self;
         if L::FUSES && arithmetic.fused {
-            N::run::<In<L::Eight>>(given, reads, columns, sizes, arithmetic);
+            N::run::<In<Compiled<L::Eight>>>(given, reads, columns, sizes, arithmetic);
         } else {
-            N::run::<In<Nf<L::Eight>>>(given, reads, columns, sizes, arithmetic);
+            N::run::<In<Compiled<Nf<L::Eight>>>>(given, reads, columns, sizes, arithmetic);
         }
     }
 }

@@ -10,6 +10,7 @@
 //! of others, such as a time-transformed one, passes its kernel on to each of them in turn.
 
 use super::{Dynamics, System, VectorOf};
+use crate::systems::compiled::Compiled;
 use crate::systems::vector::{Over, Vector};
 use alloc::boxed::Box;
 use core::any::Any;
@@ -136,9 +137,9 @@ impl<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>> Kernel for SystemKernel<
         let SystemKernel { system, kept, .. } = self;
         let kernel = AtLevel(self.kernel);
         if system.arithmetic().fused {
-            system.in_pack::<K::Pack<L>, _>(kept, kernel)
+            system.in_pack::<Compiled<K::Pack<L>>, _>(kept, kernel)
         } else {
-            system.in_pack::<Nf<K::Pack<L>>, _>(kept, kernel)
+            system.in_pack::<Compiled<Nf<K::Pack<L>>>, _>(kept, kernel)
         }
     }
 }

@@ -1,14 +1,16 @@
 //! Packs: several `f64` as one scalar.
 //!
 //! Input: registers of a level, or `f64`. Output: each [`Pack`], with one register ([`V`]), several
-//! in lock-step ([`W`]) and any of them unfused ([`Nf`]). Invariant: a lane's result depends on
+//! in lock-step ([`W`]), any of them unfused ([`Nf`]) or by calls ([`Called`]). Invariant: a lane's result depends on
 //! that lane's operands alone, and equals that of `f64` in every pack that does not fuse.
 
+mod called;
 mod parameter;
 mod register;
 mod unfused;
 mod wide;
 
+pub use called::Called;
 pub use register::V;
 pub use unfused::Nf;
 pub use wide::W;

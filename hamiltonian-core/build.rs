@@ -1,0 +1,9 @@
+//! Sets `unoptimised` where this crate is compiled without optimisation: operations of packs are functions then.
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rustc-check-cfg=cfg(unoptimised)");
+    if std::env::var_os("OPT_LEVEL").is_some_and(|level| level == "0") {
+        println!("cargo::rustc-cfg=unoptimised");
+    }
+}

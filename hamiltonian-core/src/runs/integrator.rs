@@ -14,6 +14,7 @@ use crate::systems::state::{Carried, IntoStart, State};
 use crate::systems::system::{Description, Dynamics, ParameterText, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::boxed::Box;
+use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;

@@ -7,18 +7,16 @@ use hamiltonian_symbolic::dag::{Kind, Node, Stage};
 use hamiltonian_symbolic::op::Op;
 use std::fmt::Write;
 
-/// The number of expressions.
-const COUNT: usize = 256;
 /// The number of points each is evaluated at.
 pub const TESTS: usize = 16;
 
-/// The trees, each with the function of `compiled.rs` that evaluates it. Every third one is made
+/// The first `count` trees, each with the function of `compiled.rs` that evaluates it. Every third one is made
 /// a sum T(p, t) + V(q, t), all others couple. An H without momenta, which the language refuses, is
 /// left out, and so is a number that is none.
-pub fn trees() -> Vec<(Tree, &'static str)> {
+pub fn trees(count: usize) -> Vec<(Tree, &'static str)> {
     let mut random = Random(0x5EED);
     let mut trees = Vec::new();
-    while trees.len() < COUNT {
+    while trees.len() < count {
         let (mut tree, _) = grow(&mut random);
         let splits = trees.len() % 3 == 0;
         if splits {
@@ -137,7 +135,7 @@ pub fn file(name: &str, numbers: Range<usize>) -> String {
          /// The numbers of the expressions in it.\n\
          pub const NUMBERS: core::ops::Range<usize> = {numbers:?};\n"
     );
-    let trees = trees();
+    let trees = trees(numbers.end);
     let here = || numbers.clone().zip(&trees[numbers.clone()]);
     for (number, (tree, _)) in here() {
         let h = tree.text();

@@ -160,7 +160,7 @@ fn bits_are_those_of_the_interpreter() {
     let mut random = tree::Random(0xB175);
     let (mut compared, mut finite, mut separated) = (0, 0, 0);
     let mut wrong = Vec::new();
-    let trees = trees();
+    let trees = trees(NUMBERS.end);
     for number in NUMBERS {
         let (tree, kind) = &trees[number];
         let interpreted = Interpreted::of(tree);

@@ -323,6 +323,24 @@ fn the_same_run_has_the_same_bits() {
     assert_eq!(allocations(|| drop(whole.advance(300).map(|_| ()))), 0);
 }
 
+/// A run whose parameters were changed has those of a new run, in every step.
+#[test]
+fn changed_parameters_hold_in_all_steps() {
+    let start = State::new([2.5], [0.0]);
+    let [light, heavy] = [1.0, 2.0].map(|gravity| Oscillator {
+        gravity,
+        ..Oscillator::default()
+    });
+    let scheme = Adaptive::new(GaussNystrom::<8>::default(), 1e-9);
+    // The parameter is no first step, so that each step is resized.
+    let mut changed = Integrator::new(&light, scheme, start.clone(), 1.0).unwrap();
+    changed.advance(5).unwrap();
+    changed.set_system(&heavy).unwrap();
+    let now = changed.state().clone();
+    let mut new = Integrator::new(&heavy, scheme, now, 1.0).unwrap();
+    assert_eq!(changed.advance(20).unwrap(), new.advance(20).unwrap());
+}
+
 /// States between steps, and backwards.
 #[test]
 fn any_time_in_both_directions() {

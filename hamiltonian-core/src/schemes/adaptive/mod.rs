@@ -16,6 +16,7 @@ use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, Point, State};
 use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
+use core::sync::atomic::{AtomicUsize, Ordering};
 use hamiltonian_lanes::{Mask, Real};
 use timescale::Derivatives;
 pub use tolerance::{Estimates, Tail, Tolerance};
@@ -155,6 +156,7 @@ where
             tail: Tail::new(),
             tolerance: self.tolerance,
             parameter: step.h,
+            number: MAPS.fetch_add(1, Ordering::Relaxed),
         }
     }
     fn start<T: Real>(
@@ -198,12 +200,18 @@ pub struct Following<T: Real, S: System, M: Estimates<S>> {
     tail: Tail<T>,
     tolerance: Tolerance,
     parameter: T,
+    /// No other map has it.
+    number: usize,
 }
+
+/// The number of maps made.
+static MAPS: AtomicUsize = AtomicUsize::new(0);
 
 /// The scratch of [`Following`].
 pub struct FollowingWork<C: Carried, M, W> {
-    /// The map for a step of `by` times the parameter.
+    /// The map for a step of `by` times the parameter, of the map with the number `of`.
     map: Option<M>,
+    of: usize,
     by: C::Scalar,
     inner: W,
     before: C,
@@ -215,6 +223,7 @@ impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W
     fn like(like: &Follows<C>) -> Self {
         FollowingWork {
             map: None,
+            of: 0,
             by: C::Scalar::zero(),
             inner: W::like(&like.of),
             before: like.of.clone(),
@@ -264,8 +273,11 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         if by.equals(T::one()).all() {
             self.map.step(t, t + h, of, &mut work.inner);
         } else {
-            if work.map.is_none() {
+            // The scratch may have been that of another map, with other parameters.
+            if work.map.is_none() || work.of != self.number {
                 work.map = Some(M::copy(&self.map));
+                work.of = self.number;
+                work.by = T::zero();
             }
             if let Some(map) = &mut work.map {
                 if !by.equals(work.by).all() {

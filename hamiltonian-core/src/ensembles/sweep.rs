@@ -106,8 +106,9 @@ impl<'a, S: ToTolerance> Sweep<'a, S, Adaptive<S::Scheme>>
 where
     Adaptive<S::Scheme>: Scheme<S>,
 {
-    /// Describes a sweep over members with steps from a tolerance, each its own, as
-    /// [`Integrator::to_tolerance`](crate::Integrator::to_tolerance) has them. It still needs an end and a record.
+    /// Describes a sweep over members with steps from a tolerance, each its own, by
+    /// the scheme that [`Integrator::to_tolerance`](crate::Integrator::to_tolerance) takes. It still needs an end after the
+    /// starts, and a record. A tolerance that is not positive is the error of each member.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]

@@ -147,8 +147,14 @@ impl<C: Carried, const N: usize> Carried for Pace<C, N> {
     fn time(&self, _: C::Scalar) -> C::Scalar {
         self.numbers[2]
     }
+    /// The longer one of the last step, where that is carried, and the next.
     fn duration(&self, interval: C::Scalar) -> Option<C::Scalar> {
-        Some(interval / self.numbers[0])
+        let next = self.numbers[0];
+        let least = match self.numbers.get(8) {
+            Some(last) => C::Scalar::select(last.lt(next), *last, next),
+            None => next,
+        };
+        Some(interval / least)
     }
     fn refused(&self) -> u64 {
         self.numbers

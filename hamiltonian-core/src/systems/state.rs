@@ -371,8 +371,8 @@ pub trait Carried: Vector {
     fn duration(&self, _interval: Self::Scalar) -> Option<Self::Scalar> {
         None
     }
-    /// How many steps were refused and repeated with another size; 0 for schemes that refuse none. In several lanes, the
-    /// number of the first.
+    /// How often the size of a step was refused or set anew; 0 for schemes that choose none. In several lanes, the number
+    /// of the first.
     fn refused(&self) -> u64 {
         0
     }

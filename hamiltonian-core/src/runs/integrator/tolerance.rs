@@ -33,7 +33,8 @@ impl<T: Real, S: ToTolerance, R: MapOf<T, S>> Integrator<T, S, R> {
     /// ```
     ///
     /// # Errors
-    /// [`StartError::Tolerance`](crate::errors::StartError::Tolerance) for a tolerance that is not positive, and those of [`Integrator::new`].
+    /// [`StartError::Tolerance`](crate::errors::StartError::Tolerance) for a tolerance that is not positive, and those of
+    /// [`Integrator::new`].
     pub fn to_tolerance(
         system: &S,
         start: impl IntoStart<VectorOf<S, T>>,
@@ -60,8 +61,8 @@ impl<T: Real, S: ToTolerance, R: MapOf<T, S>> Integrator<T, S, R> {
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// Returns the number of steps that were refused and repeated with a smaller size, in a run of [`Adaptive`]; 0 in runs
-    /// of other schemes, which refuse none. In several lanes, the number of the first.
+    /// Returns how often a size of a step was refused, or the density of steps set anew, in a run of [`Adaptive`]; 0 in
+    /// runs of other schemes. In several lanes, the number of the first.
     pub fn refused_steps(&self) -> u64 {
         self.carried.refused()
     }

@@ -56,7 +56,8 @@ pub trait ToTolerance: System + Sized {
 /// most 16 steps from the start chooses how sizes follow each other:
 ///
 /// - *Constant*, if the smallest of the pilot's sizes takes at most twice as many steps as varying sizes do. The steps are
-///   then those of the scheme alone, and symplectic. A refused step halves the size from there on; after the second time a
+///   then those of the scheme, and symplectic: exactly if the size is the step parameter of the run, to rounding
+///   otherwise. A refused step halves the size from there on; after the second time a
 ///   pilot chooses anew.
 /// - *Varying* otherwise. The density of steps ρ follows the time scale of the orbit as in [`Paced`](super::Paced), with
 ///   G = d ln Q/dt of
@@ -68,9 +69,13 @@ pub trait ToTolerance: System + Sized {
 ///   which is ω⁴ for an oscillator and r⁻⁶ for Kepler's problem, up to a factor. These steps are reversible: the error of
 ///   H does not drift.
 ///
-/// A refused step ends reversibility there: the density is larger from then on.
-/// [`Integrator::refused_steps`](crate::Integrator::refused_steps) counts such steps. A few near the start mean nothing; a
+/// A step is at most three times as long as the density before it says, and the density is set anew where it has left
+/// Q by a factor of four. This and a refused size, from which on the density is larger, end reversibility there.
+/// [`Integrator::refused_steps`](crate::Integrator::refused_steps) counts all three. A few near the start mean nothing; a
 /// number that grows through a long run means that Q does not describe the motion, and that H may drift.
+///
+/// Nothing is known of H between the stages of a step. A start in a place without forces has no Q: the first step
+/// may then jump over a narrow barrier. Start such a run with a scheme and a step.
 ///
 /// Time is carried as in [`Paced`](super::Paced): the clock of a run counts its step parameter, whose size does not matter
 /// and whose sign is the direction. [`Integrator::to_tolerance`](crate::Integrator::to_tolerance) sets it to the first
@@ -121,8 +126,9 @@ impl<M: OneStep> Listed for Adaptive<M> {
 }
 
 /// The numbers that [`Adaptive`] carries beside the scheme's: ρ, G, t; for constant steps the largest ρ, 0 for others; the
-/// number of refused steps; the low word of t; ρ/Q as it is due, and as the pilot found it.
-const NUMBERS: usize = 8;
+/// number of refused steps; the low word of t; ρ/Q as it is due, and as it was found first, 0
+/// before there is a Q; ρ in the last step.
+const NUMBERS: usize = 9;
 
 /// What [`Adaptive`] carries.
 type Follows<C> = Pace<C, NUMBERS>;
@@ -185,7 +191,8 @@ where
                 T::constant(ALONE, 0.0),
                 zero,
                 zero,
-                one,
+                zero,
+                zero,
                 one,
             ],
         }
@@ -224,7 +231,7 @@ impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W
         FollowingWork {
             map: None,
             of: 0,
-            by: C::Scalar::zero(),
+            by: C::Scalar::constant(f64::NAN, 0.0),
             inner: W::like(&like.of),
             before: like.of.clone(),
             after: like.of.clone(),
@@ -277,7 +284,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             if work.map.is_none() || work.of != self.number {
                 work.map = Some(M::copy(&self.map));
                 work.of = self.number;
-                work.by = T::zero();
+                work.by = T::constant(f64::NAN, 0.0);
             }
             if let Some(map) = &mut work.map {
                 if !by.equals(work.by).all() {
@@ -319,7 +326,8 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             mut refused,
             mut low,
             mut unit,
-            first,
+            mut first,
+            _,
         ] = z.numbers;
         let half = self.parameter * T::constant(0.5, 0.0);
         let is_constant = zero.lt(limit);
@@ -338,8 +346,12 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             let alone = T::constant(ALONE, 0.0).le(limit);
             // This is false for NaN, of a step that was not solved.
             let fine = alone | error.le(one);
-            let refuses = open & !fine;
+            let mut refuses = open & !fine;
             attempts += 1;
+            if refuses.any() {
+                // Where the step before has failed, there is nothing to try.
+                refuses = refuses & work.before.finite();
+            }
             if !refuses.any() {
                 break;
             }
@@ -359,20 +371,25 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
         if attempts > 1 {
             z.of.copy_where(!open, &work.after);
         }
-        let h = self.parameter * fixed(density.recip()) + low;
-        let end = t + h;
-        low = h - (end - t);
+        let made = density;
+        let h = self.parameter * fixed(density.recip());
         // Steps that no longer move the time end at a singularity.
-        let stuck = h.abs().lt(t.abs() * T::constant(T::epsilon() * STUCK, 0.0));
-        if stuck.any() {
-            z.of.poison(stuck);
+        let moves = (t.abs() * T::constant(T::epsilon() * STUCK, 0.0)).lt(h.abs());
+        if !moves.all() {
+            z.of.poison(!moves);
         }
+        let by = h + low;
+        let end = t + by;
+        low = by - (end - t);
         if !is_constant.all() {
             let [scale, found] = self.scale(h, end, z.of.point(), &mut work.derivatives);
             rate = T::select(is_constant, zero, fixed(found));
             let dense = fixed(scale.sqrt().sqrt());
             let is_known = zero.lt(dense) & dense.finite() & !is_constant;
             let here = density + half * rate;
+            let is_first = is_known & unit.equals(zero);
+            first = T::select(is_first, here / dense, first);
+            unit = T::select(is_first, first, unit);
             let [more, most] = HIGHER.map(|x| T::constant(x, 0.0));
             let higher = unit * more;
             let higher = T::select(higher.lt(first * most), higher, first * most);
@@ -385,16 +402,21 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             let less = here * T::constant(0.5, 0.0);
             density = T::select(astray, larger(due, less), here);
         }
-        z.numbers = [density, rate, end, limit, refused, low, unit, first];
+        z.numbers = [density, rate, end, limit, refused, low, unit, first, made];
         let lost = changed & is_constant & limit.lt(density);
         if lost.any() {
             pilot::again(self, lost, z);
         }
     }
 
-    /// A step whose end is not finite was refused at every size that moves the time.
+    /// A step whose end is not finite was refused at every size that moves the time; a single step was that of the scheme.
     #[cold]
-    fn explain(&self, _: T, _: T, _: bool, _: &mut Self::Carried, _: &mut Self::Work) -> Cause {
+    fn explain(&self, _: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
+        let [_, _, t, limit, ..] = z.numbers;
+        if T::constant(ALONE, 0.0).le(limit).any() {
+            let end = t + self.parameter;
+            return self.map.explain(t, end, true, &mut z.of, &mut work.inner);
+        }
         Cause::Refused {
             relative: self.tolerance.relative,
             absolute: self.tolerance.absolute,

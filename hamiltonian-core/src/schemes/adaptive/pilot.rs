@@ -3,7 +3,7 @@
 //! Input: a start. Output: the numbers with which a run begins. Invariant: the pilot depends on the start alone, and
 //! makes at most 16 steps.
 
-use super::{AIM, Derivatives, Following, Follows, NUMBERS, WorkOf, fixed, larger, root};
+use super::{AIM, APART, Derivatives, Following, Follows, NUMBERS, WorkOf, fixed, larger, root};
 use crate::schemes::adaptive::Estimates;
 use crate::schemes::paced::Pace;
 use crate::schemes::scheme::CarriedBy;
@@ -15,11 +15,14 @@ use hamiltonian_lanes::{Mask, Real};
 
 /// The most steps that look for the first size, and the steps that follow.
 const TRIALS: [u32; 2] = [6, 10];
-/// The largest first step, and the largest constant one, in units of 1/Q. Longer ones do not show how Q varies along the
+/// The largest first step, and the largest constant one, in units of 1/Q; without a Q, in units of the larger of |q|/|q̇|
+/// and |p|/|ṗ|. Longer ones do not show how Q varies along the
 /// orbit, and their equations take many iterations.
 const LARGEST: [f64; 2] = [1.0, 1.5];
-/// The largest factor between a size and the one with the error aimed at.
+/// The largest factor between a size and the one with the error aimed at; between two trials of a first size.
 const FARTHEST: f64 = 4.0;
+/// See [`FARTHEST`].
+const LEAP: f64 = 100.0;
 /// Constant steps may be so many times as many as varying ones, which cost more each.
 const WORTH: f64 = 2.0;
 /// The largest density with constant steps, in units of the first: the second halving is above it.
@@ -30,9 +33,9 @@ fn number<T: Real>(x: f64) -> T {
     T::constant(x, 0.0)
 }
 
-/// The factor of a size by which its error becomes the one aimed at.
-fn factor<T: Real>(error: T) -> T {
-    let [least, most] = [number::<T>(0.1), number::<T>(FARTHEST)];
+/// The factor of a size by which its error becomes the one aimed at, up to `most`.
+fn factor<T: Real>(error: T, most: f64) -> T {
+    let [least, most] = [number::<T>(0.1), number::<T>(most)];
     let factor = root(number::<T>(AIM) / error);
     // An error of 0, or one too small to be divided by, is the first case.
     let factor = T::select(factor.lt(most), factor, most);
@@ -76,6 +79,7 @@ pub(super) fn again<T: Real, S: System, M: Estimates<S>>(
     let mut fresh = start(map, t, z.of.clone()).numbers;
     // Sizes do not grow: a larger one was refused.
     let grown = fresh[0].lt(density);
+    let by = density / fresh[0];
     for (k, now) in z.numbers.iter_mut().enumerate() {
         match k {
             0 => fresh[k] = T::select(grown, density, fresh[k]),
@@ -86,8 +90,9 @@ pub(super) fn again<T: Real, S: System, M: Estimates<S>>(
                     fresh[k],
                 )
             }
-            // The time, its low word and the count go on.
-            2 | 4 | 5 => continue,
+            6 | 7 => fresh[k] = T::select(grown, fresh[k] * by, fresh[k]),
+            // The time, its low word, the count and the last step go on.
+            2 | 4 | 5 | 8 => continue,
             _ => {}
         }
         *now = T::select(lanes, fresh[k], *now);
@@ -113,18 +118,19 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     // A first size, from the time scale of the orbit.
     let point = carried.of.point().clone();
     scale_at(map, direction, t, &point, &mut work.derivatives);
-    let slow = work.derivatives.slowness(&point, parameter);
+    let [short, long] = work.derivatives.times(&point, parameter).map(fixed);
     let [scale, _] = scale_at(
         map,
-        fixed(direction * slow * number(0.03)),
+        direction * short * number(0.03),
         t,
         &point,
         &mut work.derivatives,
     );
     let unit = fixed(scale.sqrt().sqrt().recip());
     let usable = unit.finite() & zero.lt(unit);
-    let largest = T::select(usable, unit * number(LARGEST[0]), number(f64::MAX));
-    let mut h = direction * T::select(usable, unit * number(0.3), slow * number(0.03));
+    let longest = T::select(usable, unit, long);
+    let largest = longest * number(LARGEST[0]);
+    let mut h = direction * T::select(usable, unit * number(0.3), short * number(0.03));
 
     // The size with the error aimed at.
     let mut done = T::Mask::splat(false);
@@ -132,7 +138,7 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     for _ in 0..TRIALS[0] {
         let error = attempt(map, h / parameter, t, &mut carried.of, &mut work);
         carried.of.copy_from(&work.before);
-        let factor = factor(error);
+        let factor = factor(error, LEAP);
         done = done | (error.le(one) & factor.le(number(1.25)));
         if done.all() {
             break;
@@ -148,13 +154,14 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     let [scale, begin] = scale_at(map, h, t, &point, &mut work.derivatives);
     let begin = fixed(begin);
     let at_start = fixed(scale.sqrt().sqrt());
-    let mut dense = at_start;
+    let mut dense = T::select(usable, at_start, longest.recip());
     let mut trial = carried.of.clone();
     let (mut density, mut rate, mut time) = (parameter / h, begin, t);
     let mut failed = T::Mask::splat(false);
-    let mut smallest = T::select(usable, unit * number(LARGEST[1]), number(f64::MAX));
+    let mut smallest = longest * number(LARGEST[1]);
     let [mut elapsed, mut varying] = [zero, zero];
     let mut worst = one;
+    let mut due = number::<T>(f64::MAX);
     for _ in 0..TRIALS[1] {
         density += half * rate;
         let h = parameter * fixed(density.recip());
@@ -164,11 +171,15 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
         if failed.all() {
             break;
         }
-        let factor = factor(error);
+        let factor = factor(error, FARTHEST);
         let best = h.abs() * factor;
         // A step that was much too short does not tell which one would do.
         let told = !failed & best.lt(smallest) & factor.lt(number(FARTHEST));
         smallest = T::select(told, best, smallest);
+        // The density that the error asks for, in units of Q. Where Q happens to vanish it is large.
+        let fitting = parameter.abs() / best;
+        let unit = fitting / dense;
+        due = T::select(!failed & unit.lt(due), unit, due);
         worst = T::select(failed | worst.lt(factor), worst, factor);
         elapsed = T::select(failed, elapsed, elapsed + h.abs());
         let steps = larger(factor.recip(), h.abs() * dense);
@@ -177,16 +188,17 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
         let [scale, found] = scale_at(map, h, time, trial.point(), &mut work.derivatives);
         rate = fixed(found);
         let now = fixed(scale.sqrt().sqrt());
-        dense = T::select(now.finite(), now, dense);
+        dense = T::select(now.finite() & zero.lt(now), now, dense);
         let longest = dense.recip() * number(LARGEST[1]);
-        smallest = T::select(longest.lt(smallest) & zero.lt(longest), longest, smallest);
+        let is_shorter = !failed & longest.lt(smallest) & zero.lt(longest);
+        smallest = T::select(is_shorter, longest, smallest);
         let next = density + half * rate;
+        // G tells nothing where Q vanishes.
+        let next = T::select((fitting / number(APART)).lt(next), fitting, next);
         failed = failed | !(density * number(0.25)).lt(next + half * rate);
         density = next;
     }
     let is_constant = elapsed.le(number::<T>(WORTH) * varying * smallest);
-    // If not even the first step was made, it was of a size that was not refused.
-    let smallest = T::select(smallest.lt(number(f64::MAX)), smallest, h.abs());
     // The density lost its way with steps of this size.
     let worst = T::select(failed, worst * number(0.5), worst);
     let size = T::select(is_constant, smallest, h.abs() * worst);
@@ -194,6 +206,7 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     // A run whose parameter is the size makes steps of exactly that size.
     let is_parameter = (density - one).abs().lt(number(1e-6));
     let density = T::select(is_parameter, one, density);
+    let due = T::select(due.lt(number(f64::MAX)), due, zero);
     carried.numbers = [
         density,
         T::select(is_constant, zero, begin),
@@ -201,8 +214,9 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
         T::select(is_constant, density * number(HALVINGS), zero),
         zero,
         zero,
-        T::select(usable, density / at_start, one),
-        T::select(usable, density / at_start, one),
+        due,
+        due,
+        density,
     ];
     carried
 }

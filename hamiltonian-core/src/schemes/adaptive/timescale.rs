@@ -123,18 +123,24 @@ impl<V: Vector> Derivatives<V> {
         [above / below, V::Scalar::select(none, number(0.0), rate)]
     }
 
-    /// The smaller of |q|/|q̇| and |p|/|ṗ| by the derivatives found last; `otherwise` if neither is a positive number.
-    pub(super) fn slowness(&self, point: &Point<V>, otherwise: V::Scalar) -> V::Scalar {
-        let mut slowness = otherwise.abs();
+    /// The smaller and the larger of |q|/|q̇| and |p|/|ṗ| by the derivatives found last, of those that are positive numbers;
+    /// `otherwise` if neither is.
+    pub(super) fn times(&self, point: &Point<V>, otherwise: V::Scalar) -> [V::Scalar; 2] {
+        let mut times = [otherwise.abs(); 2];
         let mut found = <V::Scalar as Real>::Mask::splat(false);
         let of = &self.of[0];
         for (x, slope) in [(&point.q, &of.q), (&point.p, &of.p)] {
             let time = (dot(x, x) / dot(slope, slope)).sqrt();
             let is_time = time.finite() & number::<V::Scalar>(0.0).lt(time);
-            let better = is_time & (!found | time.lt(slowness));
-            slowness = V::Scalar::select(better, time, slowness);
+            let [least, most] = times;
+            let is_least = is_time & (!found | time.lt(least));
+            let is_most = is_time & (!found | most.lt(time));
+            times = [
+                V::Scalar::select(is_least, time, least),
+                V::Scalar::select(is_most, time, most),
+            ];
             found = found | is_time;
         }
-        slowness
+        times
     }
 }

@@ -69,11 +69,14 @@ fn quartic() -> Oscillator {
     }
 }
 
+/// The end of a run from these numbers, to a tolerance.
+type End = Box<dyn Fn(&[f64], f64) -> Vec<f64>>;
+
 /// A problem to an end, as the tests see all of them.
 struct Problem {
     name: String,
     size: f64,
-    end: Box<dyn Fn(&[f64], f64) -> Vec<f64>>,
+    end: End,
     exact: Box<dyn Fn() -> Vec<f64>>,
     start: Vec<f64>,
 }

@@ -9,13 +9,11 @@
 
 #[cfg(feature = "serde")]
 mod functions;
+mod never;
 #[cfg(feature = "serde")]
 mod record;
 #[cfg(feature = "serde")]
 mod tables;
-
-use core::convert::Infallible;
-use core::marker::PhantomData;
 
 pub extern crate alloc;
 pub use alloc::borrow::Cow;
@@ -50,7 +48,6 @@ pub use crate::loops::stretch::{
 };
 pub use crate::schemes::{Gauss, GaussNystrom, ToTolerance};
 pub use crate::systems::fit::ListOf;
-use crate::systems::flow::{Flow, Piece, Pieces};
 pub use crate::systems::function::Function;
 use crate::systems::lattice::write_indices;
 pub use crate::systems::lattice::{
@@ -70,6 +67,7 @@ pub use crate::{
     __computed_as_chosen as computed_as_chosen, __described as described, __each as each,
     __gathers as gathers, __halves as halves, __known as known, __prepared as prepared,
 };
+pub use never::Never;
 #[cfg(feature = "serde")]
 pub use record::{Fielded, Saved, Written, read_axes, read_record};
 #[cfg(feature = "serde")]
@@ -151,7 +149,7 @@ pub fn describe_parameter<T: fmt::Debug>(
     values: &[T],
 ) -> fmt::Result {
     let mut all = values.iter().enumerate();
-    // Every run writes its parameters: no text is made in between.
+    // Large arrays are saved: no text is made in between.
     all.try_for_each(|(at, value)| {
         out.write_str(name)?;
         write_indices(out, extents, at)?;
@@ -286,51 +284,6 @@ impl<X> core::ops::Deref for SetByNew<X> {
 impl<X: fmt::Debug> fmt::Debug for SetByNew<X> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
-    }
-}
-
-/// A piece, a flow or pieces that cannot exist: a structure's associated types on a system
-/// that does not have the structure.
-#[derive(Debug)]
-pub struct Never<X>(PhantomData<fn() -> X>, Infallible);
-
-impl<X> Never<X> {
-    /// Never evaluated.
-    pub const PIECE: Self = panic!("the system does not have this structure");
-}
-
-impl<X> Clone for Never<X> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<X> Copy for Never<X> {}
-
-impl<X: Vector> Flow<X> for Never<X> {
-    const NAME: &'static str = "";
-    type Work = ();
-    fn apply(&self, _: X::Scalar, _: &mut X, _: &mut ()) {
-        match self.1 {}
-    }
-}
-
-impl<T: Real, P, X: Vector<Scalar = T>> Piece<T, P> for Never<X> {
-    type Point = X;
-    type Flow = Self;
-    fn flow(&self, _: &P, _: T) -> Self {
-        *self
-    }
-}
-
-impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
-    type Point = X;
-    type Outer = Self;
-    type Inner = Self;
-    fn outer(&self, _: &P, _: T) -> Self {
-        *self
-    }
-    fn inner(&self, _: &P, _: T, _: T) -> Self {
-        *self
     }
 }
 

@@ -3,9 +3,11 @@
 //! Input: H = ½ pᵀM⁻¹p + V(q, t). Output: [`GaussNystrom`]. Invariant: the steps are those of
 //! [`Gauss`](super::Gauss), to rounding.
 
+mod beside;
+
 use super::bundles::{
-    Abreast, Apart, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles,
-    lay_in_bundles, load, of_the_guess, product, solve, spread, store, sum,
+    Abreast, Apart, Equations, StageLayout, Width, bundles, of_the_guess, product, solve, spread,
+    sum,
 };
 use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
@@ -16,13 +18,14 @@ use crate::flows::map::{Cause, Clock, Map, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Pair, Point, State};
-use crate::systems::system::gather::{InLanes, Kept, in_lanes};
+use crate::systems::system::gather::{Kept, in_lanes};
 use crate::systems::system::{
     Description, Dynamics, QuadraticKinetic, Separable, System, Unforced, VectorOf,
 };
-use crate::systems::vector::{Over, Vector};
+use crate::systems::vector::Vector;
+use beside::NystromStepsBeside;
 use core::fmt;
-use hamiltonian_lanes::{Cpu, DoubleDouble, Level, Mask, Pack, Real};
+use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 
 /// Gauss collocation with S = `STAGES` stages for a quadratic T, in its second-order form: order 2S,
 /// symplectic, time-reversible.
@@ -478,110 +481,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
             sums,
         );
         self.complete(t, outcome, z, sums)
-    }
-}
-
-/// What steps beside each other keep: ∂V/∂q at the stages, scratch, and the matrices in bundles.
-type KeptBeside<X, R, const S: usize> = (Stages<X, S>, BundleScratch<X, S>, [[[R; S]; S]; 2]);
-
-/// Steps whose stages lie beside each other, until one is not solved.
-struct NystromStepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
-    map: &'a Eliminated<T, P, S>,
-    clock: Clock<T>,
-    /// The steps made before.
-    made: u64,
-    n: u64,
-    z: &'a mut CarriesForces<P::Vector, S>,
-    sums: &'a mut Sums<P::Vector>,
-}
-
-impl<T, Q, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
-    for NystromStepsBeside<'_, T, Q, S, WIDTH>
-where
-    T: Real,
-    Q: Dynamics<T>,
-    Abreast<WIDTH>: Width,
-{
-    /// The number of steps made. If it is less than `n`, the value carried is that before the step
-    /// that was not solved, but for ∂V/∂q.
-    type Output = u64;
-    type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
-    const LEVELS: [Cpu; 2] = LEVELS;
-
-    #[inline(always)]
-    fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
-    where
-        P: Pack,
-        D: Dynamics<T::Over<P>, Vector = Over<Q::Vector, T::Over<P>>> + 'static,
-    {
-        let NystromStepsBeside {
-            map,
-            clock,
-            made,
-            n,
-            z,
-            sums,
-        } = self;
-        let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
-        let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
-        let ends = in_bundles::<T, Beside<P, WIDTH>, S>(&map.ends);
-        // The matrices too: a run of single steps would spend its time on clearing them.
-        let (gradients, bundles, double) = kept.get(
-            |_: &KeptBeside<D::Vector, T::Over<P>, S>| true,
-            || {
-                let zero = z.x.q.zeros_over::<T::Over<P>>();
-                let gradients = Stages(core::array::from_fn(|_| zero.clone()));
-                let double = [[[T::Over::<P>::zero(); S]; S]; 2];
-                (gradients, BundleScratch::new(&zero), double)
-            },
-        );
-        for (to, from) in double.iter_mut().zip(&map.double) {
-            lay_in_bundles::<T, Beside<P, WIDTH>, S>(from, to);
-        }
-        let tableau = NystromTableau {
-            times: &times,
-            weights: &weights,
-            double,
-            ends: &ends,
-        };
-        // Moved out, they are variables of this loop alone and may stay in registers.
-        let (mut of, mut scratch) = (gradients.take(), bundles.take());
-        let (mut point, mut low) = (z.x.take(), z.y.y.take());
-        let mut scalars = Sums {
-            velocity: sums.velocity.take(),
-            impulse: sums.impulse.take(),
-            moved: sums.moved.take(),
-        };
-        load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut of.0);
-        let mut left = n;
-        while left > 0 {
-            let t = clock.at(made + (n - left));
-            let outcome = map.fixed_point::<Beside<P, WIDTH>, _>(
-                &tableau,
-                system,
-                t,
-                &point,
-                &mut of.0,
-                &mut scratch,
-                &mut scalars,
-            );
-            if !outcome.solved.all() {
-                break;
-            }
-            map.finish::<Beside<P, WIDTH>, _>(
-                &tableau,
-                t,
-                &of.0,
-                &mut point,
-                &mut low,
-                &mut scalars,
-            );
-            left -= 1;
-        }
-        store::<T, Beside<P, WIDTH>, _, _, S>(&of.0, &mut z.y.x.0);
-        (z.x, z.y.y) = (point, low);
-        (*gradients, *bundles, *sums) = (of, scratch, scalars);
-        n - left
     }
 }
 

@@ -9,6 +9,7 @@ use crate::prepared::{Flat, Prepared};
 use hamiltonian_core::nalgebra::{Const, Dyn, OMatrix};
 use hamiltonian_core::private;
 use hamiltonian_core::schemes::author::{Description, Piece, Pieces, Point};
+use hamiltonian_core::schemes::{Gauss, ToTolerance};
 use hamiltonian_core::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
 };
@@ -32,6 +33,8 @@ use std::sync::Arc;
 ///
 /// let mut run = Integrator::new(&system, Gauss::<3>::default(), start(), 0.01)?;
 /// run.advance(10)?;
+/// let end = Integrator::to_tolerance(&system, start(), 1e-12)?.advance_until(0.1)?;
+/// assert!((end.q[0] - run.state().q[0]).abs() < 1e-9);
 /// let error = Integrator::new(&system, StormerVerlet::default(), start(), 0.01).unwrap_err();
 /// assert!(error.to_string().contains("`StormerVerlet` needs H = T(p) + V(q)"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -97,6 +100,10 @@ impl System for RuntimeSystem {
 }
 
 impl Unforced for RuntimeSystem {}
+/// T is not known to be quadratic when this is compiled.
+impl ToTolerance for RuntimeSystem {
+    type Scheme = Gauss<8>;
+}
 impl Exact for RuntimeSystem {}
 impl QuadraticKinetic for RuntimeSystem {}
 impl Autonomous for RuntimeSystem {}

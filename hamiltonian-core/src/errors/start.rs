@@ -95,9 +95,9 @@ pub enum StartError {
         scheme: Box<str>,
         /// The name of the trait that stands for the property: `Separable`.
         marker: Box<str>,
-        /// What is in the way.
+        /// The reason, with the term of H.
         message: Box<str>,
-        /// What the scheme has to do with it.
+        /// The relation of the scheme to that structure: `needs H = T(p) + V(q)`.
         label: Box<str>,
         /// The alternative.
         note: Box<str>,

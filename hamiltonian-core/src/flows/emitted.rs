@@ -249,7 +249,7 @@ pub struct Adds<K>(K);
 /// The [`FlowBody`] of a kind as a matrix of `N` rows.
 #[derive(Debug)]
 pub struct Matrices<K, const N: usize>(K);
-/// What is made of the body of kind `K` of a prepared system `D`: a piece, or with held values a flow or a field.
+/// The body of kind `K` of a prepared system `D` as a piece, or with held values as a flow or a field.
 pub struct Emitted<D, K, H = ()> {
     held: H,
     of: PhantomData<fn() -> (D, K)>,

@@ -128,9 +128,9 @@ impl NamedPiece {
 pub struct Missing {
     /// The name of its trait: `Separable`, `Split`, `Nystrom`, `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact`.
     pub marker: Text,
-    /// What is in the way: `` H of `Coupled` is not separable: the term `p*q` couples q and p ``.
+    /// The reason: `` H of `Coupled` is not separable: the term `p*q` couples q and p ``.
     pub message: Text,
-    /// What a scheme has to do with it: `needs H = T(p) + V(q)`.
+    /// The relation of a scheme to it: `needs H = T(p) + V(q)`.
     pub label: Text,
     /// The alternative.
     pub note: Text,

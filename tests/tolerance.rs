@@ -342,6 +342,14 @@ fn changed_parameters_hold_in_all_steps() {
     let now = changed.state().clone();
     let mut new = Integrator::new(&heavy, scheme, now, 1.0).unwrap();
     assert_eq!(changed.advance(20).unwrap(), new.advance(20).unwrap());
+    // And one whose direction was.
+    let back = |run: &mut Run<Oscillator, Adaptive<GaussNystrom<8>>>| {
+        run.change_step(-1.0).unwrap();
+        run.advance(20).unwrap().clone()
+    };
+    let now = changed.state().clone();
+    let mut new = Integrator::new(&heavy, scheme, now, -1.0).unwrap();
+    assert_eq!(&back(&mut changed), new.advance(20).unwrap());
 }
 
 /// States between steps, and backwards.

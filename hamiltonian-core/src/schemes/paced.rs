@@ -74,13 +74,13 @@ impl<M: OneStep, G: Clone + Debug + Send + Sync + 'static> Listed for Paced<M, G
     }
 }
 
-/// What [`Paced`] and [`Adaptive`](super::Adaptive) carry: what their scheme carries, and the density of steps ρ, the rate
-/// G, the time, and further numbers.
+/// The value that [`Paced`] and [`Adaptive`](super::Adaptive) carry: that of their scheme, with the density of steps ρ,
+/// the rate G, the time, and further numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pace<C: Vector, const N: usize = 3> {
-    /// What the scheme carries.
+    /// The value of the scheme.
     pub(super) of: C,
-    /// ρ, G, t, and what follows.
+    /// ρ, G, t; if there are more, then the number of refused steps, ρ in the last step, and others.
     pub(super) numbers: [C::Scalar; N],
 }
 
@@ -150,7 +150,7 @@ impl<C: Carried, const N: usize> Carried for Pace<C, N> {
     /// The longer one of the last step, where that is carried, and the next.
     fn duration(&self, interval: C::Scalar) -> Option<C::Scalar> {
         let next = self.numbers[0];
-        let least = match self.numbers.get(8) {
+        let least = match self.numbers.get(4) {
             Some(last) => C::Scalar::select(last.lt(next), *last, next),
             None => next,
         };
@@ -158,7 +158,7 @@ impl<C: Carried, const N: usize> Carried for Pace<C, N> {
     }
     fn refused(&self) -> u64 {
         self.numbers
-            .get(4)
+            .get(3)
             .map_or(0, |refused| refused.to_f64() as u64)
     }
 }

@@ -57,8 +57,7 @@ pub trait ToTolerance: System + Sized {
 ///
 /// - *Constant*, if the smallest of the pilot's sizes takes at most twice as many steps as varying sizes do. The steps are
 ///   then those of the scheme, and symplectic: exactly if the size is the step parameter of the run, to rounding
-///   otherwise. A refused step halves the size from there on; after the second time a
-///   pilot chooses anew.
+///   otherwise. A refused step halves the size from there on; after the second time a pilot chooses anew.
 /// - *Varying* otherwise. The density of steps ρ follows the time scale of the orbit as in [`Paced`](super::Paced), with
 ///   G = d ln Q/dt of
 ///
@@ -125,12 +124,12 @@ impl<M: OneStep> Listed for Adaptive<M> {
     }
 }
 
-/// The numbers that [`Adaptive`] carries beside the scheme's: ρ, G, t; for constant steps the largest ρ, 0 for others; the
-/// number of refused steps; the low word of t; ρ/Q as it is due, and as it was found first, 0
-/// before there is a Q; ρ in the last step.
+/// The numbers that [`Adaptive`] carries beside the scheme's: ρ, G, t; the number of refused steps; ρ in the last step; for
+/// constant steps the largest ρ, 0 for others; the low word of t; ρ/Q as it is due, and as it was found first, 0 before
+/// there is a Q.
 const NUMBERS: usize = 9;
 
-/// What [`Adaptive`] carries.
+/// The value that [`Adaptive`] carries.
 type Follows<C> = Pace<C, NUMBERS>;
 
 /// The largest ρ of a single step of a given size, which is not refused.
@@ -188,12 +187,12 @@ where
                 one,
                 zero,
                 state.t,
+                zero,
+                one,
                 T::constant(ALONE, 0.0),
                 zero,
                 zero,
                 zero,
-                zero,
-                one,
             ],
         }
     }
@@ -231,7 +230,7 @@ impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W
         FollowingWork {
             map: None,
             of: 0,
-            by: C::Scalar::constant(f64::NAN, 0.0),
+            by: C::Scalar::one(),
             inner: W::like(&like.of),
             before: like.of.clone(),
             after: like.of.clone(),
@@ -277,22 +276,18 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     #[inline(always)]
     fn attempt(&self, by: T, t: T, of: &mut CarriedBy<M, S, T>, work: &mut WorkOf<T, S, M>) -> T {
         let h = self.parameter * by;
-        if by.equals(T::one()).all() {
-            self.map.step(t, t + h, of, &mut work.inner);
-        } else {
-            // The scratch may have been that of another map, with other parameters.
-            if work.map.is_none() || work.of != self.number {
-                work.map = Some(M::copy(&self.map));
-                work.of = self.number;
-                work.by = T::constant(f64::NAN, 0.0);
+        // The scratch may have been that of another map, with other parameters.
+        if work.map.is_none() || work.of != self.number {
+            work.map = Some(M::copy(&self.map));
+            work.of = self.number;
+            work.by = T::one();
+        }
+        if let Some(map) = &mut work.map {
+            if !by.equals(work.by).all() {
+                M::resize(&self.map, by, map);
+                work.by = by;
             }
-            if let Some(map) = &mut work.map {
-                if !by.equals(work.by).all() {
-                    M::resize(&self.map, by, map);
-                    work.by = by;
-                }
-                map.step(t, t + h, of, &mut work.inner);
-            }
+            map.step(t, t + h, of, &mut work.inner);
         }
         M::error(&self.tail, self.tolerance, h, work.before.point(), of)
     }
@@ -322,12 +317,12 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             before,
             mut rate,
             t,
-            limit,
             mut refused,
+            _,
+            limit,
             mut low,
             mut unit,
             mut first,
-            _,
         ] = z.numbers;
         let half = self.parameter * T::constant(0.5, 0.0);
         let is_constant = zero.lt(limit);
@@ -390,9 +385,9 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             let is_first = is_known & unit.equals(zero);
             first = T::select(is_first, here / dense, first);
             unit = T::select(is_first, first, unit);
-            let [more, most] = HIGHER.map(|x| T::constant(x, 0.0));
-            let higher = unit * more;
-            let higher = T::select(higher.lt(first * most), higher, first * most);
+            let higher = unit * T::constant(HIGHER[0], 0.0);
+            let highest = first * T::constant(HIGHER[1], 0.0);
+            let higher = T::select(higher.lt(highest), higher, highest);
             unit = T::select(is_known & changed, higher, unit);
             let due = unit * dense;
             let apart = T::constant(APART, 0.0);
@@ -402,7 +397,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             let less = here * T::constant(0.5, 0.0);
             density = T::select(astray, larger(due, less), here);
         }
-        z.numbers = [density, rate, end, limit, refused, low, unit, first, made];
+        z.numbers = [density, rate, end, refused, made, limit, low, unit, first];
         let lost = changed & is_constant & limit.lt(density);
         if lost.any() {
             pilot::again(self, lost, z);
@@ -412,7 +407,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
     /// A step whose end is not finite was refused at every size that moves the time; a single step was that of the scheme.
     #[cold]
     fn explain(&self, _: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
-        let [_, _, t, limit, ..] = z.numbers;
+        let [_, _, t, _, _, limit, ..] = z.numbers;
         if T::constant(ALONE, 0.0).le(limit).any() {
             let end = t + self.parameter;
             return self.map.explain(t, end, true, &mut z.of, &mut work.inner);
@@ -427,7 +422,8 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
 /// The factor of the size after a step with this error was refused.
 #[inline(always)]
 fn shrink<T: Real>(error: T) -> T {
-    let [least, most, unknown] = [0.1, 0.9, 0.25].map(|x| T::constant(x, 0.0));
+    let [least, most] = [T::constant(0.1, 0.0), T::constant(0.9, 0.0)];
+    let unknown = T::constant(0.25, 0.0);
     let factor = root(T::constant(AIM, 0.0) / error);
     let factor = T::select(factor.lt(most), larger(factor, least), most);
     T::select(error.finite(), factor, unknown)

@@ -52,7 +52,10 @@ fn attempt<T: Real, S: System, M: Estimates<S>>(
     of: &mut CarriedBy<M, S, T>,
     work: &mut WorkOf<T, S, M>,
 ) -> T {
-    map.attempt(by, t, of, work)
+    T::out_of_line(
+        #[inline(always)]
+        || map.attempt(by, t, of, work),
+    )
 }
 
 /// Q⁴ and G.
@@ -64,7 +67,10 @@ fn scale_at<T: Real, S: System, M: Estimates<S>>(
     point: &Point<VectorOf<S, T>>,
     derivatives: &mut Derivatives<VectorOf<S, T>>,
 ) -> [T; 2] {
-    map.scale(h, t, point, derivatives)
+    T::out_of_line(
+        #[inline(always)]
+        || map.scale(h, t, point, derivatives),
+    )
 }
 
 /// Chooses anew for the lanes in which constant steps were refused too often.
@@ -76,26 +82,20 @@ pub(super) fn again<T: Real, S: System, M: Estimates<S>>(
     z: &mut Follows<CarriedBy<M, S, T>>,
 ) {
     let [density, _, t, ..] = z.numbers;
-    let mut fresh = start(map, t, z.of.clone()).numbers;
+    let [next, rate, _, _, _, limit, _, unit, first] = start(map, t, z.of.clone()).numbers;
     // Sizes do not grow: a larger one was refused.
-    let grown = fresh[0].lt(density);
-    let by = density / fresh[0];
-    for (k, now) in z.numbers.iter_mut().enumerate() {
-        match k {
-            0 => fresh[k] = T::select(grown, density, fresh[k]),
-            3 => {
-                fresh[k] = T::select(
-                    grown & T::zero().lt(fresh[k]),
-                    density * number(HALVINGS),
-                    fresh[k],
-                )
-            }
-            6 | 7 => fresh[k] = T::select(grown, fresh[k] * by, fresh[k]),
-            // The time, its low word, the count and the last step go on.
-            2 | 4 | 5 | 8 => continue,
-            _ => {}
-        }
-        *now = T::select(lanes, fresh[k], *now);
+    let grown = next.lt(density);
+    let by = T::select(grown, density / next, T::one());
+    // The time, its low word, the count and the last step go on.
+    let now = &mut z.numbers;
+    for (k, fresh) in [
+        (0, T::select(grown, density, next)),
+        (1, rate),
+        (5, limit * by),
+        (7, unit * by),
+        (8, first * by),
+    ] {
+        now[k] = T::select(lanes, fresh, now[k]);
     }
 }
 
@@ -211,12 +211,12 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
         density,
         T::select(is_constant, zero, begin),
         t,
+        zero,
+        density,
         T::select(is_constant, density * number(HALVINGS), zero),
         zero,
-        zero,
         due,
         due,
-        density,
     ];
     carried
 }

@@ -88,7 +88,8 @@ pub(crate) fn value(form: &Affine, sizes: &[usize]) -> i64 {
     sum
 }
 
-/// The number of elements of an array, or an error if they do not fit into memory.
+/// The number of elements of an array, or an error if they do not fit into memory: an allocation that fails later ends
+/// the process.
 pub(crate) fn elements(name: &str, shape: &Shape, sizes: &[usize]) -> Result<usize, SystemError> {
     /// 8 TB of numbers.
     const MOST: i64 = 1 << 40;
@@ -98,8 +99,9 @@ pub(crate) fn elements(name: &str, shape: &Shape, sizes: &[usize]) -> Result<usi
         Shape::Vector(rows) | Shape::Lattice(rows, _) => extent(rows),
         Shape::Matrix(rows, columns) => extent(rows).saturating_mul(extent(columns)),
     };
+    let fits = |count: &usize| Vec::<f64>::new().try_reserve_exact(*count).is_ok();
     match usize::try_from(count) {
-        Ok(count) if (count as i64) < MOST => Ok(count),
+        Ok(count) if (count as i64) < MOST && fits(&count) => Ok(count),
         _ => Err(SystemError::Memory {
             name: name.to_owned(),
         }),

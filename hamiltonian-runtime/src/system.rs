@@ -57,6 +57,33 @@ impl RuntimeSystem {
     pub fn degrees_of_freedom(&self) -> usize {
         self.code.places.len
     }
+
+    /// The name and the value of each size.
+    pub fn sizes(&self) -> impl Iterator<Item = (&str, usize)> {
+        let names = self.code.size_names.iter().map(String::as_str);
+        names.zip(self.code.sizes.iter().copied())
+    }
+
+    /// The name, the extents and the numbers of each parameter, row after row. A number has no extents.
+    ///
+    /// ```
+    /// use hamiltonian_runtime::{Definition, Values};
+    ///
+    /// let text = "struct Springs { k = 2.0, m: [n], n: usize } H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) + k*q[i]^2 }";
+    /// let springs = Definition::parse(text, "springs.txt")?;
+    /// let system = springs.system(Values::new().with("n", 2).with("m", [1.0, 3.0]))?;
+    /// assert_eq!(system.sizes().collect::<Vec<_>>(), [("n", 2)]);
+    /// let parameters: Vec<_> = system.parameters().collect();
+    /// assert_eq!(parameters, [("k", &[][..], &[2.0][..]), ("m", &[2], &[1.0, 3.0])]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn parameters(&self) -> impl Iterator<Item = (&str, &[usize], &[f64])> {
+        let names = self.code.parameter_names.iter().zip(&self.code.extents);
+        let all = names.zip(&*self.parameters);
+        all.map(|((name, extents), numbers)| {
+            (name.as_str(), extents.as_slice(), numbers.as_slice())
+        })
+    }
 }
 
 impl System for RuntimeSystem {

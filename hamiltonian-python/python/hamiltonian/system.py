@@ -1,0 +1,247 @@
+"""Systems: a definition with the values of its parameters."""
+
+from __future__ import annotations
+
+import math
+import os
+
+import numpy as np
+
+from . import arrays
+from ._hamiltonian import Definition
+from ._hamiltonian import System as _System
+
+
+def define(definition, /, **values) -> System:
+    """Reads a definition in the language of ``hamiltonian!``, or takes an expression of SymPy.
+
+    A text may declare its parameters with ``struct Name { lam = 1.0 }``. Without that, every name that is neither a
+    coordinate nor a momentum is a parameter. ``values`` are those of the parameters and sizes: numbers and arrays of
+    numbers. A parameter that is not named has its default.
+
+    An expression of SymPy needs ``coordinates`` and ``momenta``, tuples of symbols, and ``time`` if H depends on it.
+    ``events``, ``monitors`` and ``invariants`` are dictionaries of more expressions by their names.
+
+    >>> hh = define('''
+    ...     H(x, y; px, py) = (px^2 + py^2)/2 + (x^2 + y^2)/2 + lam*(x^2*y - y^3/3);
+    ...     event section = x
+    ... ''', lam=1.0)
+    >>> hh.coordinates, hh.momenta, hh.events
+    (('x', 'y'), ('px', 'py'), ('section',))
+
+    Raises:
+        DefinitionError: The text has errors, which the exception shows with their places.
+        TypeError: A value is missing, has an unknown name, or is no number.
+        ValueError: A value has a wrong shape, or is NaN.
+    """
+    if not isinstance(definition, str):
+        from .expressions import text_of  # SymPy is imported by its users alone.
+
+        own = ("coordinates", "momenta", "time", "events", "monitors", "invariants")
+        definition = text_of(definition, **{name: values.pop(name) for name in own if name in values})
+    return _made(Definition(definition, "definition"), definition, "definition", values)
+
+
+def load(path: str | os.PathLike[str], /, **values) -> System:
+    """Reads a definition from a file of text in UTF-8, see `define`.
+
+    Raises:
+        OSError: The file cannot be read.
+        UnicodeDecodeError: It is no UTF-8.
+    """
+    source = os.fspath(path)
+    with open(source, encoding="utf-8") as file:
+        text = file.read()
+    return _made(Definition(text, source), text, source, values)
+
+
+def _restored(text: str, source: str, values: dict) -> System:
+    """The system of a pickle."""
+    return _made(Definition(text, source), text, source, values)
+
+
+def _made(definition: Definition, text: str, source: str, values: dict) -> System:
+    """The system of a definition that was read."""
+    known = {name: arrays.numbers(name, value) for name, value in values.items()}
+    flat = [(name, float(value) if value.ndim == 0 else value.ravel()) for name, value in known.items()]
+    own = definition.system(flat)
+    for name, extents, _ in own.parameters:
+        if name in known and list(known[name].shape) != extents:
+            raise ValueError(f"`{name}` must have the shape {tuple(extents)}, found {known[name].shape}")
+    for value in known.values():
+        value.flags.writeable = False
+    return System(definition, own, text, source, known)
+
+
+class System:
+    """A definition with the values of its parameters and sizes. `define` makes it, and nothing changes it.
+
+    ``q`` and ``p`` of its methods are arrays of the shape `shape`. That is the shape of the array for a definition with
+    one, such as ``(n, 3)`` of ``H(q[n][3]; p[n][3])``. Otherwise it is the number of coordinates: group after group in
+    the order of the declaration, arrays row after row.
+    """
+
+    text: str
+    """The definition."""
+    source: str
+    """Its name in errors."""
+
+    def __init__(self, definition: Definition, own: _System, text: str, source: str, values: dict[str, np.ndarray]):
+        self._definition, self._own, self._values = definition, own, values
+        self.text, self.source = text, source
+        self._groups = own.groups
+        self._len = sum(math.prod(extents) for _, _, extents in self._groups)
+
+    @property
+    def name(self) -> str:
+        """The name of the struct; ``H`` of a definition without one."""
+        return self._definition.name
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of q and p: that of the only array, or the number of coordinates."""
+        if len(self._groups) == 1 and self._groups[0][2]:
+            return tuple(self._groups[0][2])
+        return (self._len,)
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The declared names of the coordinates."""
+        return tuple(name for name, _, _ in self._groups)
+
+    @property
+    def momenta(self) -> tuple[str, ...]:
+        """The declared names of their momenta."""
+        return tuple(name for _, name, _ in self._groups)
+
+    @property
+    def parameters(self) -> dict[str, float | np.ndarray]:
+        """The values of the parameters, defaults included."""
+        all = self._own.parameters
+        return {name: numbers.reshape(extents) if extents else float(numbers[0]) for name, extents, numbers in all}
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """The values of the sizes."""
+        return dict(self._own.sizes)
+
+    def _of_kind(self, kind: str) -> tuple[str, ...]:
+        return tuple(name for name, own in self._own.observables if own == kind)
+
+    @property
+    def invariants(self) -> tuple[str, ...]:
+        """The names of the declared invariants, which are proven."""
+        return self._of_kind("invariant")
+
+    @property
+    def monitors(self) -> tuple[str, ...]:
+        """The names of the declared monitors."""
+        return self._of_kind("monitor")
+
+    @property
+    def events(self) -> tuple[str, ...]:
+        """The names of the declared events."""
+        return self._of_kind("event")
+
+    @property
+    def cyclic(self) -> tuple[str, ...]:
+        """The coordinates that do not appear in H: their momenta are conserved."""
+        return tuple(self._own.cyclic)
+
+    @property
+    def pieces(self) -> dict[str, str]:
+        """The pieces of H with exact flows, the outermost first: names and formulas. None if H does not split."""
+        return dict(self._own.pieces)
+
+    @property
+    def missing(self) -> dict[str, str]:
+        """The properties that schemes may require and that H is not proven to have, with the reasons."""
+        return dict(self._own.missing)
+
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """What is proven of H, a sentence each: its structure, its pieces."""
+        return tuple(self._definition.facts)
+
+    @property
+    def latex(self) -> str:
+        """H in LaTeX."""
+        return self._definition.latex
+
+    def with_(self, **values) -> System:
+        """The same definition with other values of some parameters or sizes. The text is not read again."""
+        return _made(self._definition, self.text, self.source, {**self._values, **values})
+
+    def H(self, q, p, t=0.0) -> np.ndarray:
+        """H(q, p, t). Leading axes of q, p and t are broadcast: one number for each point.
+
+        A point outside the domain of H gives NaN or an infinity.
+        """
+        leading, q, p, t = self._points(q, p, t)
+        return self._own.energy(q, p, t).reshape(leading)
+
+    def gradient(self, q, p, t=0.0) -> tuple[np.ndarray, np.ndarray]:
+        """(∂H/∂q, ∂H/∂p), exact, at each point; see `H`."""
+        leading, q, p, t = self._points(q, p, t)
+        dq, dp = self._own.gradient(q, p, t)
+        return dq.reshape(leading + self.shape), dp.reshape(leading + self.shape)
+
+    def field(self, q, p, t=0.0) -> tuple[np.ndarray, np.ndarray]:
+        """(q̇, ṗ) = (∂H/∂p, −∂H/∂q + f) at each point, f the force; see `H`."""
+        leading, q, p, t = self._points(q, p, t)
+        dq, dp = self._own.field(q, p, t)
+        return dq.reshape(leading + self.shape), dp.reshape(leading + self.shape)
+
+    def observable(self, name: str, q, p, t=0.0) -> np.ndarray:
+        """The invariant, monitor or event of that name at each point; see `H`. A component is ``"name[2]"``.
+
+        Raises:
+            KeyError: There is none of that name; the exception lists those there are.
+        """
+        known = [own for own, _ in self._own.observables]
+        if name not in known:
+            raise KeyError(f"{self.name} declares no {name!r}; it has: {', '.join(known) or 'none'}")
+        leading, q, p, t = self._points(q, p, t)
+        return self._own.observable(name, q, p, t).reshape(leading)
+
+    def _points(self, q, p, t):
+        """The leading axes of all points, and q, p and t as rows."""
+        shape = self.shape
+        q = arrays.points("q", self._number_or_row(arrays.numbers("q", q)), shape)
+        p = arrays.points("p", self._number_or_row(arrays.numbers("p", p)), shape)
+        t = arrays.numbers("t", t)
+        axes = len(shape)
+        leading = arrays.together(q=q.shape[: q.ndim - axes], p=p.shape[: p.ndim - axes], t=t.shape)
+        return leading, arrays.rows(q, leading, shape), arrays.rows(p, leading, shape), arrays.rows(t, leading, ())[:, 0]
+
+    def _number_or_row(self, value: np.ndarray) -> np.ndarray:
+        """The value; a number for a point of one coordinate."""
+        return value.reshape(1) if self.shape == (1,) and value.ndim == 0 else value
+
+    def __repr__(self) -> str:
+        values = {**self.sizes, **self.parameters}
+        shown = ", ".join(f"{name} = {_short(value)}" for name, value in values.items())
+        lines = [self._definition.formula, *([f"with {shown}"] if shown else []), *self.facts]
+        for kind in ("invariant", "monitor", "event"):
+            names = self._of_kind(kind)
+            lines += [f"{kind}s: {', '.join(names)}"] if names else []
+        return "\n".join(lines)
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex}$"
+
+    def __reduce__(self):
+        return _restored, (self.text, self.source, self._values)
+
+    def __copy__(self) -> System:
+        return self
+
+    def __deepcopy__(self, memo) -> System:
+        return self
+
+
+def _short(value) -> str:
+    """A value in one line."""
+    if np.ndim(value) == 0:
+        return repr(value)
+    return np.array2string(value, threshold=6, edgeitems=2, separator=", ").replace("\n", "")

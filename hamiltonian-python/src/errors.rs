@@ -1,0 +1,71 @@
+//! Errors of Rust as exceptions of Python.
+//!
+//! Input: the errors of hamiltonian-runtime. Output: exceptions with the same text.
+
+use hamiltonian_runtime::{Diagnostic, Diagnostics, SystemError};
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// What `hamiltonian.errors.Diagnostic` takes: message, help, source, line, column, the line of the text.
+type Fields = (String, String, String, usize, usize, String);
+
+/// `hamiltonian.DefinitionError` with its diagnostics.
+fn definition_error(py: Python<'_>, list: Vec<Fields>, shown: String) -> PyErr {
+    let make = || {
+        let class = py
+            .import("hamiltonian.errors")?
+            .getattr("DefinitionError")?;
+        class.call1((list, shown))
+    };
+    match make() {
+        Ok(exception) => PyErr::from_value(exception),
+        Err(error) => error,
+    }
+}
+
+fn fields(one: &Diagnostic) -> Fields {
+    let place = &one.place;
+    (
+        one.message.clone(),
+        one.help.clone(),
+        place.source.clone(),
+        place.line,
+        place.column,
+        one.text.clone(),
+    )
+}
+
+/// The exception for a text that is no definition.
+pub fn of_text(py: Python<'_>, errors: &Diagnostics) -> PyErr {
+    let list = errors.list().iter().map(fields).collect();
+    definition_error(py, list, errors.to_string())
+}
+
+/// The exception for values of which no system is made. `text` is that of the definition.
+pub fn of_values(py: Python<'_>, error: &SystemError, text: &str) -> PyErr {
+    let shown = error.to_string();
+    match error {
+        SystemError::NotCarried { feature, place, .. } => {
+            let line = text.lines().nth(place.line - 1).unwrap_or_default();
+            let message = format!("{feature}: definitions at run time do not have this");
+            let help = "compile the definition in Rust, with `hamiltonian!`".to_owned();
+            let source = place.source.clone();
+            let one = (
+                message,
+                help,
+                source,
+                place.line,
+                place.column,
+                line.to_owned(),
+            );
+            definition_error(py, vec![one], shown)
+        }
+        SystemError::Unknown { .. } | SystemError::NoValue { .. } => PyTypeError::new_err(shown),
+        _ => PyValueError::new_err(shown),
+    }
+}
+
+/// The exception for a thread that the operating system does not start.
+pub fn of_thread(error: &std::io::Error) -> PyErr {
+    PyRuntimeError::new_err(format!("a thread for the text cannot be started: {error}"))
+}

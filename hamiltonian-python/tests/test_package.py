@@ -1,0 +1,41 @@
+"""The package: the time of its import, and its documentation."""
+
+import doctest
+import pathlib
+import subprocess
+import sys
+
+import hamiltonian as hm
+import hamiltonian.system
+
+CPU = "import time, numpy; start = time.process_time(); import hamiltonian; print(time.process_time() - start)"
+
+
+def test_import_takes_at_most_50_ms_beyond_numpy():
+    runs = [subprocess.run([sys.executable, "-c", CPU], capture_output=True, text=True, check=True) for _ in range(5)]
+    assert min(float(run.stdout) for run in runs) <= 0.05
+
+
+def test_other_packages_are_imported_by_their_users_alone():
+    code = "import sys, hamiltonian; print([name for name in ('sympy', 'matplotlib', 'tqdm', 'scipy') if name in sys.modules])"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"
+
+
+def test_examples_of_the_documentation():
+    for module in (hm, hamiltonian.system):
+        failed, _ = doctest.testmod(module)
+        assert failed == 0
+
+
+def test_types_are_declared():
+    assert (pathlib.Path(hm.__file__).parent / "py.typed").exists()
+
+
+def test_every_public_name_is_documented():
+    for name in hm.__all__:
+        public = getattr(hm, name)
+        assert public.__doc__, name
+        own = [] if not isinstance(public, type) else [member for member in vars(public).items() if member[0][0] != "_"]
+        for member, value in own:
+            assert not (callable(value) or isinstance(value, property)) or value.__doc__, f"{name}.{member}"

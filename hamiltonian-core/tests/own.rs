@@ -95,7 +95,7 @@ impl Splitting for TwoStages {
         [(OUTER, INNER), (INNER, OUTER)]
     }
     #[inline(always)]
-    fn filled<U: Clone>(value: U) -> [U; 2] {
+    fn filled<U: Clone>(&self, value: U) -> [U; 2] {
         [value.clone(), value]
     }
 }

@@ -34,7 +34,7 @@ impl Splitting for Idle {
     fn stages(&self) -> [Durations; 1] {
         [(Weight(0.0, 0.0), Weight(0.0, 0.0))]
     }
-    fn filled<U: Clone>(value: U) -> [U; 1] {
+    fn filled<U: Clone>(&self, value: U) -> [U; 1] {
         [value]
     }
 }

@@ -18,6 +18,8 @@ use hamiltonian_symbolic::program::Purpose;
 impl<T: Real> Dynamics<T> for Prepared<T> {
     type Vector = Flat<T>;
     type Field = Field<T>;
+    /// Bits are those of compiled code that does not fuse.
+    const FUSES: bool = false;
 
     fn description(&self) -> &Description {
         &self.code.description

@@ -1,7 +1,7 @@
-//! Why a definition is not made a system.
+//! Why a definition is not made a system, and why a run by name fails.
 
 use crate::diagnostics::Place;
-use hamiltonian_core::errors::InputError;
+use hamiltonian_core::errors::{Error, InputError};
 use std::fmt::{self, Display, Formatter};
 
 /// Why [`Definition::system`](crate::Definition::system) makes no system.
@@ -104,5 +104,78 @@ impl std::error::Error for SystemError {}
 impl From<InputError> for SystemError {
     fn from(error: InputError) -> SystemError {
         SystemError::Input(error)
+    }
+}
+
+/// Why a run whose scheme has a name is not made, or does not advance.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum RunError {
+    /// There is no scheme of this name.
+    #[non_exhaustive]
+    UnknownScheme {
+        /// The name.
+        name: String,
+        /// The nearest name.
+        nearest: Option<String>,
+    },
+    /// The scheme is not one of ensembles.
+    #[non_exhaustive]
+    SingleRuns {
+        /// Its name.
+        name: String,
+    },
+    /// A list of numbers has a wrong length.
+    #[non_exhaustive]
+    Length {
+        /// What it has: `coordinates`, `momenta`, `systems`.
+        what: &'static str,
+        /// The length that is due.
+        expected: usize,
+        /// The length of the list.
+        found: usize,
+    },
+    /// The cancel hook ended the call. The steps made so far are kept.
+    Interrupted,
+    /// The bytes are not those of a saved run.
+    NotSaved,
+    /// An error of the run.
+    Run(Error),
+}
+
+impl Display for RunError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownScheme { name, nearest } => {
+                write!(f, "there is no scheme `{name}`: ")?;
+                match nearest {
+                    Some(nearest) => write!(f, "the nearest name is `{nearest}`"),
+                    None => f.write_str(
+                        "`schemes()` lists all, for example `StormerVerlet` and `Gauss8`",
+                    ),
+                }
+            }
+            Self::SingleRuns { name } => write!(
+                f,
+                "ensembles do not have `{name}`: they have splittings, `ImplicitMidpoint` and `Gauss4`, and \
+                 a `Run` for each member has every scheme"
+            ),
+            Self::Length {
+                what,
+                expected,
+                found,
+            } => write!(f, "there must be {expected} {what}, found {found}"),
+            Self::Interrupted => f.write_str("interrupted: the steps made so far are kept"),
+            Self::NotSaved => f.write_str("these are not the bytes of a saved run"),
+            Self::Run(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RunError {}
+
+impl From<Error> for RunError {
+    fn from(error: Error) -> RunError {
+        RunError::Run(error)
     }
 }

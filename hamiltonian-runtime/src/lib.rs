@@ -41,6 +41,7 @@
 mod readme {}
 
 mod allocate;
+mod by_table;
 mod code;
 mod definition;
 mod diagnostics;
@@ -51,14 +52,21 @@ mod flow;
 mod machine;
 mod op;
 mod prepared;
+mod run;
+mod schemes;
 mod sizes;
+mod swarm;
 mod system;
 mod values;
+mod watching;
 
 pub use definition::Definition;
 pub use diagnostics::{Diagnostic, Diagnostics, Place};
-pub use error::SystemError;
+pub use error::{RunError, SystemError};
 pub use flow::{Field, Inside, PartFlow};
 pub use prepared::Prepared;
+pub use run::{Crossing, FlatState, Run};
+pub use schemes::{NamedScheme, schemes};
+pub use swarm::{MemberStates, Swarm};
 pub use system::{RuntimePiece, RuntimePieces, RuntimeSystem};
 pub use values::{Value, Values};

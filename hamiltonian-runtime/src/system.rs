@@ -8,7 +8,7 @@ use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
 use hamiltonian_core::nalgebra::{Const, Dyn, OMatrix};
 use hamiltonian_core::private;
-use hamiltonian_core::schemes::author::{Description, Piece, Pieces, Point};
+use hamiltonian_core::schemes::author::{Description, Needs, Piece, Pieces, Point};
 use hamiltonian_core::schemes::{Gauss, ToTolerance};
 use hamiltonian_core::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
@@ -83,6 +83,16 @@ impl RuntimeSystem {
         all.map(|((name, extents), numbers)| {
             (name.as_str(), extents.as_slice(), numbers.as_slice())
         })
+    }
+
+    /// True if H is proven to have this structure.
+    pub(crate) fn has(&self, needs: Needs) -> bool {
+        let missing = |marker: &str| {
+            let mut all = self.code.description.missing.iter();
+            all.any(|one| one.marker == marker)
+        };
+        let mut needed = Needs::ALL.iter().filter(|(one, _)| needs.contains(*one));
+        needed.all(|(_, marker)| !missing(marker))
     }
 }
 
@@ -165,9 +175,39 @@ impl<T: Real> Piece<T, Prepared<T>> for RuntimePiece {
     }
 }
 
-/// The pieces of a splitting, as many as the definition has.
-#[derive(Debug, Clone, Copy)]
-pub struct RuntimePieces;
+/// The pieces that a splitting moves, the outermost first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RuntimePieces {
+    /// The pieces of H, as many as the definition has.
+    All,
+    /// V, then T.
+    Kick,
+    /// T, then V.
+    Drift,
+    /// The kick of Nyström schemes, then the piece at most quadratic in the momenta.
+    NystromKick,
+    /// That piece, then the kick.
+    NystromDrift,
+}
+
+impl RuntimePieces {
+    /// The first piece, and the others. A run is refused before its flows are made, if they are not there.
+    fn parts<'a, T: Real>(&self, prepared: &'a Prepared<T>) -> (Part, &'a [Part]) {
+        let of = |parts: &'a [Part]| match parts.split_first() {
+            Some((first, rest)) => (*first, rest),
+            None => (Part::Kick, parts),
+        };
+        let nystrom = prepared.code.nystrom.as_ref();
+        let [kick, quadratic] = nystrom.unwrap_or(&[Part::Kick, Part::Drift]);
+        match self {
+            RuntimePieces::All => of(&prepared.code.pieces),
+            RuntimePieces::Kick => (Part::Kick, &[Part::Drift]),
+            RuntimePieces::Drift => (Part::Drift, &[Part::Kick]),
+            RuntimePieces::NystromKick => (*kick, std::slice::from_ref(quadratic)),
+            RuntimePieces::NystromDrift => (*quadratic, std::slice::from_ref(kick)),
+        }
+    }
+}
 
 impl<T: Real> Pieces<T, Prepared<T>> for RuntimePieces {
     type Point = Point<Flat<T>>;
@@ -175,13 +215,11 @@ impl<T: Real> Pieces<T, Prepared<T>> for RuntimePieces {
     type Inner = Inside<T>;
 
     fn outer(&self, prepared: &Prepared<T>, c: T) -> PartFlow<T> {
-        let first = prepared.code.pieces.first();
-        PartFlow::new(prepared, first.copied().unwrap_or(Part::Kick), c)
+        PartFlow::new(prepared, self.parts(prepared).0, c)
     }
 
     fn inner(&self, prepared: &Prepared<T>, down: T, up: T) -> Inside<T> {
-        let pieces = prepared.code.pieces.get(1..).unwrap_or_default();
-        let Some((last, between)) = pieces.split_last() else {
+        let Some((last, between)) = self.parts(prepared).1.split_last() else {
             return Inside(Vec::new());
         };
         let way_down = between
@@ -199,7 +237,7 @@ impl<T: Real> Pieces<T, Prepared<T>> for RuntimePieces {
 impl Split for RuntimeSystem {
     type Pieces<T: Real> = RuntimePieces;
     fn pieces<T: Real>() -> RuntimePieces {
-        RuntimePieces
+        RuntimePieces::All
     }
 }
 

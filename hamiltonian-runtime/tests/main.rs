@@ -3,5 +3,6 @@
 mod common;
 mod corpus;
 mod diagnostics;
+mod named;
 mod refusals;
 mod runs;

@@ -5,8 +5,17 @@
 
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::Srkn6b;
+use hamiltonian::schemes::author::Listed;
 use hamiltonian::{Error, Vector};
-use hamiltonian_runtime::{Definition, RuntimeSystem, Values};
+use hamiltonian_runtime::{Definition, FlatState, Run, RunError, RuntimeSystem, Swarm, Values};
+
+/// The name of a scheme, with the number of its stages.
+fn name_of(scheme: &impl Listed) -> String {
+    match scheme.entry().name {
+        "Gauss" => "Gauss8".to_owned(),
+        name => name.to_owned(),
+    }
+}
 
 fn made(text: &str, values: Values) -> RuntimeSystem {
     let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
@@ -41,7 +50,7 @@ both!(damped: pub struct Damped { gamma = 0.1 }
 both!(switched: pub struct Switched { k = 3.0 }
     H(x, y; u, v) = (u^2 + v^2)/2 + if x > y { k*(x - y)^2/2 } else { sqrt(1 + (x - y)^2) } + atan2(y, 2 + x));
 
-/// The end of a run, or its error.
+/// The end of a compiled run, or its error.
 fn end<S: System, M: Scheme<S>>(
     system: &S,
     scheme: M,
@@ -54,7 +63,25 @@ fn end<S: System, M: Scheme<S>>(
     Ok(all.map(f64::to_bits).collect())
 }
 
-/// Compares the ends of a compiled run and of one at run time, from flat coordinates and momenta.
+/// The end of a run whose scheme has a name.
+fn end_by_name(
+    system: &RuntimeSystem,
+    scheme: &str,
+    start: FlatState,
+    step: f64,
+) -> Result<Vec<u64>, RunError> {
+    let mut run = Run::new(system, scheme, start, step)?;
+    run.advance(200)?;
+    Ok(run
+        .q()
+        .iter()
+        .chain(run.p())
+        .copied()
+        .map(f64::to_bits)
+        .collect())
+}
+
+/// Compares the ends of a compiled run and of one at run time by the name of its scheme, from flat coordinates and momenta.
 macro_rules! agree {
     ($compiled:expr, $text:expr, $values:expr, $scheme:expr, $q:expr, $p:expr, $step:expr) => {{
         let (compiled, own) = ($compiled, made($text, $values));
@@ -69,7 +96,7 @@ macro_rules! agree {
             *start.p.component_mut(k) = p[k];
         }
         let due = end(&compiled, $scheme, start, $step).unwrap_or_else(|error| panic!("{error}"));
-        let found = end(&own, $scheme, State::new(q, p), $step);
+        let found = end_by_name(&own, &name_of(&$scheme), State::new(q, p), $step);
         assert_eq!(
             found.unwrap_or_else(|error| panic!("{error}")),
             due,
@@ -274,9 +301,9 @@ fn another_parameter_ends_elsewhere() {
     let text = pendulum::TEXT;
     let run = |g: f64| {
         let system = made(text, [("g", g)].into());
-        end(
+        end_by_name(
             &system,
-            StormerVerlet::default(),
+            "StormerVerlet",
             State::new(vec![0.5], vec![3.0]),
             0.1,
         )
@@ -289,18 +316,32 @@ fn another_parameter_ends_elsewhere() {
 fn members_of_an_ensemble_have_the_bits_of_their_runs() {
     let definition =
         Definition::parse(pendulum::TEXT, "text").unwrap_or_else(|errors| panic!("{errors}"));
-    let system = |g: f64| definition.system([("g", g)]).unwrap();
-    let g = |index: usize| 9.0 + 0.125 * index as f64;
-    let start = |member: Member| (system(g(member.index)), State::new(vec![0.5], vec![3.0]));
-    let mut ensemble = Ensemble::new(11, start, StormerVerlet::default(), 0.1)
-        .unwrap()
-        .reproducible();
-    ensemble.advance(200);
-    for (index, state) in ensemble.states().enumerate() {
-        let state = state.unwrap();
-        let found = [state.q[0].to_bits(), state.p[0].to_bits()];
+    let system = |index: usize| {
+        let g = 9.0 + 0.125 * index as f64;
+        definition.system([("g", g)]).unwrap()
+    };
+    let systems: Vec<RuntimeSystem> = (0..11).map(system).collect();
+    let mut q = vec![0.5; 11];
+    let p = vec![3.0; 11];
+    // A member that cannot start leaves the others alone.
+    q[4] = f64::NAN;
+    let mut swarm = Swarm::new(&systems, "StormerVerlet", &q, &p, 0.0, 0.1).unwrap();
+    swarm.advance(150).unwrap();
+    swarm.advance_to(20.0).unwrap();
+    assert_eq!((swarm.steps(), swarm.t()), (200, 20.0));
+    let states = swarm.states();
+    assert_eq!(states.errors.len(), 1);
+    assert_eq!(states.errors[0].0, 4);
+    for (index, system) in systems.iter().enumerate() {
+        if index == 4 {
+            assert!(states.q[index].is_nan() && states.t[index].is_nan());
+            continue;
+        }
+        let found = [states.q[index].to_bits(), states.p[index].to_bits()];
         let start = State::new(vec![0.5], vec![3.0]);
-        let due = end(&system(g(index)), StormerVerlet::default(), start, 0.1).unwrap();
+        let due = end_by_name(system, "StormerVerlet", start, 0.1).unwrap();
         assert_eq!(found.to_vec(), due, "member {index}");
     }
+    let between = swarm.advance_until(20.25).unwrap();
+    assert_eq!((swarm.steps(), between.t[0]), (202, 20.25));
 }

@@ -31,12 +31,21 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     /// [`TimeError::OffGrid`], [`TimeError::Behind`], [`TimeError::Unreachable`]; [`SweepError::Apart`] if members
     /// start at different times or if their steps vary in time. After an error no step has been made.
     pub fn advance_to(&mut self, t: f64) -> Result<&mut Self, Error> {
+        let steps = self.steps_to(t)?;
+        Ok(self.advance(steps))
+    }
+
+    /// Returns the number of steps to the time `t`, which is a whole number of them; 0 if no member could start.
+    ///
+    /// # Errors
+    /// Those of [`advance_to`](Ensemble::advance_to).
+    pub fn steps_to(&self, t: f64) -> Result<u64, Error> {
         let Some(time) = self.clock()? else {
-            return Ok(self);
+            return Ok(0);
         };
         let made = self.common.steps;
         match time.whole_steps(made, t, self.time_name())? {
-            (None, steps) => Ok(self.advance(steps)),
+            (None, steps) => Ok(steps),
             (Some(before), after) => Err(TimeError::OffGrid {
                 clock: self.time_name().into(),
                 target: t,

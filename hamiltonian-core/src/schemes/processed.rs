@@ -309,7 +309,7 @@ macro_rules! weights {
                 $table.$part
             }
             #[inline(always)]
-            fn filled<U: Clone>(value: U) -> [U; $stages] {
+            fn filled<U: Clone>(&self, value: U) -> [U; $stages] {
                 core::array::from_fn(|_| value.clone())
             }
         }

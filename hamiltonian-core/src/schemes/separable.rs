@@ -205,7 +205,7 @@ impl Splitting for SymplecticEuler {
         }
     }
     #[inline(always)]
-    fn filled<U: Clone>(value: U) -> [U; 1] {
+    fn filled<U: Clone>(&self, value: U) -> [U; 1] {
         [value]
     }
 }

@@ -38,7 +38,7 @@ impl Weight {
 /// second), and every symmetric composition of Strang's splitting (down = up = γ/2).
 pub type Durations = (Weight, Weight);
 
-/// The weights of a splitting, as a type: its number of stages is known at compile time.
+/// The weights of a splitting. With arrays as [`Of`](Splitting::Of), the number of stages is known at compile time.
 ///
 /// Durations sum to one, those of the processor of a [`Processed`](super::Processed) scheme to zero.
 #[diagnostic::on_unimplemented(
@@ -51,8 +51,8 @@ pub trait Splitting: Listed + Copy {
     type Of<U>: AsRef<[U]> + AsMut<[U]>;
     /// The durations of the stages.
     fn stages(&self) -> Self::Of<Durations>;
-    /// The array with `value` in each element.
-    fn filled<U: Clone>(value: U) -> Self::Of<U>;
+    /// An array of as many elements as there are stages, with `value` in each.
+    fn filled<U: Clone>(&self, value: U) -> Self::Of<U>;
     /// The first and the last time at which a step evaluates the pieces that jump, in units of the step: the first
     /// piece, and the others. A scheme of the table returns them from
     /// [`times_of_jumps`](crate::Scheme::times_of_jumps).
@@ -131,8 +131,8 @@ impl<W: Splitting> Splitting for Reversed<W> {
         stages
     }
     #[inline(always)]
-    fn filled<U: Clone>(value: U) -> W::Of<U> {
-        W::filled(value)
+    fn filled<U: Clone>(&self, value: U) -> W::Of<U> {
+        self.0.filled(value)
     }
 }
 
@@ -169,7 +169,7 @@ impl<W: Splitting> Splitting for Negated<W> {
         stages
     }
     #[inline(always)]
-    fn filled<U: Clone>(value: U) -> W::Of<U> {
-        W::filled(value)
+    fn filled<U: Clone>(&self, value: U) -> W::Of<U> {
+        self.0.filled(value)
     }
 }

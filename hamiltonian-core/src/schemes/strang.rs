@@ -57,7 +57,7 @@ impl Splitting for Strang {
         [(Weight(0.5, 0.0), Weight(0.5, 0.0))]
     }
     #[inline(always)]
-    fn filled<U: Clone>(value: U) -> [U; 1] {
+    fn filled<U: Clone>(&self, value: U) -> [U; 1] {
         [value]
     }
 }

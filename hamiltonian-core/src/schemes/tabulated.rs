@@ -50,7 +50,7 @@ macro_rules! tabulated {
                 $table.stages
             }
             #[inline(always)]
-            fn filled<U: Clone>(value: U) -> [U; $stages] {
+            fn filled<U: Clone>(&self, value: U) -> [U; $stages] {
                 core::array::from_fn(|_| value.clone())
             }
         }

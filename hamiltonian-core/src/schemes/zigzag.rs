@@ -193,7 +193,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         let closing = (before.as_ref().last()).map_or(X::Scalar::zero(), |(_, up)| up.to());
         let closing = closing * step.before;
         let zero = X::Scalar::zero();
-        let mut durations = W::filled((zero, zero));
+        let mut durations = table.filled((zero, zero));
         for (to, (down, up)) in (durations.as_mut().iter_mut()).zip(table.stages().as_ref()) {
             let (down, up): (X::Scalar, X::Scalar) = (down.to(), up.to());
             *to = (down * step.h, up * step.h);
@@ -208,7 +208,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
     {
         let zero = X::Scalar::zero();
-        let mut durations = W::filled((zero, zero));
+        let mut durations = table.filled((zero, zero));
         let mut closing = zero;
         for h in [step.before, step.h] {
             closing = durations.as_ref().last().map_or(zero, |(_, up)| *up);
@@ -252,7 +252,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
             let times = clocks.next(weights, i, h);
             let stage = Stage::new(pieces, prepared, duration, next, times);
             match &mut stages {
-                None => stages = Some(W::filled(stage)),
+                None => stages = Some(table.filled(stage)),
                 Some(stages) => stages.as_mut()[i] = stage,
             }
             i += 1;

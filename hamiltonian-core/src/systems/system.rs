@@ -407,6 +407,9 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     type Vector: Vector<Scalar = T>;
     /// J∇H, with the force where there is one, scaled by a step coefficient.
     type Field: VectorField<Self::Vector>;
+    /// False if lanes never fuse products on this system, whatever its [arithmetic](Dynamics::arithmetic): then there is
+    /// no code for it.
+    const FUSES: bool = true;
 
     /// The description of the system, as [`System::description`] returns it. Nothing reads it within a step.
     fn description(&self) -> &Description;

@@ -136,7 +136,7 @@ impl<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>> Kernel for SystemKernel<
         }
         let SystemKernel { system, kept, .. } = self;
         let kernel = AtLevel(self.kernel);
-        if system.arithmetic().fused {
+        if D::FUSES && system.arithmetic().fused {
             system.in_pack::<Compiled<K::Pack<L>>, _>(kept, kernel)
         } else {
             system.in_pack::<Compiled<Nf<K::Pack<L>>>, _>(kept, kernel)

@@ -1,0 +1,254 @@
+//! The schemes by name.
+//!
+//! Input: a name. Output: the scheme, given to a [`Make`], or the names nearest to it. Invariant: every scheme of core's
+//! catalogue is here by its name and variant, but for those that need another type of system; splittings, Nyström and
+//! processed schemes are values of one type each.
+
+use crate::by_table::Named;
+use crate::by_table::{ByTable, Moves, Table, Weights};
+use crate::error::RunError;
+use crate::system::RuntimeSystem;
+use hamiltonian_core::Scheme;
+use hamiltonian_core::schemes::author::{Entry, Listed, Map, Splitting};
+use hamiltonian_core::schemes::{self as core, SecondPoint};
+use hamiltonian_language::names::nearest;
+use std::sync::LazyLock;
+
+/// A scheme, with the name by which runs take it.
+///
+/// ```
+/// use hamiltonian_runtime::schemes;
+///
+/// let eighth = schemes().filter(|scheme| scheme.entry.order == 8);
+/// assert!(eighth.map(|scheme| scheme.name).any(|name| name == "Gauss4"));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct NamedScheme {
+    /// The name: `StormerVerlet`, `Gauss8`, `MidpointProjected(BlanesMoan6)`.
+    pub name: String,
+    /// Its order, the structure that it requires, the form that it preserves, its source.
+    pub entry: Entry,
+    /// True if [`Swarm`](crate::Swarm) takes it too.
+    pub in_ensembles: bool,
+}
+
+/// All schemes that a [`Run`](crate::Run) takes by name, each with its facts.
+///
+/// A name may have spaces, and Rust's brackets: `Gauss::<8>` is `Gauss8`, and `StormerVerlet (drift-kick-drift)` is
+/// `StormerVerlet(drift-kick-drift)`. Of a scheme with settings, the name alone is that of the default.
+pub fn schemes() -> impl Iterator<Item = NamedScheme> {
+    ALL.iter().map(|(name, scheme)| NamedScheme {
+        name: name.clone(),
+        entry: scheme.entry(),
+        in_ensembles: scheme.is_for_many(),
+    })
+}
+
+/// A scheme of a [`RuntimeSystem`] whose runs may go to another thread.
+pub(crate) trait Runs:
+    Scheme<RuntimeSystem, Map<f64>: Send + Map<Carried: Send, Work: Send>>
+{
+}
+
+impl<M: Scheme<RuntimeSystem, Map<f64>: Send + Map<Carried: Send, Work: Send>>> Runs for M {}
+
+/// What is made of a scheme.
+pub(crate) trait Make {
+    type Made;
+    fn make<M: Runs>(self, scheme: M) -> Self::Made;
+}
+
+/// Makes it in a function of its own: one function with all schemes has too large a frame for the stack.
+#[inline(never)]
+fn apart<M: Runs, K: Make>(to: K, scheme: M) -> K::Made {
+    to.make(scheme)
+}
+
+/// The schemes by their types, of which those of splittings are tables: first those that ensembles have too.
+macro_rules! known {
+    (@each $($type:ident: $of:ty;)+ @many $($many:ident)+) => {
+        /// A scheme.
+        #[derive(Clone)]
+        enum Known {
+            $($type($of),)+
+        }
+
+        impl Known {
+            fn entry(&self) -> Entry {
+                match self {
+                    $(Known::$type(scheme) => scheme.entry(),)+
+                }
+            }
+
+            fn give<K: Make>(&self, to: K) -> K::Made {
+                match self {
+                    $(Known::$type(scheme) => apart(to, scheme.clone()),)+
+                }
+            }
+
+            /// Gives it to what is made of a scheme that ensembles have.
+            fn give_many<K: Make>(&self, to: K) -> Option<K::Made> {
+                match self {
+                    $(Known::$many(scheme) => Some(apart(to, scheme.clone())),)+
+                    _ => None,
+                }
+            }
+
+            const fn is_for_many(&self) -> bool {
+                matches!(self, $(Known::$many(_))|+)
+            }
+        }
+    };
+    (ensembles { $($many:ident: $of_many:ty;)+ } runs { $($type:ident: $of:ty;)+ }) => {
+        known! { @each $($many: $of_many;)+ $($type: $of;)+ @many $($many)+ }
+    };
+}
+
+known! {
+    ensembles {
+        Table: ByTable;
+        ImplicitMidpoint: core::ImplicitMidpoint;
+        Gauss4: core::Gauss<4>;
+    }
+    runs {
+        Processed: core::Processed<Weights, Weights>;
+        MidpointProjected: core::MidpointProjected<Weights>;
+        Semiexplicit: core::Semiexplicit<Weights>;
+        RungeKutta4: core::RungeKutta4;
+        Gauss2: core::Gauss<2>;
+        Gauss8: core::Gauss<8>;
+        GaussNystrom4: core::GaussNystrom<4>;
+        GaussNystrom8: core::GaussNystrom<8>;
+        Line: core::Variational<1, 2>;
+        Parabola: core::Variational<2, 2>;
+        Momentum: core::MomentumVariational<2>;
+        DiscreteGradient: core::DiscreteGradient;
+        Tao: core::Tao;
+        Pihajoki: core::Pihajoki;
+        TwoStep: core::TwoStepMidpoint;
+        Consecutive: core::ConsecutiveSubTrajectories;
+        Intersecting: core::IntersectingSubTrajectories;
+    }
+}
+
+/// The name without spaces and without the signs of Rust's generics.
+fn plain(name: &str) -> String {
+    name.replace([' ', '<', '>', ':'], "")
+}
+
+static ALL: LazyLock<Vec<(String, Known)>> = LazyLock::new(all);
+
+/// All schemes, those of a kind together.
+fn all() -> Vec<(String, Known)> {
+    let mut all = Vec::new();
+    // The table of a splitting, which stays in memory as the list does.
+    fn weights<W: Splitting>(scheme: &W) -> Weights {
+        Weights(Box::leak(Box::new(Table::of(scheme))))
+    }
+    let mut add = |known: Known| all.push((plain(&known.entry().to_string()), known));
+    let mut on_copies = Vec::new();
+    macro_rules! tables {
+        ($($moves:ident: $($scheme:expr),+;)+) => {
+            $($(
+                let table = weights(&$scheme);
+                add(Known::Table(ByTable { weights: table, moves: Moves::$moves }));
+                if Moves::$moves == Moves::Pieces && table.0.is_general() {
+                    on_copies.push(table);
+                }
+            )+)+
+        };
+    }
+    tables! {
+        KickUnlessItJumps: Named(core::StormerVerlet::KickDriftKick, core::Strang);
+        DriftUnlessItJumps: Named(core::StormerVerlet::DriftKickDrift, core::Strang);
+        Drift: core::SymplecticEuler::KickDrift, core::SymplecticEuler::DriftKick;
+        Pieces: core::Strang, core::Ruth3, core::Yoshida4, core::Suzuki4, core::BlanesMoan4, core::Yoshida6, core::KahanLi6,
+            core::BlanesMoan6, core::McLachlan8, core::KahanLi8, core::SofroniouSpaletta8, core::SofroniouSpaletta10,
+            core::Saba2, core::Saba3, core::Saba4, core::Aba104, core::Aba864, core::Aba1064;
+        NystromKick: core::Srkn6b, core::Srkn11b;
+        NystromDrift: core::Srkn14a, core::BlanesCasasEscorihuela8;
+    }
+    macro_rules! processed {
+        ($($scheme:ident),+) => {$(
+            let scheme = core::$scheme::default();
+            add(Known::Processed(core::Processed::new(weights(scheme.kernel()), weights(scheme.processor()))));
+        )+};
+    }
+    processed!(Processed4, Processed6, BlanesCasasMurua8);
+    processed!(
+        WisdomHolman3,
+        WisdomHolman5,
+        WisdomHolman7,
+        WisdomHolman11,
+        WisdomHolman17
+    );
+    add(Known::ImplicitMidpoint(core::ImplicitMidpoint::default()));
+    add(Known::RungeKutta4(core::RungeKutta4));
+    add(Known::Line(core::Variational::lobatto()));
+    add(Known::Parabola(core::Variational::lobatto()));
+    add(Known::DiscreteGradient(core::DiscreteGradient::default()));
+    add(Known::Tao(core::Tao::default()));
+    add(Known::Pihajoki(core::Pihajoki::CoordinateFirst));
+    add(Known::Pihajoki(core::Pihajoki::MomentumFirst));
+    for second in [
+        SecondPoint::SecondOrder,
+        SecondPoint::HalfEuler,
+        SecondPoint::Equal,
+    ] {
+        add(Known::TwoStep(
+            core::TwoStepMidpoint::default().with_second_point(second),
+        ));
+        add(Known::Consecutive(
+            core::ConsecutiveSubTrajectories::default().with_second_point(second),
+        ));
+        add(Known::Intersecting(
+            core::IntersectingSubTrajectories::default().with_second_point(second),
+        ));
+    }
+    for table in &on_copies {
+        add(Known::MidpointProjected(core::MidpointProjected(*table)));
+        add(Known::Semiexplicit(core::Semiexplicit::new(*table)));
+    }
+    let mut staged = |stages: usize, known: Known| {
+        all.push((format!("{}{stages}", known.entry().name), known));
+    };
+    macro_rules! staged {
+        ($($type:ident: $scheme:ident<$stages:literal>;)+) => {
+            $(staged($stages, Known::$type(core::$scheme::<$stages>::default()));)+
+        };
+    }
+    staged! {
+        Gauss2: Gauss<2>;
+        Gauss4: Gauss<4>;
+        Gauss8: Gauss<8>;
+        GaussNystrom4: GaussNystrom<4>;
+        GaussNystrom8: GaussNystrom<8>;
+        Momentum: MomentumVariational<2>;
+    }
+    all
+}
+
+/// The scheme of a name: with its setting, or the first one of the name alone.
+fn known(name: &str) -> Result<&'static (String, Known), RunError> {
+    let asked = plain(name);
+    let exact = ALL.iter().find(|(known, _)| *known == asked);
+    let of_default = |known: &str| known.split('(').next() == Some(&*asked);
+    let found = exact.or_else(|| ALL.iter().find(|(known, _)| of_default(known)));
+    found.ok_or_else(|| RunError::UnknownScheme {
+        name: name.to_owned(),
+        nearest: nearest(&asked, ALL.iter().map(|(known, _)| &**known)).map(str::to_owned),
+    })
+}
+
+/// Gives the scheme of a name to what is made of it.
+pub(crate) fn give<K: Make>(name: &str, to: K) -> Result<K::Made, RunError> {
+    Ok(known(name)?.1.give(to))
+}
+
+/// Gives the scheme of a name to what is made of one that ensembles have.
+pub(crate) fn give_many<K: Make>(name: &str, to: K) -> Result<K::Made, RunError> {
+    let (name, scheme) = known(name)?;
+    let made = scheme.give_many(to);
+    made.ok_or_else(|| RunError::SingleRuns { name: name.clone() })
+}

@@ -1,0 +1,346 @@
+//! Ensembles whose scheme has a name.
+//!
+//! Input: systems, the name of a scheme, the starts of all members in two lists. Output: [`Swarm`]. Invariant: it is core's
+//! `Ensemble` without fused products, so each member has the bits of its [`Run`](crate::Run).
+
+use crate::error::RunError;
+use crate::run::FlatState;
+use crate::schemes::{Make, Runs, give_many};
+use crate::system::RuntimeSystem;
+use crate::watching::Hook;
+use hamiltonian_core::errors::{StartError, SweepError};
+use hamiltonian_core::schemes::author::Clock;
+use hamiltonian_core::{Ensemble, Error, Member, State, Unfused};
+use std::fmt::{self, Debug, Formatter};
+use std::time::{Duration, Instant};
+
+/// Many members of one definition, which differ in their starts and parameters, with one scheme that is named by a text.
+///
+/// Members are computed in the lanes of packs and on all cores. Each has the bits of its single [`Run`](crate::Run). A
+/// member that fails keeps its error, and the others continue.
+///
+/// ```
+/// use hamiltonian_runtime::{Definition, Swarm};
+///
+/// let pendulum = Definition::parse("struct Pendulum { l = 1.0 } H(theta; p) = p^2/(2*l^2) - l*cos(theta)", "text")?;
+/// // A parameter with a value for each member: a system for each.
+/// let systems = (0..100).map(|member| pendulum.system([("l", 1.0 + 0.01 * member as f64)]));
+/// let systems = systems.collect::<Result<Vec<_>, _>>()?;
+/// let mut swarm = Swarm::new(&systems, "StormerVerlet", &[0.5; 100], &[0.0; 100], 0.0, 0.01)?;
+/// swarm.advance_to(10.0)?;
+/// let states = swarm.states();
+/// assert_eq!(states.q.len(), 100);
+/// assert!(states.errors.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Swarm {
+    members: Box<dyn Members>,
+    /// The number of members, and of coordinates of one.
+    of: [usize; 2],
+    clock: Clock<f64>,
+    step: f64,
+    hook: Hook,
+}
+
+/// The states of all members of a [`Swarm`].
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MemberStates {
+    /// The time of each member.
+    pub t: Vec<f64>,
+    /// The coordinates, those of a member together; NaN for one that failed.
+    pub q: Vec<f64>,
+    /// The momenta.
+    pub p: Vec<f64>,
+    /// The members that failed, with their errors.
+    pub errors: Vec<(usize, Error)>,
+}
+
+impl Swarm {
+    /// Creates members with the step size `step`, from the starts `q` and `p`, those of a member together, at the time `t`.
+    /// `systems` is one for all members, or one for each.
+    ///
+    /// A member that cannot start has its error in [`states`](Swarm::states).
+    ///
+    /// # Errors
+    /// [`RunError::UnknownScheme`], [`RunError::SingleRuns`]; [`RunError::Length`] if the lists do not have the numbers of all members;
+    /// [`SweepError::NoMembers`], [`StartError::Step`](hamiltonian_core::errors::StartError::Step), and
+    /// [`StartError::Structure`](hamiltonian_core::errors::StartError::Structure).
+    pub fn new(
+        systems: &[RuntimeSystem],
+        scheme: &str,
+        q: &[f64],
+        p: &[f64],
+        t: f64,
+        step: f64,
+    ) -> Result<Swarm, RunError> {
+        let none = RunError::Length {
+            what: "systems",
+            expected: 1,
+            found: 0,
+        };
+        let width = systems.first().ok_or(none)?.degrees_of_freedom();
+        let count = match systems.len() {
+            1 => q.len() / width.max(1),
+            count => count,
+        };
+        for (what, found) in [("coordinates", q.len()), ("momenta", p.len())] {
+            if found != count * width {
+                let expected = count * width;
+                return Err(RunError::Length {
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
+        let begin = BeginMembers {
+            systems,
+            of: [count, width],
+            q,
+            p,
+            t,
+            step,
+        };
+        let (members, clock) = give_many(scheme, begin)??;
+        Ok(Swarm {
+            members,
+            of: [count, width],
+            clock,
+            step,
+            hook: Hook::default(),
+        })
+    }
+
+    /// Sets the number of threads (0 counts as 1); by default as many as the machine runs at once. The results do not
+    /// depend on it.
+    #[must_use]
+    pub fn with_threads(mut self, threads: usize) -> Swarm {
+        self.members = self.members.with_threads(threads);
+        self
+    }
+
+    /// Asks `cancel` about ten times a second whether to stop: a call that advances the members then returns
+    /// [`RunError::Interrupted`], and all members stand at one number of steps.
+    #[must_use]
+    pub fn with_cancel(self, cancel: impl Fn() -> bool + Send + Sync + 'static) -> Swarm {
+        self.hook.set(cancel);
+        self
+    }
+
+    /// Makes `steps` steps of every member that has not failed.
+    ///
+    /// # Errors
+    /// [`RunError::Interrupted`] alone: the error of a member is in its place.
+    pub fn advance(&mut self, steps: u64) -> Result<(), RunError> {
+        self.advance_watched(steps, &mut |_| {})
+    }
+
+    /// Makes `steps` steps as [`advance`](Swarm::advance) does, and calls `progress` about ten times a second, and at the end,
+    /// with the number of steps made in this call.
+    ///
+    /// # Errors
+    /// [`RunError::Interrupted`].
+    pub fn advance_watched(
+        &mut self,
+        steps: u64,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<(), RunError> {
+        /// The shortest time between two questions.
+        const SOON: Duration = Duration::from_millis(100);
+        let (mut made, mut block) = (0, 1);
+        while made < steps {
+            let some = block.min(steps - made);
+            let begin = Instant::now();
+            self.members.advance(some);
+            made += some;
+            // Members are loaded and stored for each block: it is as long as the time allows.
+            block = match begin.elapsed() {
+                time if time < SOON / 4 => block.saturating_mul(4),
+                time if time < SOON / 2 => block.saturating_mul(2),
+                time if time > SOON * 2 => (block / 2).max(1),
+                _ => block,
+            };
+            progress(made);
+            if made < steps && self.hook.stops() {
+                self.hook.take();
+                return Err(RunError::Interrupted);
+            }
+        }
+        Ok(())
+    }
+
+    /// Advances all members to the time `t`, which is a whole number of steps from the current time.
+    ///
+    /// # Errors
+    /// [`RunError::Interrupted`] and those of [`Ensemble::advance_to`].
+    pub fn advance_to(&mut self, t: f64) -> Result<(), RunError> {
+        let steps = self.members.steps_to(t)?;
+        self.advance(steps)
+    }
+
+    /// The number of members.
+    #[must_use]
+    #[allow(clippy::len_without_is_empty)] // It has at least one member.
+    pub fn len(&self) -> usize {
+        self.of[0]
+    }
+
+    /// The number of coordinates of a member, which is that of its momenta.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.of[1]
+    }
+
+    /// The number of steps made.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.members.steps()
+    }
+
+    /// The step size.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The time of the members that have not failed.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.clock.at(self.steps())
+    }
+
+    /// The current states.
+    #[must_use]
+    pub fn states(&self) -> MemberStates {
+        self.members.states(self.of)
+    }
+
+    /// Advances all members by the whole steps up to `t`, any later time, and returns their states at `t`.
+    ///
+    /// # Errors
+    /// [`RunError::Interrupted`] and those of [`Ensemble::advance_until`].
+    pub fn advance_until(&mut self, t: f64) -> Result<MemberStates, RunError> {
+        /// The largest number of steps that is exact.
+        const MOST: f64 = (1_u64 << 53) as f64;
+        // The blocks before the last step; what remains is one call.
+        let left = ((t - self.t()) / self.clock.interval).floor();
+        if (2.0..MOST).contains(&left) {
+            self.advance(left as u64 - 1)?;
+        }
+        Ok(self.members.advance_until(t, self.of)?)
+    }
+}
+
+impl Debug for Swarm {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Swarm")
+            .field("members", &self.members.describe())
+            .finish_non_exhaustive()
+    }
+}
+
+/// Members before their scheme is known.
+struct BeginMembers<'a> {
+    systems: &'a [RuntimeSystem],
+    of: [usize; 2],
+    q: &'a [f64],
+    p: &'a [f64],
+    t: f64,
+    step: f64,
+}
+
+impl Make for BeginMembers<'_> {
+    type Made = Result<(Box<dyn Members>, Clock<f64>), Error>;
+
+    fn make<M: Runs>(self, scheme: M) -> Self::Made {
+        let [count, width] = self.of;
+        let duration = f64::from(scheme.entry().duration);
+        let make = |member: Member| {
+            let range = member.index * width..(member.index + 1) * width;
+            let [q, p] = [self.q, self.p].map(|all| all[range.clone()].to_vec());
+            let system = self.systems.get(member.index);
+            let system = system.unwrap_or(&self.systems[0]).clone();
+            (system, State::new(q, p).at(self.t))
+        };
+        let ensemble = Ensemble::new(count, make, scheme, self.step)?.reproducible();
+        // A structure that one member lacks, all lack.
+        if let Some(Err(Error::Sweep(SweepError::Member { error, .. }))) = ensemble.state_of(0)
+            && let Error::Start(StartError::Structure { .. }) = *error
+        {
+            return Err(*error);
+        }
+        let clock = Clock::new(self.t, self.step * duration);
+        Ok((Box::new(ensemble), clock))
+    }
+}
+
+/// The methods of an ensemble without the type of its scheme.
+trait Members: Send {
+    fn with_threads(self: Box<Self>, threads: usize) -> Box<dyn Members>;
+    fn advance(&mut self, n: u64);
+    fn steps_to(&self, t: f64) -> Result<u64, Error>;
+    fn steps(&self) -> u64;
+    fn states(&self, of: [usize; 2]) -> MemberStates;
+    fn advance_until(&mut self, t: f64, of: [usize; 2]) -> Result<MemberStates, Error>;
+    fn describe(&self) -> String;
+}
+
+impl<M: Runs> Members for Ensemble<RuntimeSystem, M, (), Unfused> {
+    fn with_threads(self: Box<Self>, threads: usize) -> Box<dyn Members> {
+        Box::new((*self).with_threads(threads))
+    }
+    fn advance(&mut self, n: u64) {
+        self.advance(n);
+    }
+    fn steps_to(&self, t: f64) -> Result<u64, Error> {
+        self.steps_to(t)
+    }
+    fn steps(&self) -> u64 {
+        self.steps()
+    }
+    fn states(&self, of: [usize; 2]) -> MemberStates {
+        MemberStates::of(&mut self.states(), of)
+    }
+    fn advance_until(&mut self, t: f64, of: [usize; 2]) -> Result<MemberStates, Error> {
+        Ok(MemberStates::of(&mut self.advance_until(t)?, of))
+    }
+    fn describe(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl MemberStates {
+    /// The states of `count` members of `width` coordinates.
+    fn of(
+        states: &mut dyn Iterator<Item = Result<FlatState, Error>>,
+        [count, width]: [usize; 2],
+    ) -> MemberStates {
+        let mut all = MemberStates {
+            t: Vec::with_capacity(count),
+            q: Vec::with_capacity(count * width),
+            p: Vec::with_capacity(count * width),
+            errors: Vec::new(),
+        };
+        for (index, state) in states.enumerate() {
+            match state {
+                Ok(state) => {
+                    all.t.push(state.t);
+                    all.q.extend(state.q.iter());
+                    all.p.extend(state.p.iter());
+                }
+                Err(error) => {
+                    all.t.push(f64::NAN);
+                    all.q.extend(std::iter::repeat_n(f64::NAN, width));
+                    all.p.extend(std::iter::repeat_n(f64::NAN, width));
+                    let error = match error {
+                        Error::Sweep(SweepError::Member { error, .. }) => *error,
+                        other => other,
+                    };
+                    all.errors.push((index, error));
+                }
+            }
+        }
+        all
+    }
+}

@@ -1,5 +1,6 @@
 //! Definitions at run time: the errors of the macro, the bits of the interpreter and of compiled runs.
 
+mod command;
 mod common;
 mod corpus;
 mod diagnostics;

@@ -12,9 +12,9 @@ mod packs;
 mod waiting;
 
 use crate::loops::slabs::{on_two_threads, slabs};
-use crate::systems::compiled::Compiled;
+use crate::systems::compiled::{self, Rounded, rounded};
 use crate::systems::system::Arithmetic;
-use hamiltonian_lanes::{Kernel, Level, Nf, Real, dispatch};
+use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch};
 pub use nest::{Mode, Nest, nest};
 use packs::packs;
 
@@ -462,14 +462,31 @@ impl<
 > Kernel for StretchKernel<'_, T, B, G, R, C, S, A, W>
 {
     type Output = ();
+    const BEST: Cpu = compiled::BEST;
+    #[inline(always)]
+    fn best(&self) -> Cpu {
+        compiled::best(self.stretch.arithmetic.fused)
+    }
     #[inline(always)]
     fn run<L: Level>(self) {
-        let (stretch, is_followed) = (self.stretch, self.is_followed);
-        if L::FUSES && stretch.arithmetic.fused {
-            packs::<T, B, Compiled<L::Eight>, G, R, C, S, A, W>(stretch, is_followed);
-        } else {
-            packs::<T, B, Compiled<Nf<L::Eight>>, G, R, C, S, A, W>(stretch, is_followed);
-        }
+        rounded::<L, L::Eight, _>(self.stretch.arithmetic.fused, self);
+    }
+}
+
+impl<
+    T: Real,
+    B: Body<G, R, W>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const A: usize,
+    const W: usize,
+> Rounded for StretchKernel<'_, T, B, G, R, C, S, A, W>
+{
+    #[inline(always)]
+    fn run<P: Pack>(self) {
+        packs::<T, B, P, G, R, C, S, A, W>(self.stretch, self.is_followed);
     }
 }
 

@@ -224,6 +224,11 @@ pub trait Kernel {
     /// The best level that code is made for: a lower one than [`Cpu::Avx512`] where wider registers gain
     /// nothing. It exists on every architecture as the best of those that are not above it.
     const BEST: Cpu = Cpu::Avx512;
+    /// The best level that this work runs on: [`BEST`](Kernel::BEST), or a lower one that its values ask for.
+    #[inline(always)]
+    fn best(&self) -> Cpu {
+        Self::BEST
+    }
     /// Computes it on level `L`.
     fn run<L: Level>(self) -> Self::Output;
 }
@@ -232,7 +237,7 @@ pub trait Kernel {
 /// of which no code is made then.
 #[inline]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
-    match Cpu::best() {
+    match Cpu::best().min(kernel.best()) {
         #[cfg(target_arch = "x86_64")]
         Cpu::Avx512 if const { K::BEST as u8 >= Cpu::Avx512 as u8 } => Avx512::enter(kernel),
         #[cfg(target_arch = "x86_64")]

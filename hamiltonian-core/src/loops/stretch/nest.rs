@@ -5,9 +5,9 @@
 
 use super::packs::packs;
 use super::{Body, STRIDE, Stretch};
-use crate::systems::compiled::Compiled;
+use crate::systems::compiled::{self, Rounded, rounded};
 use crate::systems::system::Arithmetic;
-use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
+use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch};
 
 /// A nest of loops with `G` loop-invariant numbers, `R` columns to read, `C` columns to write, and `Z` sizes.
 pub trait Nest<T: Real, const G: usize, const R: usize, const C: usize, const Z: usize> {
@@ -143,8 +143,28 @@ impl<
 > Kernel for NestKernel<'_, T, N, G, R, C, Z>
 {
     type Output = ();
+    const BEST: Cpu = compiled::BEST;
+    #[inline(always)]
+    fn best(&self) -> Cpu {
+        compiled::best(self.arithmetic.fused)
+    }
     #[inline(always)]
     fn run<L: Level>(self) {
+        rounded::<L, L::Eight, _>(self.arithmetic.fused, self);
+    }
+}
+
+impl<
+    T: Real,
+    N: Nest<T, G, R, C, Z>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const Z: usize,
+> Rounded for NestKernel<'_, T, N, G, R, C, Z>
+{
+    #[inline(always)]
+    fn run<P: Pack>(self) {
         let NestKernel {
             given,
             reads,
@@ -153,10 +173,6 @@ impl<
             arithmetic,
             ..
         } = self;
-        if L::FUSES && arithmetic.fused {
-            N::run::<In<Compiled<L::Eight>>>(given, reads, columns, sizes, arithmetic);
-        } else {
-            N::run::<In<Compiled<Nf<L::Eight>>>>(given, reads, columns, sizes, arithmetic);
-        }
+        N::run::<In<P>>(given, reads, columns, sizes, arithmetic);
     }
 }

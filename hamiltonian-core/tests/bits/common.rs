@@ -2,6 +2,8 @@
 
 #[path = "../common/chain.rs"]
 pub mod chain;
+#[path = "../common/four.rs"]
+pub mod four;
 #[path = "../common/kepler.rs"]
 pub mod kepler;
 #[path = "../common/systems.rs"]

@@ -5,7 +5,7 @@
 //! bound that a coefficient with a wrong last place exceeds: the steps of such a method are not symplectic,
 //! and it drifts.
 
-use super::common::systems::{Hand, HenonHeiles, Paper34, Pendulum};
+use crate::common::systems::{Hand, HenonHeiles, Paper34, Pendulum};
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Integrator, QuadraticKinetic, Scheme, State, System};
@@ -80,7 +80,6 @@ fn paper_34(scheme: impl Scheme<Hand<Paper34, 1>>, h: f64) {
 
 /// Steps that are short decimal fractions too: products with them are biased.
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn energies_of_nystrom_forms_walk_at_random() {
     henon_heiles(GaussNystrom::<1>::default(), 0.01);
     henon_heiles(GaussNystrom::<2>::default(), 0.02);
@@ -95,7 +94,6 @@ fn energies_of_nystrom_forms_walk_at_random() {
 }
 
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn energies_of_gauss_walk_at_random() {
     paper_34(Gauss::<1>::default(), 0.0005);
     paper_34(Gauss::<2>::default(), 0.002);
@@ -109,7 +107,6 @@ fn energies_of_gauss_walk_at_random() {
 }
 
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn energies_of_variational_schemes_walk_at_random() {
     paper_34(Variational::<4, 4>::gauss(), 0.02);
     paper_34(Variational::<5, 5>::lobatto(), 0.03);

@@ -112,12 +112,12 @@ macro_rules! for_lengths {
 
 #[test]
 fn toda_of_every_length() {
-    for_lengths!(Toda, &PlainToda; 1 2 3 7 64 200);
+    for_lengths!(Toda, &PlainToda; 1 2 3 7 64 131);
 }
 
 #[test]
 fn fput_of_every_length() {
-    for_lengths!(Fput, &PlainFput; 1 2 3 7 64 200);
+    for_lengths!(Fput, &PlainFput; 1 2 3 7 64 131);
 }
 
 struct PlainGravity {

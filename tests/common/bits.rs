@@ -3,6 +3,7 @@
 //! `Called<false>` is an `f64` that has no form in lanes: its loops go one by one.
 
 use super::derivatives::numbers;
+use super::levels;
 use crate::counting::counted::Called;
 use hamiltonian::VectorOf;
 use hamiltonian::prelude::*;
@@ -63,7 +64,7 @@ where
 pub fn check<S: System>(system: &S, seed: u64) {
     let expected = outputs::<Called<false>, S>(system, seed, |x| x.0, Called);
     let _hidden = LEVEL.write().unwrap_or_else(PoisonError::into_inner);
-    for limit in Cpu::available() {
+    for limit in levels() {
         Cpu::limit_to(limit);
         let found = outputs::<f64, S>(system, seed, |x| x, |x| x);
         let differ = expected.iter().zip(&found).position(|(a, b)| a != b);

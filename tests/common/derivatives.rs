@@ -1,14 +1,16 @@
 //! Derivatives of a system against dual numbers, against its energy in plain Rust, and against
 //! another definition of it.
 
+use crate::symbolic::cases;
 use hamiltonian::VectorOf;
 use hamiltonian::{
     Dual, Real, State, System, Vector,
     schemes::author::{Dynamics, VectorField},
 };
 
-/// The lengths that systems with a length are checked at.
-pub const LENGTHS: [usize; 6] = [1, 2, 3, 7, 64, 200];
+/// The lengths that systems with a length are checked at: the last is long enough for the lanes of all loops, and no
+/// multiple of them.
+pub const LENGTHS: [usize; 6] = [1, 2, 3, 7, 64, 131];
 
 #[track_caller]
 pub fn close(a: f64, b: f64) {
@@ -52,6 +54,11 @@ where
     check_at(system, &chosen(system, 1));
 }
 
+/// The largest number of directions, or with `HAMILTONIAN_HEAVY=1` more of them.
+fn directions() -> usize {
+    cases(24, 64)
+}
+
 /// The gradient, the derivative by time, the Hessian and the flow against duals.
 pub fn check_at<S>(system: &S, state: &State<VectorOf<S>>)
 where
@@ -68,8 +75,8 @@ where
     };
     let prepared = System::prepare::<f64>(system);
     let (t, q, p) = (state.t, &state.q, &state.p);
-    // In 64 or so directions, whatever the size, and in one that all components have a part in.
-    let stride = (2 * n).div_ceil(64).max(1);
+    // In some directions, whatever the size, and in one that all components have a part in.
+    let stride = (2 * n).div_ceil(directions());
     let mut all = State {
         t: Dual::fixed(t),
         q: lifted(q),
@@ -147,8 +154,8 @@ pub fn check_plain<S: System>(system: &S, state: &State<VectorOf<S>>, plain: &im
     let fixed = |values: &[f64]| values.iter().map(|x| Dual::fixed(*x)).collect::<Vec<_>>();
     let (mut q, mut p) = (fixed(&q), fixed(&p));
     let t = Dual::fixed(state.t);
-    // In 64 or so components, whatever the size: [`check_at`] has all of the gradient.
-    let stride = q.len().div_ceil(64).max(1);
+    // In some components, whatever the size: [`check_at`] has all of the gradient.
+    let stride = q.len().div_ceil(directions());
     for at in (0..q.len()).step_by(stride) {
         q[at].eps = 1.0;
         close(plain.energy(t, &q, &p).eps, dq.component(at));

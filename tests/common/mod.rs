@@ -11,6 +11,7 @@ pub mod reference;
 pub mod systems;
 
 use hamiltonian::VectorOf;
+use hamiltonian::lanes::Cpu;
 use hamiltonian::schemes::author::catalogue;
 use hamiltonian::{Real, State, System, Vector, schemes::author::Needs};
 
@@ -75,4 +76,14 @@ pub fn assert_digits(what: &str, value: f64, quoted: f64, digits: i32) {
 /// Returns true if the long versions of the tests were asked for.
 pub fn is_heavy() -> bool {
     std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1")
+}
+
+/// The levels whose loops differ: in code that is not optimised, products that do not fuse have one.
+pub fn levels() -> Vec<Cpu> {
+    let all = Cpu::available();
+    if is_heavy() {
+        all.collect()
+    } else {
+        all.last().into_iter().collect()
+    }
 }

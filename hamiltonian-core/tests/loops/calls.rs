@@ -110,6 +110,8 @@ const POINTS: [f64; 24] = [
     88.0,
 ];
 
+// Out of line: one function with all of these would take minutes to optimise.
+#[inline(never)]
 fn check<C: Call<Value<f64> = V>, V: Copy, const N: usize>(words: impl Fn(V) -> [u64; 2]) {
     for start in 0..POINTS.len() {
         let x: [f64; N] =

@@ -4,3 +4,10 @@
 pub mod bits;
 #[path = "../../../tests/common/derivatives.rs"]
 pub mod derivatives;
+
+use hamiltonian::lanes::Cpu;
+
+/// All levels of this CPU.
+pub fn levels() -> Vec<Cpu> {
+    Cpu::available().collect()
+}

@@ -84,15 +84,29 @@ impl Definition {
 
     /// The system with these values of its parameters and sizes.
     fn system(&self, py: Python<'_>, values: Vec<(String, Value<'_>)>) -> PyResult<System> {
-        let mut all = runtime::Values::new();
-        for (name, value) in &values {
-            all = match value {
-                Value::Number(number) => all.with(name, *number),
-                Value::List(list) => all.with(name, list.as_slice()?),
-            };
-        }
-        let made = py.detach(|| self.read.system(all));
-        let made = made.map_err(|error| errors::of_values(py, &error, &self.text))?;
-        Ok(System::new(made))
+        Ok(System::new(self.made(py, self::values(&values)?)?))
     }
+}
+
+impl Definition {
+    pub fn made(
+        &self,
+        py: Python<'_>,
+        values: runtime::Values,
+    ) -> PyResult<runtime::RuntimeSystem> {
+        let made = py.detach(|| self.read.system(values));
+        made.map_err(|error| errors::of_values(py, &error, &self.text))
+    }
+}
+
+/// The values of a system.
+pub fn values(all: &[(String, Value<'_>)]) -> PyResult<runtime::Values> {
+    let mut values = runtime::Values::new();
+    for (name, value) in all {
+        values = match value {
+            Value::Number(number) => values.with(name, *number),
+            Value::List(list) => values.with(name, list.as_slice()?),
+        };
+    }
+    Ok(values)
 }

@@ -2,9 +2,11 @@
 //!
 //! Input: the errors of hamiltonian-runtime. Output: exceptions with the same text.
 
-use hamiltonian_runtime::{Diagnostic, Diagnostics, SystemError};
+use hamiltonian_core::Error;
+use hamiltonian_runtime::{Diagnostic, Diagnostics, RunError, SystemError};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use std::sync::{MutexGuard, TryLockError, TryLockResult};
 
 /// What `hamiltonian.errors.Diagnostic` takes: message, help, source, line, column, the line of the text.
 type Fields = (String, String, String, usize, usize, String);
@@ -62,6 +64,37 @@ pub fn of_values(py: Python<'_>, error: &SystemError, text: &str) -> PyErr {
         }
         SystemError::Unknown { .. } | SystemError::NoValue { .. } => PyTypeError::new_err(shown),
         _ => PyValueError::new_err(shown),
+    }
+}
+
+/// The exception for a run that is refused or fails. A mistake of the caller is a `ValueError`.
+pub fn of_run(py: Python<'_>, error: &RunError) -> PyErr {
+    let shown = error.to_string();
+    match error {
+        RunError::Run(Error::Start(_) | Error::Input(_) | Error::Time(_)) => {
+            PyValueError::new_err(shown)
+        }
+        RunError::Run(_) => {
+            let make = || {
+                py.import("hamiltonian.errors")?
+                    .getattr("RunError")?
+                    .call1((shown,))
+            };
+            make().map_or_else(|error| error, PyErr::from_value)
+        }
+        _ => PyValueError::new_err(shown),
+    }
+}
+
+/// What a lock guards, or the exception for a run that another thread advances.
+pub fn unused<'a, T>(lock: TryLockResult<MutexGuard<'a, T>>) -> PyResult<MutexGuard<'a, T>> {
+    match lock {
+        Ok(own) => Ok(own),
+        Err(TryLockError::Poisoned(own)) => Ok(own.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            let text = "another thread advances this run or ensemble: make one for each thread";
+            Err(PyRuntimeError::new_err(text))
+        }
     }
 }
 

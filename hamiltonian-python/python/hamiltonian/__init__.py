@@ -9,7 +9,14 @@ A text in the language of the Rust macro ``hamiltonian!`` is read, checked and d
 compiled. The chapter "From Python" of the book shows tasks, and the chapter "The language" has every construct.
 """
 
-from .errors import DefinitionError, Diagnostic
+from .ensembles import Ensemble
+from .errors import DefinitionError, Diagnostic, RunError
+from .runs import Crossings, Run, Solution, State
+from .schemes import Scheme, schemes
 from .system import System, define, load
 
-__all__ = ["DefinitionError", "Diagnostic", "System", "define", "load"]
+__all__ = [
+    *("DefinitionError", "Diagnostic", "RunError"),
+    *("Crossings", "Ensemble", "Run", "Scheme", "Solution", "State", "System"),
+    *("define", "load", "schemes"),
+]

@@ -42,3 +42,13 @@ class DefinitionError(ValueError):
 
     def __str__(self) -> str:
         return self.shown
+
+
+class RunError(RuntimeError):
+    """A step of a run failed: it left the domain of H, or its equations have no solution.
+
+    The text names the step, the time and the piece. The run stands at its last good step.
+    """
+
+    solution = None
+    """What `System.solve` computed before, a `Solution`."""

@@ -10,6 +10,8 @@ import numpy as np
 from . import arrays
 from ._hamiltonian import Definition
 from ._hamiltonian import System as _System
+from .ensembles import Ensemble
+from .runs import Run, Solution, made, sensitivities, solved
 
 
 def define(definition, /, **values) -> System:
@@ -63,14 +65,18 @@ def _restored(text: str, source: str, values: dict) -> System:
 def _made(definition: Definition, text: str, source: str, values: dict) -> System:
     """The system of a definition that was read."""
     known = {name: arrays.numbers(name, value) for name, value in values.items()}
-    flat = [(name, float(value) if value.ndim == 0 else value.ravel()) for name, value in known.items()]
-    own = definition.system(flat)
+    own = definition.system(_flat(known))
     for name, extents, _ in own.parameters:
         if name in known and list(known[name].shape) != extents:
             raise ValueError(f"`{name}` must have the shape {tuple(extents)}, found {known[name].shape}")
     for value in known.values():
         value.flags.writeable = False
     return System(definition, own, text, source, known)
+
+
+def _flat(values: dict[str, np.ndarray]) -> list[tuple[str, float | np.ndarray]]:
+    """Numbers, and arrays row after row."""
+    return [(name, float(value) if value.ndim == 0 else value.ravel()) for name, value in values.items()]
 
 
 class System:
@@ -198,11 +204,77 @@ class System:
         Raises:
             KeyError: There is none of that name; the exception lists those there are.
         """
+        self._known(name)
+        leading, q, p, t = self._points(q, p, t)
+        return self._own.observable(name, q, p, t).reshape(leading)
+
+    def solve(self, q, p, t, *, tolerance=None, scheme: str | None = None, step: float | None = None) -> Solution:
+        """The states at the times t, from q and p at the first of them, with the crossings of all declared events.
+
+        The steps follow ``tolerance``, 1e-10 by default: a relative tolerance, or (relative, absolute). Its scheme is
+        ``GaussNystrom8`` if T is a quadratic form of the momenta and there is no force, and ``Gauss8`` otherwise. Or a
+        ``scheme`` of `schemes` makes fixed steps of the size ``step``, also for times that decrease.
+
+        >>> spring = define("H(x; p) = p^2/2 + x^2/2; event turn = p")
+        >>> sol = spring.solve(q=1.0, p=0.0, t=np.linspace(0, 10, 5), tolerance=1e-12)
+        >>> bool(abs(sol.q[-1, 0] - np.cos(10)) < 1e-11), len(sol.events["turn"].t)
+        (True, 3)
+
+        Raises:
+            ValueError: The scheme requires a structure that H does not have, or an argument has a wrong shape or value.
+            RunError: A step fails. The attribute ``solution`` of the exception has the states before it, as it has after
+                Ctrl-C.
+        """
+        return solved(self, q, p, t, tolerance, scheme, step)
+
+    def run(self, q, p, t=0.0, *, scheme: str | None = None, step: float | None = None, tolerance=None) -> Run:
+        """A run from q and p at the time t that advances step by step; see `solve` for its scheme and steps.
+
+        >>> run = define("H(x; p) = p^2/2 + x^2/2").run(q=1.0, p=0.0, scheme="GaussNystrom8", step=0.1)
+        >>> state = run.advance(100)
+        >>> run.steps, bool(abs(run.energy - 0.5) < 1e-14)
+        (100, True)
+        """
+        return Run(self, made(self, q, p, t, scheme, step, tolerance))
+
+    def ensemble(self, q, p, t=0.0, *, threads: int | None = None, **values) -> Ensemble:
+        """Members with starts and parameters of their own: leading axes of q, p and parameters are broadcast.
+
+        ``threads`` is their number, by default as many as the machine runs at once. The results do not depend on it.
+
+        >>> spring = define("H(x; p) = p^2/2 + k*x^2/2", k=1.0)
+        >>> swarm = spring.ensemble(q=1.0, p=0.0, k=np.array([1.0, 4.0, 9.0]))
+        >>> end = swarm.advance_to(1.0, step=0.01)
+        >>> bool(np.abs(end.q[:, 0] - np.cos([1, 2, 3])).max() < 1e-6)
+        True
+        """
+        return Ensemble(self, q, p, t, threads, values)
+
+    def sensitivity(self, solution: Solution, tolerance: float = 1e-9) -> np.ndarray:
+        """The derivatives of the states of a solution with respect to its start: a matrix for each time.
+
+        Rows and columns are all coordinates, then all momenta, arrays row after row. They are exact derivatives of the
+        maps of ``GaussNystrom8`` or ``Gauss8``, by dual numbers, with steps that are halved until the matrix between two
+        times changes by less than ``tolerance``, relative to its largest element. For the derivative with respect to a
+        parameter, declare it as a coordinate whose momentum does not appear in H: it is constant.
+        """
+        return sensitivities(solution, tolerance)
+
+    def _known(self, name: str) -> None:
+        """A ``KeyError`` for an observable that is not declared."""
         known = [own for own, _ in self._own.observables]
         if name not in known:
             raise KeyError(f"{self.name} declares no {name!r}; it has: {', '.join(known) or 'none'}")
-        leading, q, p, t = self._points(q, p, t)
-        return self._own.observable(name, q, p, t).reshape(leading)
+
+    def _flat(self) -> list[tuple[str, float | np.ndarray]]:
+        return _flat(self._values)
+
+    def _group(self, points: np.ndarray, number: int) -> np.ndarray:
+        """One group of coordinates of points, or of their momenta."""
+        leading = points.shape[: points.ndim - len(self.shape)]
+        before = sum(math.prod(extents) for _, _, extents in self._groups[:number])
+        extents = self._groups[number][2]
+        return points.reshape(*leading, -1)[..., before : before + math.prod(extents)].reshape(*leading, *extents)
 
     def _points(self, q, p, t):
         """The leading axes of all points, and q, p and t as rows."""
@@ -221,7 +293,9 @@ class System:
     def __repr__(self) -> str:
         values = {**self.sizes, **self.parameters}
         shown = ", ".join(f"{name} = {_short(value)}" for name, value in values.items())
-        lines = [self._definition.formula, *([f"with {shown}"] if shown else []), *self.facts]
+        # One fact is a statement for the definition, in lines of its own.
+        facts = [fact for fact in self.facts if "\n" not in fact]
+        lines = [self._definition.formula, *([f"with {shown}"] if shown else []), *facts]
         for kind in ("invariant", "monitor", "event"):
             names = self._of_kind(kind)
             lines += [f"{kind}s: {', '.join(names)}"] if names else []

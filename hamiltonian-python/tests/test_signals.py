@@ -1,0 +1,81 @@
+"""Ctrl-C and threads: what is done is kept, and other threads run."""
+
+import os
+import signal
+import threading
+import time
+
+import hamiltonian as hm
+import numpy as np
+import pytest
+
+SPRING = hm.define("H(x; p) = p^2/2 + x^2/2")
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+
+
+@pytest.fixture
+def ctrl_c():
+    """Sends Ctrl-C to this process in 0.3 s."""
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    yield
+    timer.join()
+
+
+def test_ensembles_keep_what_is_done(ctrl_c):
+    swarm = SPRING.ensemble(np.linspace(0.1, 1, 1000)[:, None], 0.0)
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        swarm.advance(10**12, step=0.01)
+    assert time.monotonic() - start < 5 and swarm.t > 0
+    state = swarm.state
+    assert len(set(state.t.tolist())) == 1 and state.t[0] == swarm.t
+    steps = round(swarm.t / 0.01)
+    again = SPRING.ensemble(np.linspace(0.1, 1, 1000)[:, None], 0.0)
+    assert np.array_equal(again.advance(steps, step=0.01).q, state.q)
+    swarm.advance(10)
+
+
+def test_runs_keep_what_is_done(ctrl_c):
+    run = SPRING.run(1.0, 0.0, scheme="StormerVerlet", step=0.01)
+    with pytest.raises(KeyboardInterrupt):
+        run.advance(10**12)
+    assert run.steps > 0 and abs(run.energy - 0.5) < 1e-4
+    run.advance(10)
+
+
+def test_solutions_keep_what_is_done(ctrl_c):
+    with pytest.raises(KeyboardInterrupt) as raised:
+        SPRING.solve(1.0, 0.0, np.arange(10**5) * 1.0, scheme="StormerVerlet", step=0.0001)
+    assert 0 < len(raised.value.solution) < 10**5
+
+
+def test_indicators_stop(ctrl_c):
+    swarm = SPRING.ensemble(np.linspace(0.1, 1, 100)[:, None], 0.0)
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        swarm.lyapunov(1e7, step=0.01)
+    assert time.monotonic() - start < 5
+
+
+def test_other_threads_run():
+    run = SPRING.run(1.0, 0.0, scheme="StormerVerlet", step=0.01)
+    thread = threading.Thread(target=run.advance, args=(3_000_000,))
+    thread.start()
+    ticks = 0
+    while thread.is_alive():
+        time.sleep(0.001)
+        ticks += 1
+    thread.join()
+    assert ticks >= 10 and run.steps == 3_000_000
+
+
+def test_a_run_in_use_is_refused():
+    run = SPRING.run(1.0, 0.0, scheme="StormerVerlet", step=0.01)
+    thread = threading.Thread(target=run.advance, args=(3_000_000,))
+    thread.start()
+    time.sleep(0.01)
+    with pytest.raises(RuntimeError):
+        run.advance(1)
+    thread.join()
+    assert run.steps == 3_000_000

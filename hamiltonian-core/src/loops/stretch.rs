@@ -12,7 +12,7 @@ mod packs;
 mod waiting;
 
 use crate::loops::slabs::{on_two_threads, slabs};
-use crate::systems::compiled::{self, Rounded, rounded};
+use crate::systems::compiled::{self, Rounded, has_lanes, rounded};
 use crate::systems::system::Arithmetic;
 use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch};
 pub use nest::{Mode, Nest, nest};
@@ -169,11 +169,13 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     /// Runs the iterations of a loop of at least [`LONG`] ones.
     #[inline(always)]
     pub fn run<B: Body<G, R, W>, const W: usize>(self, _: B) {
-        if T::WIDENS && self.arithmetic.lanes && self.length >= STRIDE {
+        let length = self.length;
+        if !T::WIDENS {
+            self.one_by_one::<B, W>(length);
+        } else if self.arithmetic.lanes && length >= STRIDE {
             self.in_lanes::<B, W>();
         } else {
-            let length = self.length;
-            self.one_by_one::<B, W>(length);
+            self.first_ones::<B, W>(length);
         }
     }
 
@@ -243,9 +245,9 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     }
 
     /// For each column the least and the largest offset of a store. `None` if stores lie too far apart for
-    /// slabs, or if results that wait have other bits outside of lanes.
+    /// slabs, if results that wait have other bits outside of lanes, or if there are no lanes for them to wait in.
     fn ends<B: Body<G, R, W>, const W: usize>(&self) -> Option<[[usize; 2]; C]> {
-        if has_shared(B::STORES) && self.arithmetic.fused {
+        if has_shared(B::STORES) && (self.arithmetic.fused || !has_lanes(Cpu::best())) {
             return None;
         }
         let mut ends = [[usize::MAX, 0]; C];
@@ -357,7 +359,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         }
     }
 
-    /// The first iterations one by one: the one copy of them beside those in lanes.
+    /// The first iterations one by one: the one copy of them for scalars that have lanes.
     #[inline(never)]
     fn first_ones<B: Body<G, R, W>, const W: usize>(self, count: usize) {
         self.one_by_one::<B, W>(count);
@@ -469,7 +471,12 @@ impl<
     }
     #[inline(always)]
     fn run<L: Level>(self) {
-        rounded::<L, L::Eight, _>(self.stretch.arithmetic.fused, self);
+        if const { has_lanes(L::CPU) } {
+            rounded::<L, L::Eight, _>(self.stretch.arithmetic.fused, self);
+        } else {
+            let length = self.stretch.length;
+            self.stretch.first_ones::<B, W>(length);
+        }
     }
 }
 

@@ -3,9 +3,9 @@
 //! Input: a pack, work in lanes, and whether this crate is optimised (`build.rs`). Output: [`Compiled`], and the levels and
 //! packs that the work is compiled for. Invariant: the bits are those of the pack, on each level.
 //!
-//! Optimised code has a copy of a loop for each level and rounding: AVX-512 and AVX2, fused and not, and SSE2. In code that
-//! is not optimised they would be most of a program, and gain nothing. There a loop has two: fused products on AVX2, and
-//! products that do not fuse on SSE2.
+//! Optimised code has a copy of a loop for each level and rounding: AVX-512 and AVX2, fused and not. In code that is not
+//! optimised they would be most of a program, and gain nothing. There a loop has two: fused products on AVX2, and products
+//! that do not fuse on SSE2.
 
 use hamiltonian_lanes::{Base, Cpu, Level, Nf, Pack};
 
@@ -32,6 +32,12 @@ pub(crate) fn best(fused: bool) -> Cpu {
     }
 }
 
+/// Returns true if loops have a form in lanes on a level. In optimised code, two lanes without fused products gain too
+/// little for a copy of each loop: iterations go one by one.
+pub(crate) const fn has_lanes(cpu: Cpu) -> bool {
+    cfg!(unoptimised) || cpu as u8 >= Cpu::Neon as u8
+}
+
 /// Work in packs, which are chosen by the rounding of products.
 pub(crate) trait Rounded {
     /// Computes it.
@@ -43,7 +49,7 @@ pub(crate) trait Rounded {
 pub(crate) fn rounded<L: Level, P: Base, K: Rounded>(fused: bool, work: K) {
     if const { cfg!(unoptimised) && L::FUSES } {
         work.run::<Compiled<P>>();
-    } else if const { cfg!(unoptimised) || !L::FUSES } || !fused {
+    } else if const { cfg!(unoptimised) } || !fused {
         work.run::<Compiled<Nf<P>>>();
     } else {
         work.run::<Compiled<P>>();

@@ -5,7 +5,7 @@
 
 use super::packs::packs;
 use super::{Body, STRIDE, Stretch};
-use crate::systems::compiled::{self, Rounded, rounded};
+use crate::systems::compiled::{self, Rounded, has_lanes, rounded};
 use crate::systems::system::Arithmetic;
 use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch};
 
@@ -109,21 +109,25 @@ pub fn nest<
     sizes: [usize; Z],
     arithmetic: Arithmetic,
 ) {
+    let mut columns = columns;
     if T::WIDENS && arithmetic.lanes && is_long {
-        dispatch(NestKernel::<T, N, G, R, C, Z> {
+        let kernel = NestKernel::<T, N, G, R, C, Z> {
             given,
             reads,
             columns,
             sizes,
             arithmetic,
             nest: core::marker::PhantomData,
-        });
-    } else {
-        N::run::<OneByOne>(given, reads, columns, sizes, arithmetic);
+        };
+        columns = match dispatch(kernel) {
+            Some(columns) => columns,
+            None => return,
+        };
     }
+    N::run::<OneByOne>(given, reads, columns, sizes, arithmetic);
 }
 
-/// A nest as a kernel that enters a level.
+/// A nest as a kernel that enters a level, and returns the columns on levels without lanes.
 struct NestKernel<'a, T, N, const G: usize, const R: usize, const C: usize, const Z: usize> {
     given: [T; G],
     reads: [&'a [T]; R],
@@ -134,23 +138,29 @@ struct NestKernel<'a, T, N, const G: usize, const R: usize, const C: usize, cons
 }
 
 impl<
+    'a,
     T: Real,
     N: Nest<T, G, R, C, Z>,
     const G: usize,
     const R: usize,
     const C: usize,
     const Z: usize,
-> Kernel for NestKernel<'_, T, N, G, R, C, Z>
+> Kernel for NestKernel<'a, T, N, G, R, C, Z>
 {
-    type Output = ();
+    type Output = Option<[&'a mut [T]; C]>;
     const BEST: Cpu = compiled::BEST;
     #[inline(always)]
     fn best(&self) -> Cpu {
         compiled::best(self.arithmetic.fused)
     }
     #[inline(always)]
-    fn run<L: Level>(self) {
-        rounded::<L, L::Eight, _>(self.arithmetic.fused, self);
+    fn run<L: Level>(self) -> Self::Output {
+        if const { has_lanes(L::CPU) } {
+            rounded::<L, L::Eight, _>(self.arithmetic.fused, self);
+            None
+        } else {
+            Some(self.columns)
+        }
     }
 }
 

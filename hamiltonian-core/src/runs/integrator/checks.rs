@@ -152,7 +152,8 @@ pub(super) fn check_values<T: Real, S: System>(
 ) -> Result<(), StartError> {
     let description = prepared.description();
     let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
-    let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
+    let h = prepared.energy(start.t, &start.q, &start.p);
+    prepared.gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
     let bad = |name: &str, value: T| {
         let lane = (!value.finite()).first()?;
         let mut found = value.lane(lane);

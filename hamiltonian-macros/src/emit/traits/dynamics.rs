@@ -253,7 +253,11 @@ impl<'a> Emission<'a> {
         let body = match self.context.program.function(purpose) {
             Some(function) => {
                 let (text, results) = self.evaluation(name, None, &arguments, function);
-                with_self(&(text + &results.concat()))
+                let body = with_self(&(text + &results.concat()));
+                match loops(&function.evaluation) {
+                    0 => body,
+                    _ => apart(&body),
+                }
             }
             None => derived::body(purpose, self.context.definition.third),
         };
@@ -376,6 +380,10 @@ impl<'a> Emission<'a> {
             let name = format!("o{at}");
             let (text, results) = self.evaluation(&name, None, &arguments, function);
             let body = with_self(&format!("{text}[{}]", results.join(", ")));
+            let body = match loops(&function.evaluation) {
+                0 => body,
+                _ => apart(&body),
+            };
             line!(
                 self,
                 "#[inline(always)]\nfn {name}(&self, {}) -> [T; {}] {{\n{body}\n}}",
@@ -475,6 +483,20 @@ fn is_timeless(context: Context) -> bool {
         _ => false,
     };
     function.is_some_and(|function| function.results.iter().all(is_zero))
+}
+
+/// Returns how deep loops are nested in steps.
+pub(super) fn loops(steps: &[Step]) -> usize {
+    let depth = |step: &Step| match step {
+        Step::Loop(inner) => 1 + loops(&inner.body),
+        _ => 0,
+    };
+    steps.iter().map(depth).max().unwrap_or(0)
+}
+
+/// A body as a function of its own, of which a program has one copy. The call is short beside the loops.
+pub(super) fn apart(body: &str) -> String {
+    format!("<T as __h::Real>::out_of_line(#[inline(always)] || {{\n{body}\n}})")
 }
 
 /// The body of a method: `_self` is the receiver, as parts that are free functions call it.

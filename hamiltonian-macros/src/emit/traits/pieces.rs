@@ -3,7 +3,7 @@
 //! Input: a model with pieces. Output: text of the bodies, one a piece, and of the traits that name the pieces.
 //! Invariant: a flow reads and writes one point; outside of its domain all it moves becomes NaN, by the program.
 
-use super::dynamics::{Emission, declared, with_self};
+use super::dynamics::{Emission, apart, declared, loops, with_self};
 use super::markers;
 use crate::emit::functions::holder::Holder;
 use crate::emit::names::context::Access;
@@ -194,7 +194,11 @@ impl Emission<'_> {
         let data = format!("&{}", self.context.generics.holder_type("__D"));
         let mut arguments = vec![("_d", data)];
         arguments.extend(self.arguments(vectors));
-        let (text, _) = self.evaluation(&name, Some(holder), &arguments, function);
+        let (mut text, _) = self.evaluation(&name, Some(holder), &arguments, function);
+        // The loop over a chain may take less time than some calls.
+        if loops(&function.evaluation) > 1 {
+            text = apart(&text);
+        }
         let list = declared(&arguments);
         line!(
             self,

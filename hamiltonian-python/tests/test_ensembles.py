@@ -86,9 +86,11 @@ def test_arguments_are_checked(henon):
         (lambda: henon.ensemble([0, 0], 0.0).advance_to(1.0, step=0.0), ValueError, ""),
         (lambda: henon.ensemble([0, 0], 0.0).advance_to(-1.0, step=0.1), ValueError, "behind"),
         (lambda: henon.ensemble([0, 0], 0.0).advance_to(np.inf, step=0.1), ValueError, "`t` is inf"),
+        (lambda: henon.ensemble([0, 0], 0.0).advance_to(1e300, step=0.1), ValueError, "cannot be reached"),
+        (lambda: henon.ensemble([0, 0], 0.0).megno(1e300, step=0.1), ValueError, "from 1 to 2^53 steps"),
         (lambda: henon.ensemble([0, 0], 0.0).advance(-1, step=0.1), ValueError, "`steps` must be a whole number"),
         (lambda: henon.ensemble([0, 0], 0.0).advance(1, step=0.1, scheme="Verlet"), ValueError, "no scheme `Verlet`"),
-        (lambda: henon.ensemble([0, 0], 0.0).lyapunov(0.0, step=0.1), ValueError, "less than a step"),
+        (lambda: henon.ensemble([0, 0], 0.0).lyapunov(0.0, step=0.1), ValueError, "from 1 to 2^53 steps"),
         (lambda: henon.ensemble([0, 0], 0.0).lyapunov(1.0, step=0.1, deviations=9), ValueError, ""),
     ]:
         with pytest.raises(error) as raised:
@@ -97,6 +99,11 @@ def test_arguments_are_checked(henon):
     sized = hm.define("struct A { n: usize } H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 }", n=2)
     with pytest.raises(ValueError, match="the size `n` is that of all members"):
         sized.ensemble([0, 0], 0.0, n=[2, 3])
+    none = sized.with_(n=0)
+    with pytest.raises(ValueError, match="its system at least one coordinate"):
+        none.ensemble(np.zeros((3, 0)), 0.0)
+    with pytest.raises(ValueError, match="without coordinates"):
+        none.sensitivity(none.solve([], [], [0, 1]))
     product = hm.define("H = (q^2 + 1)*(p^2 + 1)/2")
     with pytest.raises(ValueError, match="couples q and p"):
         product.ensemble(1.0, 0.0).advance(1, step=0.1, scheme="StormerVerlet")

@@ -1,5 +1,6 @@
 """Ctrl-C and threads: what is done is kept, and other threads run."""
 
+import multiprocessing
 import os
 import signal
 import threading
@@ -70,12 +71,26 @@ def test_other_threads_run():
     assert ticks >= 10 and run.steps == 3_000_000
 
 
+def advanced(run):
+    """The run after some steps, in another process."""
+    run.advance(10)
+    return run
+
+
+def test_runs_go_to_other_processes():
+    run = SPRING.run(1.0, 0.0, scheme="Gauss4", step=0.1)
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        (other,) = pool.map(advanced, [run])
+    run.advance(10)
+    assert other.steps == 10 and np.array_equal(other.q, run.q)
+
+
 def test_a_run_in_use_is_refused():
     run = SPRING.run(1.0, 0.0, scheme="StormerVerlet", step=0.01)
     thread = threading.Thread(target=run.advance, args=(3_000_000,))
     thread.start()
     time.sleep(0.01)
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match="another thread advances this run"):
         run.advance(1)
     thread.join()
     assert run.steps == 3_000_000

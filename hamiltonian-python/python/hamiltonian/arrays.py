@@ -63,11 +63,15 @@ def number(name: str, value) -> float:
     return float(array)
 
 
+#: From here on, not every whole number is one of float64.
+MOST = 2**53
+
+
 def count(name: str, value) -> int:
     """A whole number that is not negative."""
     size = number(name, value)
-    if size < 0 or not size.is_integer():
-        raise ValueError(f"`{name}` must be a whole number that is not negative, found {value}")
+    if not 0 <= size < MOST or not size.is_integer():
+        raise ValueError(f"`{name}` must be a whole number from 0 to 2^53, found {value}")
     return int(size)
 
 

@@ -49,13 +49,15 @@ class Ensemble:
             own[name] = value
             leading[name] = value.shape[: value.ndim - len(known[name])]
         self.shape = arrays.together(**leading)
-        if math.prod(self.shape) == 0:
-            raise ValueError("an ensemble needs at least one member")
+        if math.prod(self.shape + system.shape) == 0:
+            raise ValueError("an ensemble needs at least one member, and its system at least one coordinate")
         rows = [
             (name, not known[name], arrays.rows(value, self.shape, tuple(known[name]))) for name, value in own.items()
         ]
         self._members = Members(system._definition, system._own, system._flat(), rows)
-        self._own, self._scheme, self._step = None, None, None
+        self._own: Swarm | None = None
+        self._scheme: str | None = None
+        self._step: float | None = None
         self._start = arrays.number("t", t), arrays.rows(q, self.shape, system.shape), arrays.rows(p, self.shape, system.shape)
 
     @property
@@ -80,8 +82,7 @@ class Ensemble:
     def advance(self, steps: int, step: float | None = None, scheme: str | None = None, progress: bool = False) -> State:
         """Makes steps of every member that has not failed, and returns the states; see `advance_to`."""
         steps = arrays.count("steps", steps)
-        self._begin(step, scheme)
-        self._advance(steps, progress)
+        self._advance(self._begin(step, scheme), steps, progress)
         return self.state
 
     def advance_to(self, t: float, step: float | None = None, scheme: str | None = None, progress: bool = False) -> State:
@@ -97,11 +98,11 @@ class Ensemble:
             KeyboardInterrupt: After Ctrl-C. The steps made so far are kept.
         """
         t = arrays.number("t", t)
-        self._begin(step, scheme)
-        whole = math.floor((t - self._own.t) / self._step * (1 + 1e-12))
-        if whole > 1:
-            self._advance(whole - 1, progress)
-        return self._shaped(self._own.advance_until(t))
+        own = self._begin(step, scheme)
+        whole = math.floor((t - own.t) / (self._step or 1.0) * (1 + 1e-12))
+        if 1 < whole < arrays.MOST:
+            self._advance(own, whole - 1, progress)
+        return self._shaped(own.advance_until(t))
 
     def lyapunov(self, t: float, step: float | None = None, deviations: int = 1, every: int = 10) -> np.ndarray:
         """The greatest Lyapunov exponents of each member over the time t, from its current state, in units of 1/time.
@@ -127,8 +128,8 @@ class Ensemble:
         if step is None:
             raise TypeError("the first call needs a `step`")
         steps = round(arrays.number("t", t) / step) if step else 0
-        if steps < 1:
-            raise ValueError(f"the time {t} is less than a step of {step}")
+        if not 1 <= steps < arrays.MOST:
+            raise ValueError(f"there must be from 1 to 2^53 steps of {step} in the time {t}")
         now, q, p = self._rows()
         splitting = "Split" not in self.system.missing
         own = splitting, step, steps, arrays.count("every", every), deviations
@@ -136,8 +137,8 @@ class Ensemble:
         self._keep(errors)
         return numbers
 
-    def _begin(self, step, scheme) -> None:
-        """Makes the members, with another step or scheme from their current states."""
+    def _begin(self, step, scheme) -> Swarm:
+        """The members, with another step or scheme from their current states."""
         if step is None and self._step is None:
             raise TypeError("the first call needs a `step`")
         step = self._step if step is None else arrays.number("step", step)
@@ -146,17 +147,18 @@ class Ensemble:
         if not isinstance(scheme, str):
             raise TypeError(f"`scheme` must be a name such as 'BlanesMoan4', found {type(scheme).__name__}")
         if self._own is not None and (step, scheme) == (self._step, self._scheme):
-            return
+            return self._own
         _, q, p = self._rows()
         self._own = Swarm(self._members, q, p, self.t, scheme, step, self._threads)
         self._step, self._scheme = step, scheme
+        return self._own
 
-    def _advance(self, steps: int, progress: bool) -> None:
+    def _advance(self, own: Swarm, steps: int, progress: bool) -> None:
         bar = _bar(steps) if progress else None
         if bar is None:
-            return self._own.advance(steps)
+            return own.advance(steps)
         with bar:
-            self._own.advance(steps, lambda made: bar.update(made - bar.n))
+            own.advance(steps, lambda made: bar.update(made - bar.n))
 
     def _rows(self):
         """The current states, one a row."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -21,8 +21,8 @@ TOLERANCE = 1e-10
 class State(NamedTuple):
     """Coordinates and momenta at a time. Of many members, each has leading axes."""
 
-    t: float | np.ndarray
-    """The time."""
+    t: Any
+    """The time, a number; of many members, an array."""
     q: np.ndarray
     """The coordinates, of the system's shape."""
     p: np.ndarray
@@ -83,8 +83,11 @@ def events_of(system: System, run: _Run) -> dict[str, Crossings]:
     """The crossings of each event."""
     names, rising, rows = run.crossings()
     all = states(system, rows)
-    names, rising = np.array(names, dtype=object), np.array(rising, dtype=bool)
-    return {name: Crossings(*(part[names == name] for part in (*all, rising))) for name in system.events}
+    found = {}
+    for event in system.events:
+        own = np.array([name == event for name in names], dtype=bool)
+        found[event] = Crossings(all.t[own], all.q[own], all.p[own], np.array(rising, dtype=bool)[own])
+    return found
 
 
 class Solution:
@@ -181,7 +184,7 @@ def solved(system: System, q, p, t, tolerance, scheme, step) -> Solution:
     solution = Solution(system, run, rows)
     if error is not None:
         # What was computed before a failure or Ctrl-C.
-        error.solution = solution
+        setattr(error, "solution", solution)
         raise error
     return solution
 
@@ -193,6 +196,8 @@ def sensitivities(solution: Solution, tolerance) -> np.ndarray:
     if relative <= 0:
         raise ValueError(f"`tolerance` must be positive, found {relative}")
     size = 2 * math.prod(system.shape)
+    if size == 0:
+        raise ValueError("a system without coordinates has no derivatives")
     nystrom = not {"Separable", "QuadraticKinetic", "Unforced"} & set(system.missing)
     matrix = np.eye(size)
     all = np.empty((len(t), size, size))
@@ -212,16 +217,17 @@ def _converged(system: System, start, time: float, steps: int, nystrom: bool, re
     """The derivative of the state after some time, by steps that are halved until it changes no more."""
     if time == 0:
         return np.eye(2 * math.prod(system.shape))
-    last = derivative(system._own, *start, time, steps, nystrom)
+    q, p, t = start
+    last = derivative(system._own, q, p, t, time, steps, nystrom)
     for _ in range(20):
         steps *= 2
-        own = derivative(system._own, *start, time, steps, nystrom)
+        own = derivative(system._own, q, p, t, time, steps, nystrom)
         if np.abs(own - last).max() <= relative * np.abs(own).max():
             return own
         last = own
     from .errors import RunError
 
-    raise RunError(f"the derivative does not converge to the tolerance {relative} within {steps} steps from t = {start[2]}")
+    raise RunError(f"the derivative does not converge to the tolerance {relative} within {steps} steps from t = {t}")
 
 
 class Run:
@@ -309,7 +315,7 @@ class Run:
         """The invariant, monitor or event of that name at the current state."""
         value = self._own.observable(name)
         if value is None:
-            self.system._known(name)
+            raise KeyError(self.system._unknown(name))
         return value
 
     def __reduce__(self):

@@ -6,6 +6,7 @@ import math
 import os
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import arrays
 from ._hamiltonian import Definition
@@ -178,37 +179,47 @@ class System:
         """The same definition with other values of some parameters or sizes. The text is not read again."""
         return _made(self._definition, self.text, self.source, {**self._values, **values})
 
-    def H(self, q, p, t=0.0) -> np.ndarray:
+    def H(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> np.ndarray:
         """H(q, p, t). Leading axes of q, p and t are broadcast: one number for each point.
 
         A point outside the domain of H gives NaN or an infinity.
         """
-        leading, q, p, t = self._points(q, p, t)
-        return self._own.energy(q, p, t).reshape(leading)
+        leading, points = self._points(q, p, t)
+        return self._own.energy(*points).reshape(leading)
 
-    def gradient(self, q, p, t=0.0) -> tuple[np.ndarray, np.ndarray]:
+    def gradient(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """(∂H/∂q, ∂H/∂p), exact, at each point; see `H`."""
-        leading, q, p, t = self._points(q, p, t)
-        dq, dp = self._own.gradient(q, p, t)
+        leading, points = self._points(q, p, t)
+        dq, dp = self._own.gradient(*points)
         return dq.reshape(leading + self.shape), dp.reshape(leading + self.shape)
 
-    def field(self, q, p, t=0.0) -> tuple[np.ndarray, np.ndarray]:
+    def field(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """(q̇, ṗ) = (∂H/∂p, −∂H/∂q + f) at each point, f the force; see `H`."""
-        leading, q, p, t = self._points(q, p, t)
-        dq, dp = self._own.field(q, p, t)
+        leading, points = self._points(q, p, t)
+        dq, dp = self._own.field(*points)
         return dq.reshape(leading + self.shape), dp.reshape(leading + self.shape)
 
-    def observable(self, name: str, q, p, t=0.0) -> np.ndarray:
+    def observable(self, name: str, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> np.ndarray:
         """The invariant, monitor or event of that name at each point; see `H`. A component is ``"name[2]"``.
 
         Raises:
             KeyError: There is none of that name; the exception lists those there are.
         """
-        self._known(name)
-        leading, q, p, t = self._points(q, p, t)
-        return self._own.observable(name, q, p, t).reshape(leading)
+        if name not in (known for known, _ in self._own.observables):
+            raise KeyError(self._unknown(name))
+        leading, points = self._points(q, p, t)
+        return self._own.observable(name, *points).reshape(leading)
 
-    def solve(self, q, p, t, *, tolerance=None, scheme: str | None = None, step: float | None = None) -> Solution:
+    def solve(
+        self,
+        q: ArrayLike,
+        p: ArrayLike,
+        t: ArrayLike,
+        *,
+        tolerance: float | tuple[float, float] | None = None,
+        scheme: str | None = None,
+        step: float | None = None,
+    ) -> Solution:
         """The states at the times t, from q and p at the first of them, with the crossings of all declared events.
 
         The steps follow ``tolerance``, 1e-10 by default: a relative tolerance, or (relative, absolute). Its scheme is
@@ -227,7 +238,16 @@ class System:
         """
         return solved(self, q, p, t, tolerance, scheme, step)
 
-    def run(self, q, p, t=0.0, *, scheme: str | None = None, step: float | None = None, tolerance=None) -> Run:
+    def run(
+        self,
+        q: ArrayLike,
+        p: ArrayLike,
+        t: float = 0.0,
+        *,
+        scheme: str | None = None,
+        step: float | None = None,
+        tolerance: float | tuple[float, float] | None = None,
+    ) -> Run:
         """A run from q and p at the time t that advances step by step; see `solve` for its scheme and steps.
 
         >>> run = define("H(x; p) = p^2/2 + x^2/2").run(q=1.0, p=0.0, scheme="GaussNystrom8", step=0.1)
@@ -237,7 +257,9 @@ class System:
         """
         return Run(self, made(self, q, p, t, scheme, step, tolerance))
 
-    def ensemble(self, q, p, t=0.0, *, threads: int | None = None, **values) -> Ensemble:
+    def ensemble(
+        self, q: ArrayLike, p: ArrayLike, t: float = 0.0, *, threads: int | None = None, **values: ArrayLike
+    ) -> Ensemble:
         """Members with starts and parameters of their own: leading axes of q, p and parameters are broadcast.
 
         ``threads`` is their number, by default as many as the machine runs at once. The results do not depend on it.
@@ -260,11 +282,10 @@ class System:
         """
         return sensitivities(solution, tolerance)
 
-    def _known(self, name: str) -> None:
-        """A ``KeyError`` for an observable that is not declared."""
+    def _unknown(self, name: str) -> str:
+        """The text of a ``KeyError`` for an observable that is not declared."""
         known = [own for own, _ in self._own.observables]
-        if name not in known:
-            raise KeyError(f"{self.name} declares no {name!r}; it has: {', '.join(known) or 'none'}")
+        return f"{self.name} declares no {name!r}; it has: {', '.join(known) or 'none'}"
 
     def _flat(self) -> list[tuple[str, float | np.ndarray]]:
         return _flat(self._values)
@@ -276,7 +297,7 @@ class System:
         extents = self._groups[number][2]
         return points.reshape(*leading, -1)[..., before : before + math.prod(extents)].reshape(*leading, *extents)
 
-    def _points(self, q, p, t):
+    def _points(self, q, p, t) -> tuple[tuple[int, ...], tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """The leading axes of all points, and q, p and t as rows."""
         shape = self.shape
         q = arrays.points("q", self._number_or_row(arrays.numbers("q", q)), shape)
@@ -284,7 +305,8 @@ class System:
         t = arrays.numbers("t", t)
         axes = len(shape)
         leading = arrays.together(q=q.shape[: q.ndim - axes], p=p.shape[: p.ndim - axes], t=t.shape)
-        return leading, arrays.rows(q, leading, shape), arrays.rows(p, leading, shape), arrays.rows(t, leading, ())[:, 0]
+        times = arrays.rows(t, leading, ())[:, 0]
+        return leading, (arrays.rows(q, leading, shape), arrays.rows(p, leading, shape), times)
 
     def _number_or_row(self, value: np.ndarray) -> np.ndarray:
         """The value; a number for a point of one coordinate."""

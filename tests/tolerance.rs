@@ -284,7 +284,8 @@ fn constant_steps_keep_the_energy() {
         "{kept:?}, steps of {step} and {duration}, {} refused",
         run.refused_steps()
     );
-    assert!(run.refused_steps() <= 2);
+    // Each made the steps a tenth smaller at least; after more of them, a pilot would have chosen anew.
+    assert!(run.refused_steps() <= 8);
     // A random walk of roundings of H, which is 1/4.
     let walk = (n as f64).sqrt() * f64::EPSILON;
     assert!(kept[9] < 4.0 * walk, "{kept:?} beside {walk:e}");
@@ -299,6 +300,24 @@ fn the_structure_names_the_scheme() {
     assert_eq!(of(&Coupled {}), "Gauss (8 stages)");
     assert_eq!(of(&Restricted::default()), "Gauss (8 stages)");
     assert_eq!(of(&Damped {}), "Gauss (8 stages)");
+}
+
+/// A run says what was chosen for it.
+#[test]
+fn a_run_shows_its_choice() {
+    let constant = Integrator::to_tolerance(&pendulum(), State::new([1.5], [0.0]), 1e-9).unwrap();
+    let text = format!("{constant:?}");
+    for part in ["GaussNystrom", "relative: 1e-9", "sizes: \"constant\""] {
+        assert!(text.contains(part), "{text}");
+    }
+    // The step parameter is the size.
+    assert!(
+        text.contains(&format!("duration: {:?}", constant.step())),
+        "{text}"
+    );
+    let varying = Integrator::to_tolerance(&Kepler {}, kepler(0.9), 1e-9).unwrap();
+    let text = format!("{varying:?}");
+    assert!(text.contains("sizes: \"varying\""), "{text}");
 }
 
 /// The bits depend on neither blocks, nor observers, nor a saved run in between.
@@ -324,6 +343,35 @@ fn the_same_run_has_the_same_bits() {
     assert_eq!(resumed.refused_steps(), whole.refused_steps());
     // Nothing allocates in steps.
     assert_eq!(allocations(|| drop(whole.advance(300).map(|_| ()))), 0);
+}
+
+/// Stages in lanes, where several steps are made at a time, have the bits of stages one by one, also where a step is
+/// refused; so have parts of a run.
+#[test]
+fn lanes_do_not_matter() {
+    fn of<S>(system: &S, start: StateOf<S>, tolerance: f64, n: u64)
+    where
+        S: ToTolerance,
+        Adaptive<S::Scheme>: Scheme<S>,
+    {
+        let new = || Integrator::to_tolerance(system, start.clone(), tolerance).unwrap();
+        let mut lanes = new();
+        let end = lanes.advance(n).unwrap().clone();
+        let mut apart = new().with_lanes(false);
+        assert_eq!(apart.advance(n).unwrap(), &end);
+        let mut parts = new();
+        for _ in 0..n {
+            parts.advance(1).unwrap();
+        }
+        assert_eq!(parts.state(), &end);
+        assert_eq!(lanes.refused_steps(), apart.refused_steps());
+        println!("{} refused", lanes.refused_steps());
+    }
+    of(&pendulum(), State::new([1.5], [0.0]), 1e-9, 200);
+    of(&Kepler {}, kepler(0.6), 1e-11, 200);
+    of(&Kepler {}, kepler(-0.9), 1e-9, 200);
+    of(&Coupled {}, State::new([-3.0], [0.0]), 1e-9, 200);
+    of(&Restricted::default(), arenstorf(), 1e-9, 200);
 }
 
 /// A run whose parameters were changed has those of a new run, in every step.

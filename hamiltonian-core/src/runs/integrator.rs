@@ -176,8 +176,20 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
     where
         R: Map<Carried = CarriedBy<M, S, T>>,
     {
-        let entry = scheme.entry();
         let carried = scheme.start(&prepared, &start, step);
+        Self::begin_with(system, prepared, scheme, start, step, carried)
+    }
+
+    /// Makes the run from a carried value.
+    pub(crate) fn begin_with<M: Scheme<S, Map<T> = R>>(
+        system: &S,
+        prepared: S::Prepared<T>,
+        scheme: M,
+        start: State<VectorOf<S, T>>,
+        step: T,
+        carried: R::Carried,
+    ) -> Self {
+        let entry = scheme.entry();
         let map = scheme.prepare(&prepared, Step::of(step));
         Integrator {
             work: Scratch::like(&carried),
@@ -346,11 +358,23 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S, R,
 
 impl<T: Real, S: System, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integrator<T, S, R, O> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Integrator")
+        let mut fields = f.debug_struct("Integrator");
+        fields
             .field("system", &self.prepared.description().name)
             .field("scheme", &self.recipe.describe())
             .field("step", &self.step)
-            .field("steps", &self.steps)
+            .field("steps", &self.steps);
+        if let Some(duration) = self.carried.duration(self.clock.interval) {
+            let sizes = match self.carried.is_constant() {
+                true => "constant",
+                false => "varying",
+            };
+            fields
+                .field("sizes", &sizes)
+                .field("duration", &duration)
+                .field("refused_steps", &self.refused_steps());
+        }
+        fields
             .field("state", &self.state)
             .field("observer", &self.observer)
             .finish_non_exhaustive()

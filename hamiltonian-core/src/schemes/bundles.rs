@@ -183,7 +183,7 @@ pub(super) fn lay_in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
 
 /// The number of stage `j`.
 #[inline(always)]
-fn number<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
+pub(super) fn number<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
     few[j / L::WIDTH].as_ref()[j % L::WIDTH]
 }
 
@@ -283,6 +283,19 @@ where
         few[bundle] = L::split(number);
     }
     few
+}
+
+/// Copies the unknowns of all bundles.
+#[inline(always)]
+pub(super) fn copy<T, L, X, const S: usize>(from: &[X; S], to: &mut [X; S])
+where
+    T: Real,
+    L: StageLayout<T>,
+    X: Vector<Scalar = L::Bundle>,
+{
+    for bundle in 0..bundles::<T, L, S>() {
+        to[bundle].copy_from(&from[bundle]);
+    }
 }
 
 /// Lays the unknowns of each stage into bundles.

@@ -49,7 +49,7 @@ use hamiltonian_lanes::Real;
 /// ```
 #[derive(Clone, Copy, PartialEq)]
 pub struct Gauss<const STAGES: usize> {
-    coefficients: Collocation<STAGES>,
+    pub(super) coefficients: Collocation<STAGES>,
     max_iterations: u32,
 }
 

@@ -8,7 +8,7 @@ pub use crate::systems::flow::{Sandwich, Turn};
 pub use crate::systems::observed::{FieldObserved, ReadyObserved};
 pub use crate::systems::transformed::{FieldInNewTime, InNewTime};
 
-pub use super::adaptive::{Following, FollowingWork, Tail};
+pub use super::adaptive::{Estimate, Following, FollowingWork};
 pub use super::compensated::Carrying;
 pub use super::composition::{Composed, Inverted, InvertedWork};
 pub use super::discrete_gradient::{EnergyKeeping, EnergyWork};

@@ -12,7 +12,7 @@ use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::{Over, Shape, Vector};
 use core::fmt::Debug;
 use core::marker::PhantomData;
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Mask, Real};
 
 /// The density of steps, Q(t, q, p) > 0, in any unit: steps are proportional to 1/Q.
 ///
@@ -135,6 +135,11 @@ impl<C: Vector, const N: usize> Vector for Pace<C, N> {
             numbers: self.numbers,
         }
     }
+    #[inline(always)]
+    fn copy_from(&mut self, other: &Self) {
+        self.of.copy_from(&other.of);
+        self.numbers = other.numbers;
+    }
 }
 
 impl<C: Carried, const N: usize> Carried for Pace<C, N> {
@@ -155,6 +160,31 @@ impl<C: Carried, const N: usize> Carried for Pace<C, N> {
             None => next,
         };
         Some(interval / least)
+    }
+    fn is_constant(&self) -> bool {
+        let limit = self.numbers.get(5);
+        limit.is_some_and(|limit| C::Scalar::zero().lt(*limit).all())
+    }
+    /// Constant steps become shorter where one is refused, never longer.
+    fn steps_within(&self, interval: C::Scalar, time: C::Scalar) -> u64 {
+        match self.is_constant() {
+            // A conversion of NaN is 0.
+            true => ((time / interval * self.numbers[0]).to_f64() as u64).max(1),
+            false => 1,
+        }
+    }
+    fn rescale(&mut self, by: C::Scalar) {
+        // All but G, the times and the count are densities of steps.
+        for k in [0, 4, 5, 7, 8] {
+            if let Some(density) = self.numbers.get_mut(k) {
+                *density *= by;
+                // The inverse of an inverse: the parameter is the size itself.
+                let is_one = (*density - C::Scalar::one()).magnitude() < 4.0 * C::Scalar::epsilon();
+                if is_one {
+                    *density = C::Scalar::one();
+                }
+            }
+        }
     }
     fn refused(&self) -> u64 {
         self.numbers

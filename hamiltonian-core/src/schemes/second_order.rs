@@ -11,7 +11,7 @@ use super::bundles::{
 };
 use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
-use super::staged::StagedMap;
+use super::staged::{Inspect, StagedMap};
 use super::stages::{Stages, extrapolation};
 use crate::flows::iterate::Outcome;
 use crate::flows::map::{Cause, Clock, Map, Step};
@@ -56,7 +56,7 @@ use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 /// ```
 #[derive(Clone, Copy, PartialEq)]
 pub struct GaussNystrom<const STAGES: usize> {
-    coefficients: Collocation<STAGES>,
+    pub(super) coefficients: Collocation<STAGES>,
     max_iterations: u32,
 }
 
@@ -430,24 +430,24 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
 
 impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, S> {
     #[inline(always)]
-    fn steps_beside<const WIDTH: usize>(
+    fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
         &self,
-        clock: Clock<T>,
-        made: u64,
-        n: u64,
+        (clock, made, n): (Clock<T>, u64, u64),
         z: &mut CarriesForces<P::Vector, S>,
         work: &mut EliminatedWork<P::Vector, S>,
+        inspection: &mut W,
     ) -> Option<u64>
     where
         Abreast<WIDTH>: Width,
     {
-        let steps = NystromStepsBeside::<_, _, S, WIDTH> {
+        let steps = NystromStepsBeside::<_, _, _, S, WIDTH> {
             map: self,
             clock,
             made,
             n,
             z,
             sums: &mut work.sums,
+            inspection,
         };
         in_lanes(&self.dynamics, &mut work.kept, steps)
     }

@@ -2,8 +2,55 @@
 //!
 //! Input: a map ([`StagedMap`]). Output: its steps. Invariant: the bits are those of the steps stage by stage.
 
-use super::bundles::{Abreast, LEAST, Width};
+use super::bundles::{Abreast, LEAST, StageLayout, Width};
 use crate::flows::map::{Cause, Clock, Map, ScalarOf};
+use crate::systems::state::{Carried, Point};
+use crate::systems::vector::Vector;
+use hamiltonian_lanes::Real;
+
+/// The vectors of the point that a map moves.
+type SeenBy<M> = <<M as Map>::Carried as Carried>::Vector;
+
+/// Steps whose ends are looked at one by one, where they are in lanes. A step that is refused is undone.
+pub(super) trait Inspect<T: Real, V: Vector<Scalar = T>, const S: usize> {
+    /// True if there is anything to look at.
+    const LOOKS: bool;
+    /// The time at which step `k` of the clock begins.
+    fn begins(&self, clock: Clock<T>, k: u64) -> T;
+    /// Keeps a point and its low words.
+    fn keep(&mut self, point: &Point<V>, low: &Point<V>);
+    /// Returns true if the step from there, with these unknowns at its stages, is accepted.
+    fn accepts<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
+        &mut self,
+        point: &Point<V>,
+        unknowns: &[X; S],
+    ) -> bool;
+    /// Brings back what was kept.
+    fn undo(&self, point: &mut Point<V>, low: &mut Point<V>);
+}
+
+/// Steps of a run of fixed steps.
+pub(super) struct Uninspected;
+
+impl<T: Real, V: Vector<Scalar = T>, const S: usize> Inspect<T, V, S> for Uninspected {
+    const LOOKS: bool = false;
+    #[inline(always)]
+    fn begins(&self, clock: Clock<T>, k: u64) -> T {
+        clock.at(k)
+    }
+    #[inline(always)]
+    fn keep(&mut self, _: &Point<V>, _: &Point<V>) {}
+    #[inline(always)]
+    fn accepts<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
+        &mut self,
+        _: &Point<V>,
+        _: &[X; S],
+    ) -> bool {
+        true
+    }
+    #[inline(always)]
+    fn undo(&self, _: &mut Point<V>, _: &mut Point<V>) {}
+}
 
 /// A map whose steps are computed stage by stage, or with several stages in the lanes of a pack.
 pub(super) trait StagedMap<const S: usize>: Map {
@@ -12,18 +59,33 @@ pub(super) trait StagedMap<const S: usize>: Map {
         true
     }
 
-    /// Makes up to `n` steps after the first `made`, with so many stages beside each other, until one is not solved.
-    /// Returns the number of steps made; `None` if there are no lanes.
-    fn steps_beside<const WIDTH: usize>(
+    /// Makes up to `n` steps after the first `made`, with so many stages beside each other, until one is not solved or
+    /// not accepted. Returns the number of steps made; `None` if there are no lanes.
+    fn steps_beside<const WIDTH: usize, W: Inspect<ScalarOf<Self>, SeenBy<Self>, S>>(
         &self,
-        clock: Clock<ScalarOf<Self>>,
-        made: u64,
-        n: u64,
+        clock: (Clock<ScalarOf<Self>>, u64, u64),
         z: &mut Self::Carried,
         work: &mut Self::Work,
+        inspection: &mut W,
     ) -> Option<u64>
     where
         Abreast<WIDTH>: Width;
+
+    /// [`steps_beside`](StagedMap::steps_beside) of the width for `S` stages, of `(clock, made, n)`.
+    #[inline(always)]
+    fn steps_in_lanes<W: Inspect<ScalarOf<Self>, SeenBy<Self>, S>>(
+        &self,
+        clock: (Clock<ScalarOf<Self>>, u64, u64),
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+        inspection: &mut W,
+    ) -> Option<u64> {
+        if const { S.is_multiple_of(8) } {
+            self.steps_beside::<8, W>(clock, z, work, inspection)
+        } else {
+            self.steps_beside::<4, W>(clock, z, work, inspection)
+        }
+    }
 
     /// Completes the step that was not solved in lanes.
     fn complete_unsolved(&self, t: ScalarOf<Self>, z: &mut Self::Carried, work: &mut Self::Work);
@@ -58,13 +120,8 @@ pub(super) trait StagedMap<const S: usize>: Map {
     ) {
         let mut made = 0;
         while made < n && S >= LEAST && self.has_bundles() {
-            let (before, left) = (from + made, n - made);
-            let steps = if const { S.is_multiple_of(8) } {
-                self.steps_beside::<8>(clock, before, left, z, work)
-            } else {
-                self.steps_beside::<4>(clock, before, left, z, work)
-            };
-            let Some(steps) = steps else {
+            let clock_of = (clock, from + made, n - made);
+            let Some(steps) = self.steps_in_lanes(clock_of, z, work, &mut Uninspected) else {
                 break;
             };
             made += steps;

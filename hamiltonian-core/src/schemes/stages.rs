@@ -17,7 +17,7 @@ mod slopes;
 
 use super::bundles::{Abreast, Apart, LEAST, Width};
 use super::compensated::carry;
-use super::staged::StagedMap;
+use super::staged::{Inspect, StagedMap, Uninspected};
 use crate::flows::iterate::{Contraction, Outcome, iterate};
 use crate::flows::map::{Cause, Clock, Map};
 use crate::systems::flow::{Scratch, VectorField};
@@ -60,6 +60,20 @@ impl<X: Vector, const S: usize> Vector for Stages<X, S> {
     #[inline(always)]
     fn take(&mut self) -> Self {
         Stages(core::array::from_fn(|i| self.0[i].take()))
+    }
+    #[inline(always)]
+    fn copy_from(&mut self, other: &Self) {
+        for (to, from) in self.0.iter_mut().zip(&other.0) {
+            to.copy_from(from);
+        }
+    }
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        let mut finite = true;
+        for stage in &self.0 {
+            finite &= stage.is_finite();
+        }
+        finite
     }
 }
 
@@ -437,23 +451,23 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
     }
 
     #[inline(always)]
-    fn steps_beside<const WIDTH: usize>(
+    fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
         &self,
-        clock: Clock<T>,
-        made: u64,
-        n: u64,
+        (clock, made, n): (Clock<T>, u64, u64),
         z: &mut Carries<P::Vector, S>,
         work: &mut CollocatedWork<P::Vector, S>,
+        inspection: &mut W,
     ) -> Option<u64>
     where
         Abreast<WIDTH>: Width,
     {
-        let steps = StepsBeside::<_, _, S, WIDTH> {
+        let steps = StepsBeside::<_, _, _, S, WIDTH> {
             map: self,
             clock,
             made,
             n,
             z,
+            inspection,
         };
         in_lanes(&self.dynamics, &mut work.kept, steps)
     }
@@ -510,21 +524,23 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
         // Few stages may stay in registers, if they are variables of this loop alone.
         let mut scratch = StepScratch {
             slopes: z.y.x.take(),
+            before: work.guess.take(),
             points: work.next.take(),
             next: work.stage.take(),
         };
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
-        let (solved, outcome) = steps::<T, Apart, _, _, _, S>(
+        let (solved, outcome) = steps::<T, Apart, _, _, _, _, S>(
             self.limit,
             &self.tableau(),
             &self.field,
             (clock, made, n),
             &mut scratch,
             (&mut point, &mut low),
+            &mut Uninspected,
         );
         (z.x, z.y.y) = (point, low);
         z.y.x = scratch.slopes;
-        (work.next, work.stage) = (scratch.points, scratch.next);
+        (work.next, work.stage, work.guess) = (scratch.points, scratch.next, scratch.before);
         if solved < n {
             self.complete(clock.at(made + solved), outcome, z, work);
             return solved + 1;

@@ -215,6 +215,16 @@ impl<V: Vector> Vector for Point<V> {
             p: self.p.take(),
         }
     }
+    // Field by field: the compiler does not see through the numbers of parts.
+    #[inline(always)]
+    fn copy_from(&mut self, other: &Self) {
+        self.q.copy_from(&other.q);
+        self.p.copy_from(&other.p);
+    }
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        self.q.is_finite() & self.p.is_finite()
+    }
 }
 
 impl<X: Shape, Y: Shape> Shape for Pair<X, Y> {
@@ -260,6 +270,15 @@ impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
             x: self.x.take(),
             y: self.y.take(),
         }
+    }
+    #[inline(always)]
+    fn copy_from(&mut self, other: &Self) {
+        self.x.copy_from(&other.x);
+        self.y.copy_from(&other.y);
+    }
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        self.x.is_finite() & self.y.is_finite()
     }
 }
 
@@ -371,6 +390,17 @@ pub trait Carried: Vector {
     fn duration(&self, _interval: Self::Scalar) -> Option<Self::Scalar> {
         None
     }
+    /// Returns true if all steps that are not refused have one duration.
+    fn is_constant(&self) -> bool {
+        true
+    }
+    /// The number of steps of the parameter `interval` that are sure to end within `time` from here where the time is
+    /// carried, or 1.
+    fn steps_within(&self, _interval: Self::Scalar, _time: Self::Scalar) -> u64 {
+        1
+    }
+    /// Goes on with a step parameter `by` times as large, by steps of the same size, where the time is carried.
+    fn rescale(&mut self, _by: Self::Scalar) {}
     /// How often the size of a step was refused or set anew; 0 for schemes that choose none. In several lanes, the number
     /// of the first.
     fn refused(&self) -> u64 {

@@ -32,6 +32,18 @@ impl<T: Real, S: ToTolerance, R: MapOf<T, S>> Integrator<T, S, R> {
     /// # Ok::<(), Error>(())
     /// ```
     ///
+    /// To integrate backwards, change the sign of the step before the first one:
+    ///
+    /// ```
+    #[doc = include_str!("../../doc/oscillator.md")]
+    ///
+    /// let mut run = Integrator::to_tolerance(&Oscillator {}, State::new([1.0], [0.0]), 1e-10)?;
+    /// run.change_step(-run.step())?;
+    /// let state = run.advance_until(-3.0)?;
+    /// assert!((state.p[0] - 3.0_f64.sin()).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`StartError::Tolerance`](crate::errors::StartError::Tolerance) for a tolerance that is not positive, and those of
     /// [`Integrator::new`].
@@ -48,14 +60,13 @@ impl<T: Real, S: ToTolerance, R: MapOf<T, S>> Integrator<T, S, R> {
         let scheme = Adaptive::new(S::Scheme::default(), tolerance);
         let prepared = check_start(system, &start)?;
         check_scheme(&scheme, &prepared, &start)?;
+        // The first step becomes the parameter.
         let one = T::one();
-        let step = scheme.start(&prepared, &start, one).duration(one);
-        Ok(Self::begin(
-            system,
-            prepared,
-            scheme,
-            start,
-            step.unwrap_or(one),
+        let mut carried = scheme.start(&prepared, &start, one);
+        let step = carried.duration(one).unwrap_or(one);
+        carried.rescale(step);
+        Ok(Self::begin_with(
+            system, prepared, scheme, start, step, carried,
         ))
     }
 }

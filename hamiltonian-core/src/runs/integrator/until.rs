@@ -166,7 +166,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             if !behind.lt(ahead).any() {
                 return self.state_at(t);
             }
-            self.advance(1)?;
+            let left = t - self.state.t;
+            self.advance(self.carried.steps_within(self.clock.interval, left))?;
         }
         Ok(self.state.clone())
     }

@@ -10,7 +10,7 @@ mod tolerance;
 
 use super::paced::{Pace, PaceShape};
 use crate::errors::Error;
-use crate::flows::map::{Cause, Map, Step};
+use crate::flows::map::{Cause, Clock, Map, Step};
 use crate::schemes::scheme::{CarriedBy, Entry, Form, Listed, OneStep, Scheme};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, Point, State};
@@ -19,8 +19,8 @@ use crate::systems::vector::Vector;
 use core::sync::atomic::{AtomicUsize, Ordering};
 use hamiltonian_lanes::{Mask, Real};
 use timescale::Derivatives;
-pub use tolerance::{Estimates, Tail, Tolerance};
-use tolerance::{MapBy, WorkBy, larger};
+pub use tolerance::{Estimate, Estimates, Tolerance};
+use tolerance::{MapBy, WorkBy, larger, later, moves};
 
 /// A system with a scheme that follows a tolerance, for
 /// [`Integrator::to_tolerance`](crate::Integrator::to_tolerance).
@@ -53,11 +53,12 @@ pub trait ToTolerance: System + Sized {
 /// Gauss collocation with steps from a tolerance.
 ///
 /// A step is refused, and repeated with a smaller size, if its estimated error is above the tolerated one. A pilot of at
-/// most 16 steps from the start chooses how sizes follow each other:
+/// most 32 steps from the start chooses how sizes follow each other:
 ///
-/// - *Constant*, if the smallest of the pilot's sizes takes at most twice as many steps as varying sizes do. The steps are
-///   then those of the scheme, and symplectic: exactly if the size is the step parameter of the run, to rounding
-///   otherwise. A refused step halves the size from there on; after the second time a pilot chooses anew.
+/// - *Constant*, if the smallest of the pilot's sizes takes at most five times as many steps as varying sizes do, each of
+///   which takes longer. The steps are then those of the scheme, and symplectic: exactly if the size is the step parameter
+///   of the run, to rounding otherwise. After a refused step all steps are smaller; where they are less than 0.4 times the
+///   first, a pilot chooses anew.
 /// - *Varying* otherwise. The density of steps ρ follows the time scale of the orbit as in [`Paced`](super::Paced), with
 ///   G = d ln Q/dt of
 ///
@@ -158,7 +159,7 @@ where
         Following {
             map: self.scheme.prepare(prepared, Step::of(step.h)),
             field: prepared.field(T::one()),
-            tail: Tail::new(),
+            estimate: self.scheme.estimate(self.tolerance),
             tolerance: self.tolerance,
             parameter: step.h,
             number: MAPS.fetch_add(1, Ordering::Relaxed),
@@ -203,7 +204,7 @@ pub struct Following<T: Real, S: System, M: Estimates<S>> {
     /// The map for the step parameter.
     map: MapBy<M, S, T>,
     field: <S::Prepared<T> as Dynamics<T>>::Field,
-    tail: Tail<T>,
+    estimate: Estimate<T>,
     tolerance: Tolerance,
     parameter: T,
     /// No other map has it.
@@ -266,116 +267,107 @@ const APART: f64 = 0.25;
 const HIGHER: [f64; 2] = [1.125, 8.0];
 /// The most by which a step is longer than the density at its beginning says.
 const LONGER: f64 = 3.0;
-/// The smallest step in units of the rounding of t.
-const STUCK: f64 = 0.01;
 /// The most attempts at a step.
 const ATTEMPTS: u32 = 60;
 
 impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
-    /// Makes one step of h = `by`·parameter. Returns its estimated error.
+    /// The map for steps of `by`·parameter.
+    #[inline(always)]
+    fn sized<'a>(
+        &self,
+        by: T,
+        map: &'a mut Option<MapBy<M, S, T>>,
+        (of, made): (&mut usize, &mut T),
+    ) -> &'a mut MapBy<M, S, T> {
+        // The scratch may have been that of another map, with other parameters.
+        if *of != self.number {
+            *map = None;
+        }
+        let is_new = map.is_none();
+        let map = map.get_or_insert_with(|| M::copy(&self.map));
+        if is_new {
+            (*of, *made) = (self.number, T::one());
+        }
+        if !by.equals(*made).all() {
+            M::resize(&self.map, by, map);
+            *made = by;
+        }
+        map
+    }
+
+    /// Makes one step of h = `by`·parameter. Returns h.
     #[inline(always)]
     fn attempt(&self, by: T, t: T, of: &mut CarriedBy<M, S, T>, work: &mut WorkOf<T, S, M>) -> T {
         let h = self.parameter * by;
-        // The scratch may have been that of another map, with other parameters.
-        if work.map.is_none() || work.of != self.number {
-            work.map = Some(M::copy(&self.map));
-            work.of = self.number;
-            work.by = T::one();
-        }
-        if let Some(map) = &mut work.map {
-            if !by.equals(work.by).all() {
-                M::resize(&self.map, by, map);
-                work.by = by;
-            }
-            map.step(t, t + h, of, &mut work.inner);
-        }
-        M::error(&self.tail, self.tolerance, h, work.before.point(), of)
+        let map = self.sized(by, &mut work.map, (&mut work.of, &mut work.by));
+        map.step(t, t + h, of, &mut work.inner);
+        h
     }
 
-    /// Q⁴ and G, with differences over 1/32 of a step.
+    /// The estimated error of the step of size h that led here, in units of the tolerated one.
     #[inline(always)]
-    fn scale(
+    fn error(&self, h: T, of: &CarriedBy<M, S, T>, work: &WorkOf<T, S, M>) -> T {
+        M::error::<T, true>(&self.estimate, h, work.before.point(), of)
+    }
+
+    /// Makes up to `n` steps of a single run in lanes, until one is refused. Returns their number; 0 if there are no
+    /// lanes.
+    #[inline(always)]
+    fn quickly(
         &self,
-        h: T,
-        t: T,
-        point: &Point<VectorOf<S, T>>,
-        derivatives: &mut Derivatives<VectorOf<S, T>>,
-    ) -> [T; 2] {
-        let tau = h * T::constant(1.0 / 32.0, 0.0);
-        derivatives.scale(&self.field, t, point, tau)
+        n: u64,
+        z: &mut Follows<CarriedBy<M, S, T>>,
+        work: &mut WorkOf<T, S, M>,
+    ) -> u64 {
+        let [before, rate, t, _, _, limit, low, ..] = z.numbers;
+        let half = self.parameter * T::constant(0.5, 0.0);
+        let is_constant = T::zero().lt(limit).all();
+        let (density, n) = match is_constant {
+            true => (before, n),
+            false => (before + half * rate, 1),
+        };
+        let jumps = !(before * T::constant(LONGER.recip(), 0.0)).le(density);
+        if T::LANES > 1 || jumps.any() || T::constant(ALONE, 0.0).le(limit).any() {
+            return 0;
+        }
+        let by = fixed(density.recip());
+        let h = self.parameter * by;
+        let map = self.sized(by, &mut work.map, (&mut work.of, &mut work.by));
+        let steps = (h, [t, low], n);
+        let (estimate, before) = (&self.estimate, &mut work.before);
+        let (made, time) = M::steps(estimate, map, steps, &mut z.of, before, &mut work.inner);
+        if made > 0 {
+            [z.numbers[2], z.numbers[6]] = time;
+            self.follow(density, T::Mask::splat(false), z, work);
+        }
+        made
     }
-}
 
-impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
-    type Carried = Follows<CarriedBy<M, S, T>>;
-    type Work = WorkOf<T, S, M>;
-
+    /// Finds the density after a step with this one; `changed` are lanes in which a size was refused.
     #[inline(always)]
-    fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+    fn follow(
+        &self,
+        made: T,
+        changed: T::Mask,
+        z: &mut Follows<CarriedBy<M, S, T>>,
+        work: &mut WorkOf<T, S, M>,
+    ) {
         let [zero, one] = [T::zero(), T::one()];
         let [
-            before,
+            _,
             mut rate,
-            t,
+            end,
             mut refused,
             _,
             limit,
-            mut low,
+            low,
             mut unit,
             mut first,
         ] = z.numbers;
         let half = self.parameter * T::constant(0.5, 0.0);
         let is_constant = zero.lt(limit);
-        // A step is at most so many times longer than the density says: an estimate is worth nothing far beyond.
-        let least = before * T::constant(LONGER.recip(), 0.0);
-        let followed = before + half * rate;
-        let jumps = !least.le(followed) & !is_constant;
-        let mut density = T::select(jumps, least, followed);
-        refused += T::select(jumps, one, zero);
-        work.before.copy_from(&z.of);
-        let mut changed = T::Mask::splat(false);
-        let mut open = T::Mask::splat(true);
-        let mut attempts = 0;
-        loop {
-            let error = self.attempt(fixed(density.recip()), t, &mut z.of, work);
-            let alone = T::constant(ALONE, 0.0).le(limit);
-            // This is false for NaN, of a step that was not solved.
-            let fine = alone | error.le(one);
-            let mut refuses = open & !fine;
-            attempts += 1;
-            if refuses.any() {
-                // Where the step before has failed, there is nothing to try.
-                refuses = refuses & work.before.finite();
-            }
-            if !refuses.any() {
-                break;
-            }
-            work.after.copy_where(open & fine, &z.of);
-            open = refuses;
-            changed = changed | refuses;
-            if attempts == ATTEMPTS {
-                z.of.poison(refuses);
-                break;
-            }
-            let smaller = density / shrink(error);
-            let smaller = T::select(is_constant, density + density, smaller);
-            density = T::select(refuses, fixed(smaller), density);
-            refused += T::select(refuses, one, zero);
-            z.of.copy_from(&work.before);
-        }
-        if attempts > 1 {
-            z.of.copy_where(!open, &work.after);
-        }
-        let made = density;
-        let h = self.parameter * fixed(density.recip());
-        // Steps that no longer move the time end at a singularity.
-        let moves = (t.abs() * T::constant(T::epsilon() * STUCK, 0.0)).lt(h.abs());
-        if !moves.all() {
-            z.of.poison(!moves);
-        }
-        let by = h + low;
-        let end = t + by;
-        low = by - (end - t);
+        let h = self.parameter * fixed(made.recip());
+        let mut density = made;
         if !is_constant.all() {
             let [scale, found] = self.scale(h, end, z.of.point(), &mut work.derivatives);
             rate = T::select(is_constant, zero, fixed(found));
@@ -398,6 +390,100 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             density = T::select(astray, larger(due, less), here);
         }
         z.numbers = [density, rate, end, refused, made, limit, low, unit, first];
+    }
+
+    /// Q⁴ and G, with differences over 1/32 of a step.
+    #[inline(always)]
+    fn scale(
+        &self,
+        h: T,
+        t: T,
+        point: &Point<VectorOf<S, T>>,
+        derivatives: &mut Derivatives<VectorOf<S, T>>,
+    ) -> [T; 2] {
+        let tau = h * T::constant(1.0 / 32.0, 0.0);
+        derivatives.scale(&self.field, t, point, tau)
+    }
+}
+
+impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
+    type Carried = Follows<CarriedBy<M, S, T>>;
+    type Work = WorkOf<T, S, M>;
+
+    #[inline(always)]
+    fn run(&self, _: Clock<T>, _: u64, n: u64, z: &mut Self::Carried, work: &mut Self::Work) {
+        let mut left = n;
+        while left > 0 {
+            let made = self.quickly(left, z, work);
+            left -= made;
+            // A step that was refused, or has no lanes.
+            if made == 0 {
+                let t = z.numbers[2];
+                self.body(t, t, z, work);
+                left -= 1;
+            }
+        }
+    }
+    #[inline(always)]
+    fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        let [zero, one] = [T::zero(), T::one()];
+        let [before, rate, t, mut refused, _, limit, low, ..] = z.numbers;
+        let half = self.parameter * T::constant(0.5, 0.0);
+        let is_constant = T::zero().lt(limit);
+        // A step is at most so many times longer than the density says: an estimate is worth nothing far beyond.
+        let least = before * T::constant(LONGER.recip(), 0.0);
+        let followed = before + half * rate;
+        let jumps = !least.le(followed) & !is_constant;
+        let mut density = T::select(jumps, least, followed);
+        refused += T::select(jumps, one, zero);
+        work.before.copy_from(&z.of);
+        let mut changed = T::Mask::splat(false);
+        let mut open = T::Mask::splat(true);
+        let mut attempts = 0;
+        loop {
+            let h = self.attempt(fixed(density.recip()), t, &mut z.of, work);
+            attempts += 1;
+            let alone = T::constant(ALONE, 0.0).le(limit);
+            let from = work.before.point();
+            let met = alone | M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
+            if attempts == 1 && met.all() {
+                break;
+            }
+            let error = self.error(h, &z.of, work);
+            // This is false for NaN, of a step that was not solved.
+            let fine = met | error.le(one);
+            let mut refuses = open & !fine;
+            if refuses.any() {
+                // Where the step before has failed, there is nothing to try.
+                refuses = refuses & work.before.finite();
+            }
+            if !refuses.any() {
+                break;
+            }
+            work.after.copy_where(open & fine, &z.of);
+            open = refuses;
+            changed = changed | refuses;
+            if attempts == ATTEMPTS {
+                z.of.poison(refuses);
+                break;
+            }
+            let smaller = density / shrink(error);
+            density = T::select(refuses, fixed(smaller), density);
+            refused += T::select(refuses, one, zero);
+            z.of.copy_from(&work.before);
+        }
+        if attempts > 1 {
+            z.of.copy_where(!open, &work.after);
+        }
+        let h = self.parameter * fixed(density.recip());
+        // Steps that no longer move the time end at a singularity.
+        let moves = moves(t, h);
+        if !moves.all() {
+            z.of.poison(!moves);
+        }
+        [z.numbers[2], z.numbers[6]] = later([t, low], h);
+        z.numbers[3] = refused;
+        self.follow(density, changed, z, work);
         let lost = changed & is_constant & limit.lt(density);
         if lost.any() {
             pilot::again(self, lost, z);

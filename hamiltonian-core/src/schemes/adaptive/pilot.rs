@@ -1,7 +1,7 @@
 //! The pilot: a few steps from the start, which choose the size of steps and whether it varies.
 //!
 //! Input: a start. Output: the numbers with which a run begins. Invariant: the pilot depends on the start alone, and
-//! makes at most 16 steps.
+//! makes at most 32 steps.
 
 use super::{AIM, APART, Derivatives, Following, Follows, NUMBERS, WorkOf, fixed, larger, root};
 use crate::schemes::adaptive::Estimates;
@@ -13,8 +13,10 @@ use crate::systems::system::{System, VectorOf};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
-/// The most steps that look for the first size, and the steps that follow.
-const TRIALS: [u32; 2] = [6, 10];
+/// The most steps that look for the first size.
+const TRIALS: u32 = 6;
+/// The least and the most steps that follow: they end where sizes are no longer growing.
+const FOLLOWED: [u32; 2] = [10, 26];
 /// The largest first step, and the largest constant one, in units of 1/Q; without a Q, in units of the larger of |q|/|q̇|
 /// and |p|/|ṗ|. Longer ones do not show how Q varies along the
 /// orbit, and their equations take many iterations.
@@ -23,10 +25,11 @@ const LARGEST: [f64; 2] = [1.0, 1.5];
 const FARTHEST: f64 = 4.0;
 /// See [`FARTHEST`].
 const LEAP: f64 = 100.0;
-/// Constant steps may be so many times as many as varying ones, which cost more each.
-const WORTH: f64 = 2.0;
-/// The largest density with constant steps, in units of the first: the second halving is above it.
-const HALVINGS: f64 = 2.5;
+/// Constant steps may be so many times as many as varying ones, which take three to four times as long each and more
+/// iterations.
+const WORTH: f64 = 5.0;
+/// The largest density with constant steps, in units of the first.
+const DENSEST: f64 = 2.5;
 
 #[inline(always)]
 fn number<T: Real>(x: f64) -> T {
@@ -43,7 +46,7 @@ fn factor<T: Real>(error: T, most: f64) -> T {
     T::select(error.finite(), fixed(factor), number(0.25))
 }
 
-/// A step, as runs make it, compiled once for all of the pilot.
+/// A step, as runs make it, and its estimated error, compiled once for all of the pilot.
 #[inline(never)]
 fn attempt<T: Real, S: System, M: Estimates<S>>(
     map: &Following<T, S, M>,
@@ -54,7 +57,10 @@ fn attempt<T: Real, S: System, M: Estimates<S>>(
 ) -> T {
     T::out_of_line(
         #[inline(always)]
-        || map.attempt(by, t, of, work),
+        || {
+            let h = map.attempt(by, t, of, work);
+            map.error(h, of, work)
+        },
     )
 }
 
@@ -135,7 +141,7 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     // The size with the error aimed at.
     let mut done = T::Mask::splat(false);
     work.before.copy_from(&carried.of);
-    for _ in 0..TRIALS[0] {
+    for _ in 0..TRIALS {
         let error = attempt(map, h / parameter, t, &mut carried.of, &mut work);
         carried.of.copy_from(&work.before);
         let factor = factor(error, LEAP);
@@ -157,46 +163,52 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     let mut dense = T::select(usable, at_start, longest.recip());
     let mut trial = carried.of.clone();
     let (mut density, mut rate, mut time) = (parameter / h, begin, t);
-    let mut failed = T::Mask::splat(false);
+    let [mut failed, mut over] = [T::Mask::splat(false); 2];
+    let mut best = zero;
     let mut smallest = longest * number(LARGEST[1]);
     let [mut elapsed, mut varying] = [zero, zero];
     let mut worst = one;
     let mut due = number::<T>(f64::MAX);
-    for _ in 0..TRIALS[1] {
+    for followed in 1..=FOLLOWED[1] {
         density += half * rate;
         let h = parameter * fixed(density.recip());
         work.before.copy_from(&trial);
         let error = attempt(map, fixed(density.recip()), time, &mut trial, &mut work);
-        failed = failed | !error.finite() | !zero.lt(density);
-        if failed.all() {
+        failed = failed | (!over & !(error.finite() & zero.lt(density)));
+        let counts = !(failed | over);
+        if !counts.any() {
             break;
         }
         let factor = factor(error, FARTHEST);
-        let best = h.abs() * factor;
+        let size = h.abs() * factor;
         // A step that was much too short does not tell which one would do.
-        let told = !failed & best.lt(smallest) & factor.lt(number(FARTHEST));
-        smallest = T::select(told, best, smallest);
+        let told = counts & size.lt(smallest) & factor.lt(number(FARTHEST));
+        smallest = T::select(told, size, smallest);
         // The density that the error asks for, in units of Q. Where Q happens to vanish it is large.
-        let fitting = parameter.abs() / best;
+        let fitting = parameter.abs() / size;
         let unit = fitting / dense;
-        due = T::select(!failed & unit.lt(due), unit, due);
-        worst = T::select(failed | worst.lt(factor), worst, factor);
-        elapsed = T::select(failed, elapsed, elapsed + h.abs());
+        due = T::select(counts & unit.lt(due), unit, due);
+        worst = T::select(counts & factor.le(worst), factor, worst);
+        elapsed = T::select(counts, elapsed + h.abs(), elapsed);
         let steps = larger(factor.recip(), h.abs() * dense);
-        varying = T::select(failed, varying, varying + steps);
+        varying = T::select(counts, varying + steps, varying);
         time += h;
         let [scale, found] = scale_at(map, h, time, trial.point(), &mut work.derivatives);
         rate = fixed(found);
         let now = fixed(scale.sqrt().sqrt());
         dense = T::select(now.finite() & zero.lt(now), now, dense);
         let longest = dense.recip() * number(LARGEST[1]);
-        let is_shorter = !failed & longest.lt(smallest) & zero.lt(longest);
+        let is_shorter = counts & longest.lt(smallest) & zero.lt(longest);
         smallest = T::select(is_shorter, longest, smallest);
         let next = density + half * rate;
         // G tells nothing where Q vanishes.
         let next = T::select((fitting / number(APART)).lt(next), fitting, next);
-        failed = failed | !(density * number(0.25)).lt(next + half * rate);
+        failed = failed | (!over & !(density * number(0.25)).lt(next + half * rate));
         density = next;
+        best = larger(size, best);
+        if followed >= FOLLOWED[0] {
+            over = over | size.lt(best * number(0.9));
+        }
     }
     let is_constant = elapsed.le(number::<T>(WORTH) * varying * smallest);
     // The density lost its way with steps of this size.
@@ -213,7 +225,7 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
         t,
         zero,
         density,
-        T::select(is_constant, density * number(HALVINGS), zero),
+        T::select(is_constant, density * number(DENSEST), zero),
         zero,
         due,
         due,

@@ -4,15 +4,17 @@
 //! Invariant: the estimate is the same for the step backwards, so that decisions by it are reversible.
 
 use crate::errors::{Error, StartError};
-use crate::flows::map::Map;
+use crate::flows::map::{Clock, Map};
+use crate::schemes::bundles::{Apart, StageLayout, in_bundles, number, spread, sum};
 use crate::schemes::collocation::{Collocation, constant};
 use crate::schemes::gauss::Gauss;
 use crate::schemes::scheme::{CarriedBy, OneStep, Scheme};
 use crate::schemes::second_order::GaussNystrom;
+use crate::schemes::staged::{Inspect, StagedMap};
 use crate::systems::state::Point;
 use crate::systems::system::{QuadraticKinetic, Separable, System, Unforced, VectorOf};
 use crate::systems::vector::Vector;
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Mask, Real};
 
 /// The number of stages of schemes that follow a tolerance. The constants below belong to it.
 pub(super) const STAGES: usize = 8;
@@ -22,12 +24,12 @@ pub(super) const STAGES: usize = 8;
 /// A step from x to x′ may change each coordinate and each momentum by an error of
 ///
 /// ```text
-/// absolute + relative·max(|xᵢ|, |xᵢ′|, 2⁻²⁰·max |xⱼ|) + 4ε·max |xⱼ|
+/// min(absolute + relative·max(|xᵢ|, |xᵢ′|, 2⁻²⁰·max |xⱼ|), 1e-8·max |xⱼ|) + 4ε·max |xⱼ|
 /// ```
 ///
-/// where j runs over all coordinates, or over all momenta, and ε is the spacing of numbers at 1. The last two terms keep
-/// components that are small beside the
-/// others, or rounding, from deciding.
+/// where j runs over all coordinates, or over all momenta, and ε is the spacing of numbers at 1. The terms in 2⁻²⁰ and in ε
+/// keep components that are small beside the others, or rounding, from deciding. A tolerance above 1e-8 is met by the
+/// steps of 1e-8: with longer ones, the equations of a step take more iterations, and a run takes no less time.
 ///
 /// A number is a relative tolerance:
 ///
@@ -74,68 +76,37 @@ impl From<f64> for Tolerance {
     note = "`Gauss::<8>` and, for a quadratic T without forces, `GaussNystrom::<8>` have it"
 )]
 pub trait Estimates<S: System>: OneStep + Scheme<S> {
+    /// The estimate of errors with this tolerance.
+    fn estimate<T: Real>(&self, tolerance: Tolerance) -> Estimate<T>;
     /// Copies a map.
     fn copy<T: Real>(of: &Self::Map<T>) -> Self::Map<T>;
     /// Makes `to`, a copy of `from`, the map for a step `by` times that of `from`.
     fn resize<T: Real>(from: &Self::Map<T>, by: T, to: &mut Self::Map<T>);
-    /// The estimated error of a step of size `h` that led from `before` to `after`, in units of the tolerated one.
-    fn error<T: Real>(
-        tail: &Tail<T>,
-        tolerance: Tolerance,
+    /// The estimated error of a step of size `h` that led from `before` to `after`, in units of the tolerated one. If it
+    /// is not `EXACT`, then 0 or 2 for one that is at most 1 or not, without roots and most quotients; 2 where they
+    /// would be needed.
+    fn error<T: Real, const EXACT: bool>(
+        estimate: &Estimate<T>,
         h: T,
         before: &Point<VectorOf<S, T>>,
         after: &CarriedBy<Self, S, T>,
     ) -> T;
+    /// Makes up to `n` steps of size `h` with stages beside each other, until one has too large an error or is not
+    /// solved. Returns their number, and the time and its low word after them; 0 if there are no lanes.
+    fn steps<T: Real>(
+        estimate: &Estimate<T>,
+        map: &Self::Map<T>,
+        h_time_n: (T, [T; 2], u64),
+        z: &mut CarriedBy<Self, S, T>,
+        before: &mut CarriedBy<Self, S, T>,
+        work: &mut WorkBy<Self, S, T>,
+    ) -> (u64, [T; 2]);
 }
 
 /// The map of the scheme `M` over `T`, which carries the same as `M` does.
 pub(super) type MapBy<M, S, T> = <M as Scheme<S>>::Map<T>;
 /// Its scratch.
 pub(super) type WorkBy<M, S, T> = <MapBy<M, S, T> as Map>::Work;
-
-/// Weights of the stages in the last two coefficients of the slopes' polynomial, in Legendre's polynomials.
-#[derive(Debug, Clone, Copy)]
-pub struct Tail<T> {
-    weights: [[T; STAGES]; 2],
-}
-
-impl<T: Real> Tail<T> {
-    pub(super) fn new() -> Self {
-        let method = Collocation::<STAGES>::gauss();
-        let polynomials = method.polynomials();
-        let mut weights = [[T::zero(); STAGES]; 2];
-        for (row, k) in weights.iter_mut().zip([STAGES - 1, STAGES - 2]) {
-            for (i, to) in row.iter_mut().enumerate() {
-                *to = constant(method.norm(k) * method.weights[i] * polynomials[i][k].0);
-            }
-        }
-        Tail { weights }
-    }
-
-    /// The relative error ε of the integral of a component of the slopes, and the largest size of that component.
-    ///
-    /// Let r be its last Legendre coefficient in units of that size. If the coefficients decay like ρ⁻ᵏ, r is ρ⁻⁷, and
-    /// the error of the quadrature, of order 17 in h, is near ρ⁻¹⁷ = r^(17/7). [`FACTOR`]·r²√r bounds it. So that a
-    /// coefficient that happens to vanish does not hide the error, the one before it counts an eighth.
-    #[inline(always)]
-    fn of<X: Vector<Scalar = T>>(&self, stages: &[X; STAGES], part: usize, i: usize) -> [T; 2] {
-        let [mut last, mut before, mut most] = [T::zero(); 3];
-        for (stage, slopes) in stages.iter().enumerate() {
-            let slope = slopes.part(part)[i];
-            last = self.weights[0][stage].fma(slope, last);
-            before = self.weights[1][stage].fma(slope, before);
-            most = larger(most, slope.abs());
-        }
-        let tail = larger(last.abs(), before.abs() * T::constant(0.125, 0.0));
-        let is_zero = most.equals(T::zero());
-        let r = tail / T::select(is_zero, T::one(), most);
-        [T::constant(FACTOR, 0.0) * r * r * r.sqrt(), most]
-    }
-}
-
-/// The error of a step over `h·r²√r` times its slope. The errors that follow are tested at the ends of runs of twenty
-/// problems, among them Kepler's with e = 0.99, the restricted three-body problem and H = ½(q² + 1)(p² + 1).
-const FACTOR: f64 = 0.5;
 
 /// The larger of two numbers; the second if one is NaN.
 #[inline(always)]
@@ -161,6 +132,14 @@ fn most<V: Vector>(x: &V) -> V::Scalar {
     most
 }
 
+/// The error of a step over `h·r²√r` times its slope. The errors that follow are tested at the ends of runs of twenty
+/// problems, among them Kepler's with e = 0.99, the restricted three-body problem and H = ½(q² + 1)(p² + 1).
+const FACTOR: f64 = 0.5;
+
+/// The largest tolerance of a step, in units of the largest coordinate or momentum: steps with larger errors take so many
+/// iterations that a run takes no less time.
+const LOOSEST: f64 = 1e-8;
+
 /// The tolerated errors of a group, coordinates or momenta.
 struct Tolerated<T> {
     tolerance: Tolerance,
@@ -176,89 +155,237 @@ impl<T: Real> Tolerated<T> {
         }
     }
 
-    /// An error in units of the tolerated one, for a component that was `before` and is `after`.
+    /// The tolerated error of a component that was `before` and is `after`.
     #[inline(always)]
-    fn share(&self, error: T, before: T, after: T) -> T {
+    fn error(&self, before: T, after: T) -> T {
         /// 2⁻²⁰.
         const SMALL: f64 = 1.0 / (1_u64 << 20) as f64;
         let small = T::constant(SMALL, 0.0) * self.most;
         let rounding = T::constant(4.0 * T::epsilon(), 0.0) * self.most;
         let size = larger(larger(before.abs(), after.abs()), small);
-        let tolerated = T::constant(self.tolerance.absolute, 0.0)
-            + T::constant(self.tolerance.relative, 0.0) * size
-            + rounding;
-        T::select(error.equals(T::zero()), error, error / tolerated)
+        let asked = T::constant(self.tolerance.absolute, 0.0)
+            + T::constant(self.tolerance.relative, 0.0) * size;
+        let most = T::constant(LOOSEST, 0.0) * self.most;
+        T::select(most.lt(asked), most, asked) + rounding
+    }
+
+    /// The error `FACTOR·r²√r·of` in units of the tolerated one, as in [`Estimates::error`].
+    #[inline(always)]
+    fn share<const EXACT: bool>(&self, r: T, of: T, before: T, after: T) -> T {
+        let [zero, two] = [T::zero(), T::constant(2.0, 0.0)];
+        let tolerated = self.error(before, after);
+        let error = T::constant(FACTOR, 0.0) * (r * r) * of;
+        if EXACT {
+            let error = error.abs() * r.sqrt();
+            return T::select(error.equals(zero), error, error / tolerated);
+        }
+        let tolerated = tolerated * tolerated;
+        // The squares of very small numbers are 0.
+        let is_met = (error * error * r).le(tolerated) & zero.lt(tolerated);
+        T::select(is_met, zero, two)
     }
 }
 
-impl<S: System> Estimates<S> for Gauss<STAGES> {
-    fn copy<T: Real>(of: &Self::Map<T>) -> Self::Map<T> {
-        of.clone()
+/// The estimate of an error from the slopes at the stages, or from the forces there.
+#[derive(Debug, Clone, Copy)]
+pub struct Estimate<T> {
+    tolerance: Tolerance,
+    /// Weights of the stages in the last two coefficients of the slopes' polynomial, in Legendre's polynomials.
+    weights: [[T; STAGES]; 2],
+}
+
+impl<T: Real> Estimate<T> {
+    fn new(method: &Collocation<STAGES>, tolerance: Tolerance) -> Self {
+        let polynomials = method.polynomials();
+        let mut weights = [[T::zero(); STAGES]; 2];
+        for (row, k) in weights.iter_mut().zip([STAGES - 1, STAGES - 2]) {
+            for (i, to) in row.iter_mut().enumerate() {
+                *to = constant(method.norm(k) * method.weights[i] * polynomials[i][k].0);
+            }
+        }
+        Estimate { tolerance, weights }
     }
+
+    /// The last Legendre coefficient r of number `i` of part `k` of the slopes in units of its largest size, and that
+    /// size.
+    ///
+    /// If the coefficients decay like ρ⁻ᵏ, r is ρ⁻⁷, and the relative error of the quadrature, of order 17 in h, is near
+    /// ρ⁻¹⁷ = r^(17/7). [`FACTOR`]·r²√r bounds it. So that a coefficient that happens to vanish does not hide the error,
+    /// the one before it counts an eighth.
     #[inline(always)]
-    fn resize<T: Real>(from: &Self::Map<T>, by: T, to: &mut Self::Map<T>) {
-        from.resize(by, to);
+    fn tail<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
+        weights: &[[L::Bundle; STAGES]; 2],
+        slopes: &[X; STAGES],
+        (k, i): (usize, usize),
+    ) -> [T; 2] {
+        let last = spread::<T, L, _, 1, STAGES>([&weights[0]], slopes, k, i);
+        let before = spread::<T, L, _, 1, STAGES>([&weights[1]], slopes, k, i);
+        let last = sum::<T, L, STAGES>(&last);
+        let before = sum::<T, L, STAGES>(&before);
+        let few = spread::<T, L, _, 0, STAGES>([], slopes, k, i);
+        let mut most = T::zero();
+        for stage in 0..STAGES {
+            most = larger(most, number::<T, L, STAGES>(&few, stage).abs());
+        }
+        let tail = larger(last.abs(), before.abs() * T::constant(0.125, 0.0));
+        let is_zero = most.equals(T::zero());
+        [tail / T::select(is_zero, T::one(), most), most]
     }
+
+    /// The error of a step in units of the tolerated one, from the slopes at its stages, or from the forces there: their
+    /// relative error is taken for that of the coordinates' change as well.
     #[inline(always)]
-    fn error<T: Real>(
-        tail: &Tail<T>,
-        tolerance: Tolerance,
+    fn error<L, V, X, const EXACT: bool>(
+        &self,
+        weights: &[[L::Bundle; STAGES]; 2],
         h: T,
-        before: &Point<VectorOf<S, T>>,
-        after: &CarriedBy<Self, S, T>,
-    ) -> T {
-        let (now, stages) = (&after.x, &after.y.x.0);
-        let parts = <VectorOf<S, T> as Vector>::PARTS;
-        let groups = [
-            Tolerated::of(tolerance, &before.q, &now.q),
-            Tolerated::of(tolerance, &before.p, &now.p),
+        before: &Point<V>,
+        after: &Point<V>,
+        slopes: &[X; STAGES],
+    ) -> T
+    where
+        L: StageLayout<T>,
+        V: Vector<Scalar = T>,
+        X: Vector<Scalar = L::Bundle>,
+    {
+        let q = Tolerated::of(self.tolerance, &before.q, &after.q);
+        let p = Tolerated::of(self.tolerance, &before.p, &after.p);
+        let mut worst = T::zero();
+        for k in 0..X::PARTS {
+            for i in 0..slopes[0].part(k).len() {
+                let [r, most] = Self::tail::<L, X>(weights, slopes, (k, i));
+                let of = most * h;
+                if X::PARTS > V::PARTS {
+                    let group = if k < V::PARTS { &q } else { &p };
+                    let ends = [before.part(k)[i], after.part(k)[i]];
+                    worst = worse(worst, group.share::<EXACT>(r, of, ends[0], ends[1]));
+                } else {
+                    let [q0, q1] = [before.q.part(k)[i], after.q.part(k)[i]];
+                    let [p0, p1] = [before.p.part(k)[i], after.p.part(k)[i]];
+                    worst = worse(worst, q.share::<EXACT>(r, q1 - q0, q0, q1));
+                    worst = worse(worst, p.share::<EXACT>(r, of, p0, p1));
+                }
+            }
+        }
+        worst
+    }
+}
+
+/// Looks at the estimated errors of steps.
+struct ErrorInspection<'a, T, V> {
+    estimate: &'a Estimate<T>,
+    h: T,
+    /// The time and its low word.
+    time: [T; 2],
+    /// The point before the step, and its low words.
+    before: [&'a mut Point<V>; 2],
+}
+
+impl<T: Real, V: Vector<Scalar = T>> Inspect<T, V, STAGES> for ErrorInspection<'_, T, V> {
+    const LOOKS: bool = true;
+    #[inline(always)]
+    fn begins(&self, _: Clock<T>, _: u64) -> T {
+        self.time[0]
+    }
+    #[inline(always)]
+    fn keep(&mut self, point: &Point<V>, low: &Point<V>) {
+        self.before[0].copy_from(point);
+        self.before[1].copy_from(low);
+    }
+    #[inline(always)]
+    fn accepts<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
+        &mut self,
+        point: &Point<V>,
+        slopes: &[X; STAGES],
+    ) -> bool {
+        let ErrorInspection {
+            estimate,
+            h,
+            time,
+            before,
+        } = self;
+        let [first, second] = &estimate.weights;
+        let weights = [
+            in_bundles::<T, L, STAGES>(first),
+            in_bundles::<T, L, STAGES>(second),
         ];
-        let mut worst = T::zero();
-        for k in 0..2 * parts {
-            let group = &groups[k / parts];
-            for i in 0..now.part(k).len() {
-                let [error, most] = tail.of(stages, k, i);
-                let error = error * most * h.abs();
-                worst = worse(worst, group.share(error, before.part(k)[i], now.part(k)[i]));
-            }
+        let error = estimate.error::<L, V, X, false>(&weights, *h, before[0], point, slopes);
+        let is_met = (error.le(T::one()) & moves(time[0], *h)).all();
+        if is_met {
+            *time = later(*time, *h);
         }
-        worst
+        is_met
+    }
+    #[inline(always)]
+    fn undo(&self, point: &mut Point<V>, low: &mut Point<V>) {
+        point.copy_from(self.before[0]);
+        low.copy_from(self.before[1]);
     }
 }
 
-impl<S> Estimates<S> for GaussNystrom<STAGES>
-where
-    S: System + Separable + QuadraticKinetic + Unforced,
-{
-    fn copy<T: Real>(of: &Self::Map<T>) -> Self::Map<T> {
-        of.clone()
-    }
-    #[inline(always)]
-    fn resize<T: Real>(from: &Self::Map<T>, by: T, to: &mut Self::Map<T>) {
-        from.resize(by, to);
-    }
-    /// The stages have forces alone. Their relative error is taken for that of the coordinates' change as well.
-    #[inline(always)]
-    fn error<T: Real>(
-        tail: &Tail<T>,
-        tolerance: Tolerance,
-        h: T,
-        before: &Point<VectorOf<S, T>>,
-        after: &CarriedBy<Self, S, T>,
-    ) -> T {
-        let (now, stages) = (&after.x, &after.y.x.0);
-        let q = Tolerated::of(tolerance, &before.q, &now.q);
-        let p = Tolerated::of(tolerance, &before.p, &now.p);
-        let mut worst = T::zero();
-        for k in 0..<VectorOf<S, T> as Vector>::PARTS {
-            for i in 0..now.q.part(k).len() {
-                let [error, most] = tail.of(stages, k, i);
-                let [q0, q1] = [before.q.part(k)[i], now.q.part(k)[i]];
-                worst = worse(worst, q.share(error * (q1 - q0).abs(), q0, q1));
-                let [p0, p1] = [before.p.part(k)[i], now.p.part(k)[i]];
-                worst = worse(worst, p.share(error * most * h.abs(), p0, p1));
+/// The smallest step in units of the rounding of t.
+const STUCK: f64 = 0.01;
+
+/// The lanes in which a step moves the time.
+#[inline(always)]
+pub(super) fn moves<T: Real>(t: T, h: T) -> T::Mask {
+    (t.abs() * T::constant(T::epsilon() * STUCK, 0.0)).lt(h.abs())
+}
+
+/// A time and its low word after a step.
+#[inline(always)]
+pub(super) fn later<T: Real>([t, low]: [T; 2], h: T) -> [T; 2] {
+    let by = h + low;
+    let end = t + by;
+    // Exact whichever of the two is larger (D. E. Knuth, The Art of Computer Programming, section 4.2.2).
+    let moved = end - t;
+    [end, (t - (end - moved)) + (by - moved)]
+}
+
+macro_rules! estimates {
+    ($scheme:ident $(, $bound:ident)*) => {
+        impl<S: System $(+ $bound)*> Estimates<S> for $scheme<STAGES> {
+            fn estimate<T: Real>(&self, tolerance: Tolerance) -> Estimate<T> {
+                Estimate::new(&self.coefficients, tolerance)
+            }
+            fn copy<T: Real>(of: &Self::Map<T>) -> Self::Map<T> {
+                of.clone()
+            }
+            #[inline(always)]
+            fn resize<T: Real>(from: &Self::Map<T>, by: T, to: &mut Self::Map<T>) {
+                from.resize(by, to);
+            }
+            #[inline(always)]
+            fn error<T: Real, const EXACT: bool>(
+                estimate: &Estimate<T>,
+                h: T,
+                before: &Point<VectorOf<S, T>>,
+                after: &CarriedBy<Self, S, T>,
+            ) -> T {
+                let (point, slopes) = (&after.x, &after.y.x.0);
+                estimate.error::<Apart, _, _, EXACT>(&estimate.weights, h, before, point, slopes)
+            }
+            #[inline(always)]
+            fn steps<T: Real>(
+                estimate: &Estimate<T>,
+                map: &Self::Map<T>,
+                (h, time, n): (T, [T; 2], u64),
+                z: &mut CarriedBy<Self, S, T>,
+                before: &mut CarriedBy<Self, S, T>,
+                work: &mut WorkBy<Self, S, T>,
+            ) -> (u64, [T; 2]) {
+                let before = [&mut before.x, &mut before.y.y];
+                let mut inspection = ErrorInspection { estimate, h, time, before };
+                let clock = (Clock::between(time[0], time[0] + h), 0, n);
+                let made = T::out_of_line(
+                    #[inline(always)]
+                    || map.steps_in_lanes(clock, z, work, &mut inspection),
+                );
+                (made.unwrap_or(0), inspection.time)
             }
         }
-        worst
-    }
+    };
 }
+
+estimates!(Gauss);
+estimates!(GaussNystrom, Separable, QuadraticKinetic, Unforced);

@@ -6,22 +6,25 @@
 use super::{BundleScratch, CarriesForces, Eliminated, NystromTableau, Sums};
 use crate::flows::map::Clock;
 use crate::schemes::bundles::{
-    Abreast, Beside, LEVELS, Width, in_bundles, lay_in_bundles, load, store,
+    Abreast, Beside, LEVELS, Width, copy, in_bundles, lay_in_bundles, load, store,
 };
+use crate::schemes::staged::Inspect;
 use crate::schemes::stages::Stages;
 use crate::systems::system::Dynamics;
 use crate::systems::system::gather::{InLanes, Kept};
 use crate::systems::vector::{Over, Vector};
 use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 
-/// The values that steps beside each other keep: ∂V/∂q at the stages, scratch, and the matrices in bundles.
-type KeptBeside<X, R, const S: usize> = (Stages<X, S>, BundleScratch<X, S>, [[[R; S]; S]; 2]);
+/// The values that steps beside each other keep: ∂V/∂q at the stages, of this step and the one before; scratch, and the
+/// matrices in bundles.
+type KeptBeside<X, R, const S: usize> = ([Stages<X, S>; 2], BundleScratch<X, S>, [[[R; S]; S]; 2]);
 
-/// Steps whose stages lie beside each other, until one is not solved.
+/// Steps whose stages lie beside each other, until one is not solved or not accepted.
 pub(super) struct NystromStepsBeside<
     'a,
     T: Real,
     P: Dynamics<T>,
+    W,
     const S: usize,
     const WIDTH: usize,
 > {
@@ -32,17 +35,19 @@ pub(super) struct NystromStepsBeside<
     pub(super) n: u64,
     pub(super) z: &'a mut CarriesForces<P::Vector, S>,
     pub(super) sums: &'a mut Sums<P::Vector>,
+    pub(super) inspection: &'a mut W,
 }
 
-impl<T, Q, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
-    for NystromStepsBeside<'_, T, Q, S, WIDTH>
+impl<T, Q, W, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
+    for NystromStepsBeside<'_, T, Q, W, S, WIDTH>
 where
     T: Real,
     Q: Dynamics<T>,
+    W: Inspect<T, Q::Vector, S>,
     Abreast<WIDTH>: Width,
 {
-    /// The number of steps made. If it is less than `n`, the value carried is that before the step
-    /// that was not solved, but for ∂V/∂q.
+    /// The number of steps made. If it is less than `n`, the value carried is that before the step that was not solved or
+    /// not accepted, but, where nothing is looked at, for ∂V/∂q.
     type Output = u64;
     type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
     const LEVELS: [Cpu; 2] = LEVELS;
@@ -60,16 +65,18 @@ where
             n,
             z,
             sums,
+            inspection,
         } = self;
         let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
         let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
         let ends = in_bundles::<T, Beside<P, WIDTH>, S>(&map.ends);
         // The matrices too: a run of single steps would spend its time on clearing them.
-        let (gradients, bundles, double) = kept.get(
+        let ([gradients, before], bundles, double) = kept.get(
             |_: &KeptBeside<D::Vector, T::Over<P>, S>| true,
             || {
                 let zero = z.x.q.zeros_over::<T::Over<P>>();
                 let gradients = Stages(core::array::from_fn(|_| zero.clone()));
+                let gradients = [gradients.clone(), gradients];
                 let double = [[[T::Over::<P>::zero(); S]; S]; 2];
                 (gradients, BundleScratch::new(&zero), double)
             },
@@ -94,7 +101,11 @@ where
         load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut of.0);
         let mut left = n;
         while left > 0 {
-            let t = clock.at(made + (n - left));
+            let t = inspection.begins(clock, made + (n - left));
+            if W::LOOKS {
+                copy::<T, Beside<P, WIDTH>, _, S>(&of.0, &mut before.0);
+                inspection.keep(&point, &low);
+            }
             let outcome = map.fixed_point::<Beside<P, WIDTH>, _>(
                 &tableau,
                 system,
@@ -105,6 +116,9 @@ where
                 &mut scalars,
             );
             if !outcome.solved.all() {
+                if W::LOOKS {
+                    copy::<T, Beside<P, WIDTH>, _, S>(&before.0, &mut of.0);
+                }
                 break;
             }
             map.finish::<Beside<P, WIDTH>, _>(
@@ -115,6 +129,13 @@ where
                 &mut low,
                 &mut scalars,
             );
+            if !inspection.accepts::<Beside<P, WIDTH>, _>(&point, &of.0) {
+                inspection.undo(&mut point, &mut low);
+                if W::LOOKS {
+                    copy::<T, Beside<P, WIDTH>, _, S>(&before.0, &mut of.0);
+                }
+                break;
+            }
             left -= 1;
         }
         store::<T, Beside<P, WIDTH>, _, _, S>(&of.0, &mut z.y.x.0);

@@ -7,10 +7,11 @@ use super::{Carries, Collocated, Stages};
 use crate::flows::iterate::Outcome;
 use crate::flows::map::Clock;
 use crate::schemes::bundles::{
-    Abreast, Beside, Equations, LEVELS, StageLayout, Width, bundles, in_bundles, lay_in_bundles,
-    load, product, solve, spread, store, sum,
+    Abreast, Beside, Equations, LEVELS, StageLayout, Width, bundles, copy, in_bundles,
+    lay_in_bundles, load, product, solve, spread, store, sum,
 };
 use crate::schemes::compensated::carry;
+use crate::schemes::staged::Inspect;
 use crate::systems::flow::VectorField;
 use crate::systems::state::Point;
 use crate::systems::system::Dynamics;
@@ -143,26 +144,28 @@ pub(super) fn finish<T, L, V, X, const S: usize>(
     carry(point, low);
 }
 
-/// The scratch of steps: slopes, points, a slope.
+/// The scratch of steps: slopes, those of the step before, points, a slope.
 pub(super) struct StepScratch<X: Vector, const S: usize> {
     pub(super) slopes: Stages<Point<X>, S>,
+    pub(super) before: Stages<Point<X>, S>,
     pub(super) points: Stages<Point<X>, S>,
     pub(super) next: Point<X>,
 }
 
-/// Makes up to `n` steps after the first `made`, until one is not solved. Returns the number of steps made and
+/// Makes up to `n` steps after the first `made`, until one is not solved or not accepted. Returns the number of steps made and
 /// the outcome of the last.
 ///
 /// The scratch, the point and its low words should be variables of the caller alone, so that they may stay in
 /// registers.
 #[inline(always)]
-pub(super) fn steps<T, L, F, V, X, const S: usize>(
+pub(super) fn steps<T, L, F, V, X, W, const S: usize>(
     limit: u32,
     tableau: &Tableau<'_, T, L::Bundle, S>,
     field: &F,
     (clock, made, n): (Clock<T>, u64, u64),
     scratch: &mut StepScratch<X, S>,
     (point, low): (&mut Point<V>, &mut Point<V>),
+    inspection: &mut W,
 ) -> (u64, Outcome<T>)
 where
     T: Real,
@@ -170,47 +173,65 @@ where
     F: VectorField<X>,
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Bundle>,
+    W: Inspect<T, V, S>,
 {
     let (mut left, mut outcome) = (n, Outcome::unsolved());
     while left > 0 {
+        let t = inspection.begins(clock, made + (n - left));
+        if W::LOOKS {
+            copy::<T, L, _, S>(&scratch.slopes.0, &mut scratch.before.0);
+            inspection.keep(point, low);
+        }
         outcome = fixed_point::<T, L, _, _, _, S>(
             limit,
             tableau,
             field,
-            clock.at(made + (n - left)),
+            t,
             point,
             &mut scratch.slopes.0,
             &mut scratch.points.0,
             &mut scratch.next,
         );
-        if !outcome.solved.all() {
+        let mut accepted = outcome.solved.all();
+        if accepted {
+            finish::<T, L, _, _, S>(tableau.weights, &scratch.slopes.0, point, low);
+            accepted = inspection.accepts::<L, _>(point, &scratch.slopes.0);
+            if !accepted {
+                inspection.undo(point, low);
+            }
+        }
+        if !accepted {
+            if W::LOOKS {
+                copy::<T, L, _, S>(&scratch.before.0, &mut scratch.slopes.0);
+            }
             break;
         }
-        finish::<T, L, _, _, S>(tableau.weights, &scratch.slopes.0, point, low);
         left -= 1;
     }
     (n - left, outcome)
 }
 
-/// Steps whose stages lie beside each other, until one is not solved.
-pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize, const WIDTH: usize> {
+/// Steps whose stages lie beside each other, until one is not solved or not accepted.
+pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, W, const S: usize, const WIDTH: usize> {
     pub(super) map: &'a Collocated<T, P, S>,
     pub(super) clock: Clock<T>,
     /// The steps made before.
     pub(super) made: u64,
     pub(super) n: u64,
     pub(super) z: &'a mut Carries<P::Vector, S>,
+    pub(super) inspection: &'a mut W,
 }
 
-impl<T, Q, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
-    for StepsBeside<'_, T, Q, S, WIDTH>
+impl<T, Q, W, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
+    for StepsBeside<'_, T, Q, W, S, WIDTH>
 where
     T: Real,
     Q: Dynamics<T>,
+    W: Inspect<T, Q::Vector, S>,
     Abreast<WIDTH>: Width,
 {
-    /// The number of steps made. If it is less than `n`, the value carried is that before the step
-    /// that was not solved, but for its slopes.
+    /// The number of steps made. If it is less than `n`, the value carried is that before the step that was not solved or
+    /// not accepted, but, where nothing is looked at, for its slopes.
     type Output = u64;
     type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
     const LEVELS: [Cpu; 2] = LEVELS;
@@ -227,6 +248,7 @@ where
             made,
             n,
             z,
+            inspection,
         } = self;
         let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
         let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
@@ -239,6 +261,7 @@ where
                 let stages = Stages(core::array::from_fn(|_| zero.clone()));
                 let scratch = StepScratch::<D::Vector, S> {
                     slopes: stages.clone(),
+                    before: stages.clone(),
                     points: stages,
                     next: zero,
                 };
@@ -261,18 +284,20 @@ where
         // Moved out, they are variables of this loop alone and may stay in registers.
         let mut here = StepScratch {
             slopes: scratch.slopes.take(),
+            before: scratch.before.take(),
             points: scratch.points.take(),
             next: scratch.next.take(),
         };
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut here.slopes.0);
-        let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, S>(
+        let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, _, S>(
             map.limit,
             &tableau,
             &field,
             (clock, made, n),
             &mut here,
             (&mut point, &mut low),
+            inspection,
         );
         store::<T, Beside<P, WIDTH>, _, _, S>(&here.slopes.0, &mut z.y.x.0);
         (z.x, z.y.y) = (point, low);

@@ -23,9 +23,11 @@ GOALS = (1e-3, 1e-6, 1e-9, 1e-11)
 ASKED = {"kepler": 1e-9, "henon_heiles": 2e-11, "pendulum": 2e-11, "coupled": 1e-10, "planets": 2e-11}
 FIGURES = "benches/peers/figures"
 # The chapter that names the fastest scheme for an accuracy, and the marks round its table.
-CHAPTER, BEGIN, END = "book/src/schemes.md", "<!-- fastest -->", "<!-- end of fastest -->"
+CHAPTER, MARKS = "book/src/schemes.md", ("<!-- fastest -->", "<!-- end of fastest -->")
 COLOURS = {"hamiltonian": "#1f4e9c", "heyoka": "#c8442c", "REBOUND": "#2c8a4b", "SciPy": "#8a6d1f", "numba": "#7a3e98",
            "diffsol": "#444444", "Julia": "#c2389a"}
+# The marks round the section of BENCHMARKS.md that `tolerances.py` writes.
+TOLERANCES = ("<!-- tolerances -->", "<!-- end of tolerances -->")
 WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 640, 400, 64, 48, 36, 130
 
 
@@ -169,11 +171,21 @@ def which_one(found, root):
                     for goal in GOALS]
             cells = [f"{row['method']}, {1e3 * row['seconds']:.3g} ms" if row else "–" for row in best]
             out.append(f"| {title if key == 'error' else ''} | {word} | " + " | ".join(cells) + " |")
-    chapter = root / CHAPTER
-    before, mark, rest = chapter.read_text(encoding="utf-8").partition(BEGIN)
-    _, end, after = rest.partition(END)
-    assert mark and end, f"{chapter} has no place for the table"
-    chapter.write_text(before + BEGIN + "\n".join(["", *out, ""]) + END + after, encoding="utf-8")
+    replace(root / CHAPTER, MARKS, "\n".join(out))
+
+
+def replace(file, marks, text):
+    """Puts a text between two marks of a file."""
+    before, old, after = parts(file, marks)
+    assert old is not None, f"{file} has no place for a table"
+    file.write_text(before + "\n".join([marks[0], text, marks[1]]) + after, encoding="utf-8")
+
+
+def parts(file, marks):
+    """What stands before, between and after two marks; None between where they are missing."""
+    before, begin, rest = file.read_text(encoding="utf-8").partition(marks[0])
+    between, end, after = rest.partition(marks[1])
+    return before, between.strip("\n") if begin and end else None, after
 
 
 def write(problems, rows, machine, root):
@@ -191,10 +203,13 @@ def write(problems, rows, machine, root):
            + "".join(f" {peer} was not installed and is left out." for peer in COLOURS if peer not in dict(versions)),
            "",
            "Not compared: the time of compilation, of `hamiltonian!` by rustc and of heyoka and numba at run time; "
-           "adaptive steps, dense output and events; ensembles on several threads and on graphics processors; stiff "
+           "dense output and events; ensembles on several threads and on graphics processors; stiff "
            "problems, for which diffsol, SciPy's LSODA and Julia's solvers are made; collisions and additional forces, "
            "for which REBOUND is. SciPy calls a Python function for each evaluation, as most of its users do.", ""]
     out += against_taylor(found)
+    # The section of the other program stays.
+    tolerances = parts(root / "BENCHMARKS.md", TOLERANCES)[1] or ""
+    out += [TOLERANCES[0], tolerances, TOLERANCES[1], ""]
     which_one(found, root)
     for name, title in TITLES.items():
         if name not in found:

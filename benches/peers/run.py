@@ -30,15 +30,15 @@ PROBLEMS, ROWS = OUT / "problems.jsonl", OUT / "rows.jsonl"
 SCRIPTS = ("heyoka_peer.py", "rebound_peer.py", "scipy_peer.py", "numba_peer.py")
 
 
-def pinned(command, **options):
-    """The command on one core, with one thread."""
+def pinned(command, problems=PROBLEMS, **options):
+    """The command on one core, with one thread, and with a file of problems."""
     if shutil.which("taskset"):
         core = max(os.sched_getaffinity(0))
         command = ["taskset", "-c", str(core), *command]
     threads = {name: "1" for name in (
         "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "RAYON_NUM_THREADS",
         "JULIA_NUM_THREADS")}
-    environment = {**os.environ, **threads, "PROBLEMS": str(PROBLEMS)}
+    environment = {**os.environ, **threads, "PROBLEMS": str(problems)}
     return subprocess.run([str(part) for part in command], env=environment, text=True, cwd=HERE, **options)
 
 
@@ -52,15 +52,20 @@ def environment():
     return python
 
 
-def built(name):
+def built(name, *options):
     target = OUT / "rust"
     manifest = HERE / name / "Cargo.toml"
-    subprocess.run(["cargo", "build", "--release", "--manifest-path", manifest, "--target-dir", target], check=True)
-    return target / "release" / f"peers-{name}"
+    command = ["cargo", "build", "--release", "--manifest-path", manifest, "--target-dir", target, *options]
+    subprocess.run(command, check=True)
+    return target / "release" / (options[-1] if options else f"peers-{name}")
 
 
 def lines(text):
     return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
+
+
+def write(file, content):
+    file.write_text("".join(json.dumps(line) + "\n" for line in content), encoding="utf-8")
 
 
 def kept(file, wanted, alone):
@@ -89,7 +94,7 @@ def main():
     if "--report" not in sys.argv:
         alone = "--ours" in sys.argv
         # This library is first: it makes the references as well.
-        commands = [("hamiltonian", [built("ours")]), *([] if alone else peers())]
+        commands = [("hamiltonian", [built("ours", "--bin", "peers-ours")]), *([] if alone else peers())]
         problems, rows = kept(PROBLEMS, wanted, alone), kept(ROWS, wanted, alone)
         for name, command in commands:
             for problem in wanted or [""]:
@@ -100,8 +105,8 @@ def main():
                 for line in lines(done.stdout):
                     line.setdefault("version", VERSION)
                     (problems if "reference" in line else rows).append(line)
-                for file, content in ((PROBLEMS, problems), (ROWS, rows)):
-                    file.write_text("".join(json.dumps(line) + "\n" for line in content), encoding="utf-8")
+                write(PROBLEMS, problems)
+                write(ROWS, rows)
     report.write(lines(PROBLEMS.read_text(encoding="utf-8")), lines(ROWS.read_text(encoding="utf-8")), machine(), ROOT)
 
 

@@ -5,15 +5,16 @@
 //! the step: `uncertainty` is the difference. With a name as argument only that problem is treated.
 
 mod problems;
+mod support;
 
+use hamiltonian::Vector;
 use hamiltonian::VectorOf;
-use cpu_time::ThreadTime;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{BlanesCasasEscorihuela8, Processed6, Srkn11b};
-use hamiltonian::{Rounding, Scheme, Vector};
+use hamiltonian::{Rounding, Scheme};
 use problems::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::fmt::Write;
+use support::*;
 
 /// Bodies of the cluster.
 const BODIES: usize = 1000;
@@ -25,55 +26,6 @@ const CHAIN: usize = 31;
 const PENDULUMS: usize = 1000;
 /// The time to which they swing.
 const SWING: f64 = 100.0;
-/// Runs of which the median is taken.
-const RUNS: usize = 9;
-/// A time that clocks resolve well; shorter runs are repeated within a measurement.
-const SECONDS: f64 = 0.02;
-/// Seconds after which three measurements are enough.
-const PATIENCE: f64 = 0.3;
-
-/// The median CPU time of a run: of nine measurements, or of at least three where they take longer together
-/// than [`PATIENCE`].
-fn time(mut run: impl FnMut()) -> f64 {
-    let mut times = Vec::new();
-    while times.len() < RUNS && (times.len() < 3 || times.iter().sum::<f64>() < PATIENCE) {
-        let began = ThreadTime::now();
-        let mut count = 0.0;
-        let seconds = loop {
-            run();
-            count += 1.0;
-            let seconds = began.elapsed().as_secs_f64();
-            if seconds >= SECONDS {
-                break seconds / count;
-            }
-        };
-        times.push(seconds);
-    }
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
-}
-
-fn list(numbers: impl IntoIterator<Item = f64>) -> String {
-    let mut text = String::from("[");
-    for (i, number) in numbers.into_iter().enumerate() {
-        let comma = if i > 0 { "," } else { "" };
-        let _ = write!(text, "{comma}{number:e}");
-    }
-    text + "]"
-}
-
-/// The components of q, then those of p.
-fn numbers<V: Vector>(state: &State<V>) -> Vec<V::Scalar> {
-    let (q, p) = (state.q.components(), state.p.components());
-    q.chain(p).collect()
-}
-
-/// The largest difference from the reference.
-fn apart(end: &[f64], exact: &[DoubleDouble]) -> f64 {
-    let difference = |(a, b): (&f64, &DoubleDouble)| (DoubleDouble::from(*a) - *b).hi().abs();
-    end.iter().zip(exact).map(difference).fold(0.0, f64::max)
-}
-
 /// The end that a scheme is to reach, and its start.
 struct Goal<'a, V: Vector, E> {
     problem: &'a str,
@@ -120,7 +72,7 @@ fn race<S: System, M: Scheme<S>>(
                 goal.problem,
                 &method,
                 fused,
-                steps,
+                &format!("{steps} steps"),
                 error,
                 Some(energy),
                 seconds,
@@ -134,23 +86,6 @@ fn race<S: System, M: Scheme<S>>(
             }
         }
     }
-}
-
-/// Prints a result.
-fn row(
-    problem: &str,
-    method: &str,
-    fused: bool,
-    steps: u64,
-    error: f64,
-    energy: Option<f64>,
-    seconds: f64,
-) {
-    let energy = energy.map_or_else(String::new, |energy| format!("\"energy\":{energy:e},"));
-    println!(
-        "{{\"problem\":\"{problem}\",\"peer\":\"hamiltonian\",\"method\":\"{method}\",\
-         \"fused\":{fused},\"setting\":\"{steps} steps\",\"error\":{error:e},{energy}\"seconds\":{seconds:e}}}"
-    );
 }
 
 /// A problem: its reference, and the rows of the schemes. `$n` lifts a number to the scalar of the state.
@@ -173,22 +108,16 @@ macro_rules! problem {
             };
             let fine = reference(2 * $steps);
             let coarse = reference($steps);
-            let uncertainty = (coarse.iter().zip(&fine))
-                .map(|(a, b)| (*a - *b).hi().abs())
-                .fold(0.0, f64::max);
-            let parameters: &[(&str, String)] = &[$(($key, list($value))),*];
-            let parameters: Vec<_> =
-                parameters.iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
-            println!(
-                "{{\"problem\":\"{}\",\"parameters\":{{{}}},\"rows\":{},\"end\":{end:e},\
-                 \"start\":{},\"reference\":{},\"reference_low\":{},\"uncertainty\":{uncertainty:e}}}",
-                $name,
-                parameters.join(","),
-                $rows,
-                list(numbers(&start)),
-                list(fine.iter().map(|x| x.hi())),
-                list(fine.iter().map(|x| x.lo())),
-            );
+            let uncertainty = difference(&coarse, &fine);
+            describe(&Problem {
+                name: $name,
+                parameters: &[$(($key, list($value))),*],
+                rows: $rows,
+                end,
+                start: &numbers(&start),
+                reference: &fine,
+                uncertainty,
+            });
             let error = |state: &_| apart(&numbers(state), &fine);
             let goal = Goal { problem: $name, note: "", start: &start, end, error };
             $(race(&goal, &system, $scheme, ($first, $parts));)+
@@ -196,18 +125,6 @@ macro_rules! problem {
         }
     };
 }
-
-/// The Sun and the outer planets on 5 September 1994 (Hairer, Lubich, Wanner, Geometric Numerical Integration,
-/// 2006, table I.2.2): mass, position, velocity.
-#[rustfmt::skip]
-const PLANETS: [(f64, [f64; 3], [f64; 3]); 6] = [
-    (1.00000597682, [0.0; 3], [0.0; 3]),
-    (0.000954786104043, [-3.5023653, -3.8169847, -1.5507963], [0.00565429, -0.00412490, -0.00190589]),
-    (0.000285583733151, [9.0755314, -3.0458353, -1.6483708], [0.00168318, 0.00483525, 0.00192462]),
-    (0.0000437273164546, [8.3101420, -16.2901086, -7.2521278], [0.00354178, 0.00137102, 0.00055029]),
-    (0.0000517759138449, [11.4707666, -25.7294829, -10.8169456], [0.00288930, 0.00114527, 0.00039677]),
-    (1.0 / 1.3e8, [-15.5387357, -25.2225594, -3.1902382], [0.00276725, -0.00170702, -0.00136504]),
-];
 
 /// Numbers in (−1, 1) that are the same everywhere.
 fn scattered(count: usize) -> Vec<f64> {
@@ -340,25 +257,22 @@ fn ensemble(only: Option<&str>) {
         (0..PENDULUMS).map(solve).collect()
     };
     let exact = reference(256);
-    let of = |part: fn(&(DoubleDouble, DoubleDouble)) -> f64| list(exact.iter().map(part));
-    let uncertainty = (exact.iter().zip(reference(128)))
-        .map(|((q, p), (a, b))| (*q - a).hi().abs().max((*p - b).hi().abs()))
-        .fold(0.0, f64::max);
-    println!(
-        "{{\"problem\":\"ensemble\",\"parameters\":{{}},\"rows\":{PENDULUMS},\"end\":{SWING:e},\"start\":{},\
-         \"reference\":{},\"uncertainty\":{uncertainty:e}}}",
-        list(
-            (0..PENDULUMS)
-                .map(|k| start(k).0)
-                .chain((0..PENDULUMS).map(|k| start(k).1))
-        ),
-        of(|end| end.0.hi()).replace(']', ",") + &of(|end| end.1.hi())[1..],
-    );
-    let exact: Vec<DoubleDouble> = exact
-        .iter()
-        .map(|end| end.0)
-        .chain(exact.iter().map(|end| end.1))
-        .collect();
+    let flat = |ends: &[(DoubleDouble, DoubleDouble)]| -> Vec<DoubleDouble> {
+        let (q, p): (Vec<_>, Vec<_>) = ends.iter().copied().unzip();
+        [q, p].concat()
+    };
+    let coarse = flat(&reference(128));
+    let exact = flat(&exact);
+    let (q, p): (Vec<_>, Vec<_>) = (0..PENDULUMS).map(start).unzip();
+    describe(&Problem {
+        name: "ensemble",
+        parameters: &[],
+        rows: PENDULUMS,
+        end: SWING,
+        start: &[q, p].concat(),
+        reference: &exact,
+        uncertainty: difference(&coarse, &exact),
+    });
     swings(Srkn11b, 100, &start, &exact);
     swings(BlanesCasasEscorihuela8, 50, &start, &exact);
     swings(GaussNystrom::<4>::default(), 50, &start, &exact);
@@ -385,7 +299,7 @@ fn swings<M: Scheme<Pendulum>>(
                 "ensemble",
                 &method,
                 fused,
-                steps,
+                &format!("{steps} steps"),
                 error,
                 None,
                 time(|| drop(run())),

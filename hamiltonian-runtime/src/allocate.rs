@@ -131,6 +131,10 @@ fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize)) {
         | Op::Number(a, _)
         | Op::Count(a, ..)
         | Op::Load(a, ..)
+        | Op::LoadQ(a, _)
+        | Op::LoadP(a, _)
+        | Op::AddToQ(_, a)
+        | Op::AddToP(_, a)
         | Op::LoadAt(a, ..) => visit(a, 0),
         Op::Neg(a, b) | Op::Recip(a, b) | Op::Call(a, _, b) => {
             [a, b].into_iter().for_each(|r| visit(r, 0));
@@ -169,7 +173,12 @@ fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize)) {
         Op::Accumulate {
             sum, term, partial, ..
         } => [sum, term, partial].into_iter().for_each(|r| visit(r, 0)),
-        Op::Store(_, _, _, a, b) | Op::StoreAt(_, _, _, a, b) => {
+        Op::Store(_, _, _, a, b)
+        | Op::StoreAt(_, _, _, a, b)
+        | Op::AddProductToQ(_, a, b)
+        | Op::AddProductToP(_, a, b)
+        | Op::SubProductFromQ(_, a, b)
+        | Op::SubProductFromP(_, a, b) => {
             [a, b].into_iter().for_each(|r| visit(r, 0));
         }
         Op::Loop(_) | Op::End(_) => {}

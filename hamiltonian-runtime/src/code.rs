@@ -18,6 +18,7 @@ use hamiltonian_symbolic::halves::are_apart;
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::model::{self, ExactFlow, Model, Shape, VectorUse};
 use hamiltonian_symbolic::program::{Function, Purpose, Target};
+use std::sync::Arc;
 
 /// The flow of a piece of H.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +45,7 @@ const OFTEN: [Purpose; 9] = [
 ];
 
 /// The number of the function of a purpose.
-fn position(functions: &[(Purpose, FunctionCode)], purpose: Purpose) -> Option<usize> {
+fn position(functions: &[(Purpose, Arc<FunctionCode>)], purpose: Purpose) -> Option<usize> {
     functions.iter().position(|(known, _)| *known == purpose)
 }
 
@@ -59,7 +60,7 @@ pub(crate) struct Code {
     pub(crate) description: Description,
     pub(crate) places: Places,
     pub(crate) prepare: Stage,
-    pub(crate) functions: Vec<(Purpose, FunctionCode)>,
+    pub(crate) functions: Vec<(Purpose, Arc<FunctionCode>)>,
     /// The numbers of the functions of [`OFTEN`].
     pub(crate) often: [Option<usize>; OFTEN.len()],
     pub(crate) gradient: GradientSource,
@@ -95,7 +96,8 @@ impl Code {
         for function in &program.functions {
             // Derivatives by parameters are not part of a run.
             if function.purpose != Purpose::ParameterGradient {
-                functions.push((function.purpose, of_function(setting, function)?));
+                let code = Arc::new(of_function(setting, function)?);
+                functions.push((function.purpose, code));
             }
         }
         let mut vectors = model.vectors.iter();
@@ -142,6 +144,11 @@ impl Code {
             nystrom,
             places,
         })
+    }
+
+    /// The function of a purpose.
+    pub(crate) fn function(&self, purpose: Purpose) -> Option<&Arc<FunctionCode>> {
+        Some(&self.functions[self.number(purpose)?].1)
     }
 
     /// The number of the function of a purpose.

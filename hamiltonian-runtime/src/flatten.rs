@@ -4,6 +4,7 @@
 //! the order of the program's steps; what has no such code is refused by name.
 
 use crate::allocate::allocate;
+use crate::machine;
 use crate::op::{
     Address, Axis, COEFFICIENT, Change, DEPTH, Form, From, HELD, Held, LoopCode, Op, Register,
     Stage, To,
@@ -87,6 +88,7 @@ pub(crate) fn stage(
     let mut stage = builder.stage;
     stage.coefficients = read.len();
     allocate(&mut stage);
+    stage.is_short = machine::is_short(&stage);
     Ok((stage, read))
 }
 
@@ -251,13 +253,18 @@ impl Builder<'_> {
             }
         }
         let base = base as i64;
-        let address = Address { base, axes };
+        let address = Address {
+            base,
+            terms: [(0, 0); 2],
+            axes,
+        };
         let is_fixed = |form: &Form| form.terms.is_empty();
         let mut all = address.axes.iter();
         if all.all(|axis| is_fixed(&axis.form) && axis.modulo.as_ref().is_none_or(is_fixed)) {
             let at = address.value(&[0; DEPTH]);
             return Ok(Ok(at as u32));
         }
+        let address = address.simplified();
         let known = self.stage.addresses.iter();
         let at = { known }.position(|known| *known == address);
         let at = at.unwrap_or_else(|| {
@@ -310,7 +317,11 @@ impl Builder<'_> {
             Array::Velocity(_) => return Err("velocities in a program".to_owned()),
         };
         let op = match self.address(base, row, column)? {
-            Ok(place) => Op::Load(to, from, place),
+            Ok(place) => match from {
+                From::Q => Op::LoadQ(to, place),
+                From::P => Op::LoadP(to, place),
+                from => Op::Load(to, from, place),
+            },
             Err(address) => Op::LoadAt(to, from, address),
         };
         self.push(op);
@@ -375,7 +386,15 @@ impl Builder<'_> {
         };
         let (a, b) = (self.number(*a)?, self.number(*b)?);
         let op = match self.address(base, row, None)? {
-            Ok(place) => Op::Store(to, place, change, a, b),
+            Ok(place) => match (to, change) {
+                (To::Q, Change::Add) => Op::AddToQ(place, a),
+                (To::P, Change::Add) => Op::AddToP(place, a),
+                (To::Q, Change::AddProduct) => Op::AddProductToQ(place, a, b),
+                (To::P, Change::AddProduct) => Op::AddProductToP(place, a, b),
+                (To::Q, Change::SubProduct) => Op::SubProductFromQ(place, a, b),
+                (To::P, Change::SubProduct) => Op::SubProductFromP(place, a, b),
+                _ => Op::Store(to, place, change, a, b),
+            },
             Err(address) => Op::StoreAt(to, address, change, a, b),
         };
         self.push(op);

@@ -4,34 +4,36 @@
 //! the numbers of the coefficient are computed when a flow is made; nothing allocates when it moves a point.
 
 use crate::code::Part;
-use crate::machine::Arrays;
+use crate::machine::{Arrays, Home, Registers};
+use crate::op::FunctionCode;
 use crate::prepared::{Flat, Prepared, at};
 use hamiltonian_core::Vector;
-use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, VectorField};
+use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, Scratch, VectorField};
 use hamiltonian_lanes::Real;
 use hamiltonian_language::analyse::structure::FieldSource;
 use hamiltonian_symbolic::program::Purpose;
+use std::sync::Arc;
 
 /// A function with the numbers of a step coefficient.
 #[derive(Debug, Clone)]
 struct Folded<T> {
-    /// The number of the function; `None` if there is none.
-    number: Option<usize>,
+    /// The function; `None` if there is none.
+    function: Option<Arc<FunctionCode>>,
     numbers: Vec<T>,
 }
 
 impl<T: Real> Folded<T> {
     fn new(prepared: &Prepared<T>, purpose: Purpose, c: T) -> Self {
         Folded {
-            number: prepared.code.number(purpose),
+            function: prepared.code.function(purpose).cloned(),
             numbers: prepared.folded(purpose, c),
         }
     }
 
     #[inline(always)]
-    fn evaluate(&self, prepared: &Prepared<T>, arrays: Arrays<'_, T>) {
-        if let Some(number) = self.number {
-            prepared.evaluate(number, &self.numbers, arrays, &mut []);
+    fn evaluate(&self, prepared: &Prepared<T>, home: Home<'_, T>, arrays: Arrays<'_, T>) {
+        if let Some(function) = &self.function {
+            prepared.evaluate_in(home, function, &self.numbers, arrays, &mut []);
         }
     }
 }
@@ -77,8 +79,14 @@ impl<T: Real> VectorField<Flat<T>> for Field<T> {
                 into_p: into_p.as_mut_slice(),
                 ..at(t, q, p)
             };
-            part.evaluate(&self.prepared, arrays);
+            part.evaluate(&self.prepared, Home::Pool(&self.prepared.pool), arrays);
         }
+    }
+}
+
+impl<T: Real> Scratch<Point<Flat<T>>> for Registers<T> {
+    fn like(_: &Point<Flat<T>>) -> Self {
+        Registers::new()
     }
 }
 
@@ -107,10 +115,10 @@ impl<T: Real> PartFlow<T> {
 
 impl<T: Real> Flow<Point<Flat<T>>> for PartFlow<T> {
     const NAME: &'static str = "a piece of H";
-    type Work = ();
+    type Work = Registers<T>;
 
     #[inline(always)]
-    fn apply(&self, t: T, x: &mut Point<Flat<T>>, (): &mut ()) {
+    fn apply(&self, t: T, x: &mut Point<Flat<T>>, registers: &mut Registers<T>) {
         let (q, p) = (&mut x.q, &mut x.p);
         let point = Arrays {
             t,
@@ -133,7 +141,8 @@ impl<T: Real> Flow<Point<Flat<T>>> for PartFlow<T> {
                 ..point
             },
         };
-        self.folded.evaluate(&self.prepared, arrays);
+        self.folded
+            .evaluate(&self.prepared, Home::Own(registers), arrays);
     }
 }
 
@@ -143,12 +152,12 @@ pub struct Inside<T: Real>(pub(crate) Vec<PartFlow<T>>);
 
 impl<T: Real> Flow<Point<Flat<T>>> for Inside<T> {
     const NAME: &'static str = "the inner pieces of H";
-    type Work = ();
+    type Work = Registers<T>;
 
     #[inline(always)]
-    fn apply(&self, t: T, x: &mut Point<Flat<T>>, (): &mut ()) {
+    fn apply(&self, t: T, x: &mut Point<Flat<T>>, registers: &mut Registers<T>) {
         for flow in &self.0 {
-            flow.apply(t, x, &mut ());
+            flow.apply(t, x, registers);
         }
     }
 }

@@ -27,9 +27,13 @@
 //!    variables of loops. The code is the same for all parameters, so systems of the same sizes share it.
 //! 3. `System::prepare` computes, over any scalar, the numbers that depend on parameters alone: [`Prepared`]. A flow or a
 //!    field computes those of its step coefficient when it is made.
-//! 4. An evaluation copies the numbers it holds into registers on the stack and runs the operations in one loop (`machine`).
+//! 4. An evaluation copies the numbers it holds into registers, its flow's or those on the stack, and runs the operations in
+//!    one loop (`machine`).
 //!    The scalar is `f64`, a dual number, a pack of members or of stages. Each operation is that of `interpret` of
 //!    hamiltonian-symbolic, in the same order, so the bits are those of compiled code that does not fuse.
+//!
+//! [`Run`] and [`Swarm`] are core's runs and ensembles behind a trait object, so that a text names the scheme. A splitting is a
+//! table of run time (`by_table`), and all of them have one map.
 //!
 //! One type stands for all definitions. So it has every marker (`Separable`, `Split` …), and its
 //! [`Description`](hamiltonian_core::schemes::author::Description) lists those that do not hold, each with the reason. A run

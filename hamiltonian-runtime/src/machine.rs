@@ -1,26 +1,42 @@
 //! The loop that runs flat code, over any scalar.
 //!
 //! Input: a [`Stage`], the numbers that it holds, and arrays. Output: results, and changes of arrays. Invariant: the same
-//! operations in the same order as `interpret` of hamiltonian-symbolic, so that the bits agree; nothing is allocated for
-//! up to [`FEW`] registers, and for more after the first call.
+//! operations in the same order as `interpret` of hamiltonian-symbolic, so that the bits agree; nothing is allocated after the
+//! first call.
 
-use crate::op::{Change, DEPTH, From, Op, Stage, To};
+use crate::op::{Change, DEPTH, From, Op, Register, Stage, To};
 use hamiltonian_lanes::{Mask, Real};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The least number of iterations of an innermost loop whose sums are trees.
 const LONG: i64 = 32;
 
-/// The registers, and those of conditions, that are on the stack.
-pub(crate) const FEW: [usize; 2] = [96, 16];
+/// The registers of short code without loops, a power of two so that a masked number of a register is one of them, and those
+/// of conditions.
+const SHORT: [usize; 2] = [32, 8];
+
+/// True if a stage is short code that reads no variable of a loop.
+pub(crate) fn is_short(stage: &Stage) -> bool {
+    let is_plain = |op: &Op| {
+        !matches!(
+            op,
+            Op::Number(..)
+                | Op::Count(..)
+                | Op::LoadAt(..)
+                | Op::StoreAt(..)
+                | Op::Accumulate { .. }
+                | Op::Loop(_)
+                | Op::End(_)
+        )
+    };
+    stage.registers <= SHORT[0] && stage.masks <= SHORT[1] && stage.ops.iter().all(is_plain)
+}
 
 /// What a stage is given.
 #[derive(Clone, Copy)]
 pub(crate) struct Given<'a, T> {
-    /// The numbers that it holds.
-    pub(crate) held: &'a [T],
-    /// Those of the step coefficient.
-    pub(crate) folded: &'a [T],
+    /// The numbers that it holds, and behind them those of the step coefficient: the first registers.
+    pub(crate) numbers: &'a [T],
     /// The arrays of parameters, and those that preparation fills.
     pub(crate) data: &'a [T],
 }
@@ -96,11 +112,36 @@ impl<T: Real> Arrays<'_, T> {
     }
 }
 
-/// Registers of long code, which are kept from call to call.
+/// Registers that are kept from call to call, so that they are neither allocated nor cleared.
+#[derive(Debug, Clone)]
+pub struct Registers<T: Real> {
+    numbers: Box<[T; SHORT[0]]>,
+    masks: Box<[T::Mask; SHORT[1]]>,
+    /// Those of longer code.
+    long: (Vec<T>, Vec<T::Mask>),
+}
+
+impl<T: Real> Registers<T> {
+    pub(crate) fn new() -> Self {
+        Registers {
+            numbers: Box::new([T::zero(); SHORT[0]]),
+            masks: Box::new([T::Mask::splat(false); SHORT[1]]),
+            long: (Vec::new(), Vec::new()),
+        }
+    }
+
+    /// As many as longer code has.
+    #[cold]
+    fn grow(&mut self, stage: &Stage) {
+        let (numbers, masks) = &mut self.long;
+        numbers.resize(numbers.len().max(stage.registers), T::zero());
+        masks.resize(masks.len().max(stage.masks), T::Mask::splat(false));
+    }
+}
+
+/// Registers for evaluations that have none of their own.
 #[derive(Debug)]
 pub(crate) struct Pool<T: Real>(Arc<Mutex<Vec<Registers<T>>>>);
-
-type Registers<T> = (Vec<T>, Vec<<T as Real>::Mask>);
 
 impl<T: Real> Pool<T> {
     pub(crate) fn new() -> Self {
@@ -108,12 +149,9 @@ impl<T: Real> Pool<T> {
     }
 
     #[cold]
-    fn take(&self, stage: &Stage) -> Registers<T> {
+    fn take(&self) -> Registers<T> {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let (mut numbers, mut masks) = kept.unwrap_or_default();
-        numbers.resize(numbers.len().max(stage.registers), T::zero());
-        masks.resize(masks.len().max(stage.masks), T::Mask::splat(false));
-        (numbers, masks)
+        kept.unwrap_or_else(Registers::new)
     }
 
     #[cold]
@@ -129,58 +167,73 @@ impl<T: Real> Clone for Pool<T> {
     }
 }
 
-/// Runs a stage from the numbers that it holds and those of the step coefficient, and writes its results.
+/// Where the registers of a call are.
+pub(crate) enum Home<'a, T: Real> {
+    /// Those of a flow.
+    Own(&'a mut Registers<T>),
+    /// On the stack for short code, otherwise taken from a pool.
+    Pool(&'a Pool<T>),
+}
+
+/// Runs a stage from the numbers that it is given, and writes its results.
 #[inline(always)]
 pub(crate) fn run<T: Real>(
     stage: &Stage,
     given: Given<'_, T>,
-    pool: &Pool<T>,
+    home: Home<'_, T>,
     arrays: &mut Arrays<'_, T>,
     results: &mut [T],
 ) {
-    T::out_of_line(|| run_here(stage, given, pool, arrays, results));
+    T::out_of_line(
+        #[inline(always)]
+        || run_here(stage, given, home, arrays, results),
+    );
 }
 
 #[inline(always)]
 fn run_here<T: Real>(
     stage: &Stage,
     given: Given<'_, T>,
-    pool: &Pool<T>,
+    home: Home<'_, T>,
     arrays: &mut Arrays<'_, T>,
     results: &mut [T],
 ) {
-    const SHORT: usize = 24;
-    let few = stage.masks <= FEW[1];
-    if few && stage.registers <= SHORT {
-        let mut numbers = [T::zero(); SHORT];
-        let mut masks = [T::Mask::splat(false); FEW[1]];
-        filled(stage, given, &mut numbers, &mut masks, arrays, results);
-    } else if few && stage.registers <= FEW[0] {
-        let mut numbers = [T::zero(); FEW[0]];
-        let mut masks = [T::Mask::splat(false); FEW[1]];
-        filled(stage, given, &mut numbers, &mut masks, arrays, results);
-    } else {
-        let (mut numbers, mut masks) = pool.take(stage);
-        filled(stage, given, &mut numbers, &mut masks, arrays, results);
-        pool.give((numbers, masks));
+    if stage.is_short {
+        let mut on_stack;
+        let (numbers, masks) = match home {
+            Home::Own(registers) => (&mut *registers.numbers, &mut *registers.masks),
+            Home::Pool(_) => {
+                on_stack = ([T::zero(); SHORT[0]], [T::Mask::splat(false); SHORT[1]]);
+                (&mut on_stack.0, &mut on_stack.1)
+            }
+        };
+        for (to, from) in numbers.iter_mut().zip(given.numbers) {
+            *to = *from;
+        }
+        straight(stage, given.data, numbers, masks, arrays);
+        for (to, from) in results.iter_mut().zip(&stage.results) {
+            *to = numbers[*from as usize % SHORT[0]];
+        }
+        return;
     }
-}
-
-#[inline(always)]
-fn filled<T: Real>(
-    stage: &Stage,
-    Given { held, folded, data }: Given<'_, T>,
-    numbers: &mut [T],
-    masks: &mut [T::Mask],
-    arrays: &mut Arrays<'_, T>,
-    results: &mut [T],
-) {
-    for (to, from) in numbers.iter_mut().zip(held.iter().chain(folded)) {
+    let mut taken = None;
+    let registers = match home {
+        Home::Own(registers) => registers,
+        Home::Pool(pool) => &mut taken.insert((pool, pool.take())).1,
+    };
+    if registers.long.0.len() < stage.registers || registers.long.1.len() < stage.masks {
+        registers.grow(stage);
+    }
+    let (numbers, masks) = &mut registers.long;
+    for (to, from) in numbers.iter_mut().zip(given.numbers) {
         *to = *from;
     }
-    T::out_of_line(|| execute(stage, data, numbers, masks, arrays));
+    with_loops(stage, given.data, numbers, masks, arrays);
     for (to, from) in results.iter_mut().zip(&stage.results) {
         *to = numbers[*from as usize];
+    }
+    if let Some((pool, registers)) = taken {
+        pool.give(registers);
     }
 }
 
@@ -193,8 +246,119 @@ struct Frame {
     is_long: bool,
 }
 
+/// Runs an operation: those that need no loop, or one of the arms behind.
+macro_rules! operation {
+    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, $data:ident, $arrays:ident, { $($arms:tt)* }) => {
+        match $op {
+            Op::Time(to) => $r[$index(to)] = $arrays.t,
+            Op::Coefficient(to) => $r[$index(to)] = $arrays.c,
+            Op::Load(to, from, at) => $r[$index(to)] = $arrays.read($data, from, at as usize),
+            Op::LoadQ(to, at) => $r[$index(to)] = $arrays.q[at as usize],
+            Op::LoadP(to, at) => $r[$index(to)] = $arrays.p[at as usize],
+            Op::AddToQ(at, a) => $arrays.into_q[at as usize] += $r[$index(a)],
+            Op::AddToP(at, a) => $arrays.into_p[at as usize] += $r[$index(a)],
+            Op::AddProductToQ(at, a, b) => {
+                let element = &mut $arrays.into_q[at as usize];
+                *element = $r[$index(a)].fma($r[$index(b)], *element);
+            }
+            Op::AddProductToP(at, a, b) => {
+                let element = &mut $arrays.into_p[at as usize];
+                *element = $r[$index(a)].fma($r[$index(b)], *element);
+            }
+            Op::SubProductFromQ(at, a, b) => {
+                let element = &mut $arrays.into_q[at as usize];
+                *element = (-$r[$index(a)]).fma($r[$index(b)], *element);
+            }
+            Op::SubProductFromP(at, a, b) => {
+                let element = &mut $arrays.into_p[at as usize];
+                *element = (-$r[$index(a)]).fma($r[$index(b)], *element);
+            }
+            Op::Neg(to, a) => $r[$index(to)] = -$r[$index(a)],
+            Op::Add(to, a, b) => $r[$index(to)] = $r[$index(a)] + $r[$index(b)],
+            Op::Sub(to, a, b) => $r[$index(to)] = $r[$index(a)] - $r[$index(b)],
+            Op::Mul(to, a, b) => $r[$index(to)] = $r[$index(a)] * $r[$index(b)],
+            Op::MulAdd(to, a, b, c) => {
+                $r[$index(to)] = $r[$index(a)].fma($r[$index(b)], $r[$index(c)]);
+            }
+            Op::MulSub(to, a, b, c) => {
+                $r[$index(to)] = $r[$index(a)].fma($r[$index(b)], -$r[$index(c)]);
+            }
+            Op::NegMulAdd(to, a, b, c) => {
+                $r[$index(to)] = (-$r[$index(a)]).fma($r[$index(b)], $r[$index(c)]);
+            }
+            Op::Div(to, a, b) => $r[$index(to)] = $r[$index(a)] / $r[$index(b)],
+            Op::Recip(to, a) => $r[$index(to)] = $r[$index(a)].recip(),
+            Op::Call(to, function, a) => $r[$index(to)] = function.eval_apart(&[$r[$index(a)]]),
+            Op::CallTwo(to, function, a, b) => {
+                $r[$index(to)] = function.eval_apart(&[$r[$index(a)], $r[$index(b)]]);
+            }
+            Op::CallThree(to, function, a, b, c) => {
+                $r[$index(to)] =
+                    function.eval_apart(&[$r[$index(a)], $r[$index(b)], $r[$index(c)]]);
+            }
+            Op::SinCos(sin, cos, a) => {
+                let angle = $r[$index(a)];
+                let (s, c) = <$T>::out_of_line(
+                    #[inline(always)]
+                    || angle.sin_cos(),
+                );
+                $r[$index(sin)] = s;
+                $r[$index(cos)] = c;
+            }
+            Op::Less(to, a, b) => $m[$index(to)] = $r[$index(a)].lt($r[$index(b)]),
+            Op::LessEqual(to, a, b) => $m[$index(to)] = $r[$index(a)].le($r[$index(b)]),
+            Op::Equal(to, a, b) => $m[$index(to)] = $r[$index(a)].equals($r[$index(b)]),
+            Op::Not(to, a) => $m[$index(to)] = !$m[$index(a)],
+            Op::And(to, a, b) => $m[$index(to)] = $m[$index(a)] & $m[$index(b)],
+            Op::Or(to, a, b) => $m[$index(to)] = $m[$index(a)] | $m[$index(b)],
+            Op::Select(to, mask, a, b) => {
+                $r[$index(to)] = <$T>::select($m[$index(mask)], $r[$index(a)], $r[$index(b)]);
+            }
+            Op::Number01(to, mask) => {
+                $r[$index(to)] = <$T>::select($m[$index(mask)], <$T>::one(), <$T>::zero());
+            }
+            Op::IsOne(to, a) => $m[$index(to)] = $r[$index(a)].equals(<$T>::one()),
+            Op::Store(to, at, change, a, b) => {
+                $arrays.change(to, at as usize, change, [$r[$index(a)], $r[$index(b)]]);
+            }
+            $($arms)*
+        }
+    };
+}
+
+/// The place of a register among those of short code.
 #[inline(always)]
-fn execute<T: Real>(
+fn short(register: Register) -> usize {
+    register as usize % SHORT[0]
+}
+
+/// The place of a register.
+#[inline(always)]
+fn long(register: Register) -> usize {
+    register as usize
+}
+
+/// Runs short code without loops.
+#[inline(always)]
+fn straight<T: Real>(
+    stage: &Stage,
+    data: &[T],
+    r: &mut [T; SHORT[0]],
+    m: &mut [T::Mask; SHORT[1]],
+    arrays: &mut Arrays<'_, T>,
+) {
+    for op in &stage.ops {
+        operation!(*op, T, r, m, short, data, arrays, {
+            // Short code has none of these.
+            Op::Number(..) | Op::Count(..) | Op::LoadAt(..) | Op::StoreAt(..) => {}
+            Op::Accumulate { .. } | Op::Loop(_) | Op::End(_) => {}
+        });
+    }
+}
+
+/// Runs code with loops.
+#[inline(always)]
+fn with_loops<T: Real>(
     stage: &Stage,
     data: &[T],
     r: &mut [T],
@@ -211,9 +375,7 @@ fn execute<T: Real>(
     let mut next = 0;
     while let Some(op) = stage.ops.get(next) {
         next += 1;
-        match *op {
-            Op::Time(to) => r[to as usize] = arrays.t,
-            Op::Coefficient(to) => r[to as usize] = arrays.c,
+        operation!(*op, T, r, m, long, data, arrays, {
             Op::Number(to, form) => {
                 let value = stage.forms[form as usize].value(&variables);
                 r[to as usize] = T::constant(value as f64, 0.0);
@@ -223,53 +385,10 @@ fn execute<T: Real>(
                     [start, end].map(|form| stage.forms[form as usize].value(&variables));
                 r[to as usize] = T::constant((end - start).max(0) as f64, 0.0);
             }
-            Op::Load(to, from, at) => r[to as usize] = arrays.read(data, from, at as usize),
             Op::LoadAt(to, from, address) => {
                 let at = stage.addresses[address as usize].value(&variables);
                 r[to as usize] = arrays.read(data, from, at);
             }
-            Op::Neg(to, a) => r[to as usize] = -r[a as usize],
-            Op::Add(to, a, b) => r[to as usize] = r[a as usize] + r[b as usize],
-            Op::Sub(to, a, b) => r[to as usize] = r[a as usize] - r[b as usize],
-            Op::Mul(to, a, b) => r[to as usize] = r[a as usize] * r[b as usize],
-            Op::MulAdd(to, a, b, c) => {
-                r[to as usize] = r[a as usize].fma(r[b as usize], r[c as usize]);
-            }
-            Op::MulSub(to, a, b, c) => {
-                r[to as usize] = r[a as usize].fma(r[b as usize], -r[c as usize]);
-            }
-            Op::NegMulAdd(to, a, b, c) => {
-                r[to as usize] = (-r[a as usize]).fma(r[b as usize], r[c as usize]);
-            }
-            Op::Div(to, a, b) => r[to as usize] = r[a as usize] / r[b as usize],
-            Op::Recip(to, a) => r[to as usize] = r[a as usize].recip(),
-            Op::Call(to, function, a) => r[to as usize] = function.eval_apart(&[r[a as usize]]),
-            Op::CallTwo(to, function, a, b) => {
-                r[to as usize] = function.eval_apart(&[r[a as usize], r[b as usize]]);
-            }
-            Op::CallThree(to, function, a, b, c) => {
-                r[to as usize] =
-                    function.eval_apart(&[r[a as usize], r[b as usize], r[c as usize]]);
-            }
-            Op::SinCos(sin, cos, a) => {
-                let angle = r[a as usize];
-                let (s, c) = T::out_of_line(|| angle.sin_cos());
-                r[sin as usize] = s;
-                r[cos as usize] = c;
-            }
-            Op::Less(to, a, b) => m[to as usize] = r[a as usize].lt(r[b as usize]),
-            Op::LessEqual(to, a, b) => m[to as usize] = r[a as usize].le(r[b as usize]),
-            Op::Equal(to, a, b) => m[to as usize] = r[a as usize].equals(r[b as usize]),
-            Op::Not(to, a) => m[to as usize] = !m[a as usize],
-            Op::And(to, a, b) => m[to as usize] = m[a as usize] & m[b as usize],
-            Op::Or(to, a, b) => m[to as usize] = m[a as usize] | m[b as usize],
-            Op::Select(to, mask, a, b) => {
-                r[to as usize] = T::select(m[mask as usize], r[a as usize], r[b as usize]);
-            }
-            Op::Number01(to, mask) => {
-                r[to as usize] = T::select(m[mask as usize], T::one(), T::zero());
-            }
-            Op::IsOne(to, a) => m[to as usize] = r[a as usize].equals(T::one()),
             Op::Accumulate {
                 sum,
                 term,
@@ -284,9 +403,6 @@ fn execute<T: Real>(
                     false => sum as usize,
                 };
                 r[to] += term;
-            }
-            Op::Store(to, at, change, a, b) => {
-                arrays.change(to, at as usize, change, [r[a as usize], r[b as usize]]);
             }
             Op::StoreAt(to, address, change, a, b) => {
                 let at = stage.addresses[address as usize].value(&variables);
@@ -332,6 +448,6 @@ fn execute<T: Real>(
                     }
                 }
             }
-        }
+        });
     }
 }

@@ -66,6 +66,9 @@ pub(crate) enum Op {
     Count(Register, u32, u32),
     /// The element at a place.
     Load(Register, From, u32),
+    /// The coordinate, or the momentum, at a place: the most frequent of `Load`.
+    LoadQ(Register, u32),
+    LoadP(Register, u32),
     /// The element at the address of this number.
     LoadAt(Register, From, u32),
     Neg(Register, Register),
@@ -107,6 +110,13 @@ pub(crate) enum Op {
         partial: Register,
         level: u8,
     },
+    /// Adds to the coordinate, or the momentum, at a place: the most frequent of `Store`.
+    AddToQ(u32, Register),
+    AddToP(u32, Register),
+    AddProductToQ(u32, Register, Register),
+    AddProductToP(u32, Register, Register),
+    SubProductFromQ(u32, Register, Register),
+    SubProductFromP(u32, Register, Register),
     /// Changes the element at a place.
     Store(To, u32, Change, Register, Register),
     /// Changes the element at the address of this number.
@@ -146,14 +156,48 @@ pub(crate) struct Axis {
     pub(crate) stride: i64,
 }
 
-/// The place of an element: that of the array, and the indices of its axes, the first one first.
+/// The place of an element: that of the array, and the indices of its axes, the first one first. Most are the base with a few
+/// terms instead.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Address {
     pub(crate) base: i64,
+    /// What is added for variables of loops: factors, 0 if there is none.
+    pub(crate) terms: [(u8, i64); 2],
     pub(crate) axes: Vec<Axis>,
 }
 
 impl Address {
+    /// The address without axes, if it is a form over few loops.
+    pub(crate) fn simplified(self) -> Address {
+        let mut constant = self.base;
+        let mut terms: Vec<(u8, i64)> = Vec::new();
+        let mut before = 1;
+        for axis in self.axes.iter().rev() {
+            if axis.modulo.is_some() {
+                return self;
+            }
+            let factor = before * axis.stride;
+            constant += factor * axis.form.constant;
+            for (level, of) in &axis.form.terms {
+                match terms.iter_mut().find(|(known, _)| known == level) {
+                    Some((_, sum)) => *sum += factor * of,
+                    None => terms.push((*level, factor * of)),
+                }
+            }
+            before *= axis.extent;
+        }
+        terms.retain(|(_, factor)| *factor != 0);
+        if terms.len() > 2 {
+            return self;
+        }
+        terms.resize(2, (0, 0));
+        Address {
+            base: constant,
+            terms: [terms[0], terms[1]],
+            axes: Vec::new(),
+        }
+    }
+
     #[inline(always)]
     pub(crate) fn value(&self, variables: &[i64; DEPTH]) -> usize {
         let mut place = 0;
@@ -163,6 +207,9 @@ impl Address {
                 index = index.rem_euclid(modulo.value(variables).max(1));
             }
             place = place * axis.extent + index * axis.stride;
+        }
+        for (level, factor) in self.terms {
+            place += factor * variables[usize::from(level) % DEPTH];
         }
         // A negative place is that of no element.
         (self.base + place) as usize
@@ -213,6 +260,8 @@ pub(crate) struct Stage {
     pub(crate) masks: usize,
     /// The registers of the results.
     pub(crate) results: Vec<Register>,
+    /// True if it is short and has no loops.
+    pub(crate) is_short: bool,
 }
 
 /// A function of a system.

@@ -4,7 +4,7 @@
 //! Invariant: numbers that depend on parameters alone are computed once, those of a step coefficient once for each flow.
 
 use crate::code::Code;
-use crate::machine::{Arrays, Given, Pool, run};
+use crate::machine::{Arrays, Given, Home, Pool, run};
 use crate::op::{FunctionCode, Held, Stage};
 use hamiltonian_core::nalgebra::DVector;
 use hamiltonian_core::schemes::author::{Arithmetic, gather};
@@ -82,15 +82,14 @@ impl<T: Real> Prepared<T> {
         run(
             &code.prepare,
             Given {
-                held: &given,
-                folded: &[],
+                numbers: &given,
                 data: &[],
             },
-            &pool,
+            Home::Pool(&pool),
             &mut arrays,
             &mut prepared,
         );
-        let of_function = |(_, function): &(Purpose, FunctionCode)| HeldOf {
+        let of_function = |(_, function): &(Purpose, Arc<FunctionCode>)| HeldOf {
             coefficient: held(&function.coefficient, &scalars, &prepared),
             evaluation: held(&function.evaluation, &scalars, &prepared),
         };
@@ -153,62 +152,70 @@ impl<T: Real> Prepared<T> {
         is_same || self.held == other.held && self.data == other.data
     }
 
-    /// The numbers of a function for a step coefficient.
+    /// The numbers that a function is given for a step coefficient: those that it holds, and those of the coefficient.
     pub(crate) fn folded(&self, purpose: Purpose, c: T) -> Vec<T> {
         let Some(number) = self.code.number(purpose) else {
             return Vec::new();
         };
-        let mut folded = vec![T::zero(); self.code.functions[number].1.coefficient.results.len()];
+        let held = &self.held[number].evaluation;
+        let count = self.code.functions[number].1.coefficient.results.len();
+        let mut folded = vec![T::zero(); held.len() + count];
         self.fold(number, c, &mut folded);
         folded
     }
 
     #[inline(always)]
     fn fold(&self, number: usize, c: T, folded: &mut [T]) {
+        let held = &self.held[number];
+        let (first, rest) = folded.split_at_mut(held.evaluation.len());
+        first.copy_from_slice(&held.evaluation);
         let stage = &self.code.functions[number].1.coefficient;
-        let held = &self.held[number].coefficient;
         let mut arrays = Arrays {
             c,
             ..Arrays::none()
         };
-        run(
-            stage,
-            Given {
-                held,
-                folded: &[],
-                data: &self.data,
-            },
-            &self.pool,
-            &mut arrays,
-            folded,
-        );
+        let given = Given {
+            numbers: &held.coefficient,
+            data: &self.data,
+        };
+        run(stage, given, Home::Pool(&self.pool), &mut arrays, rest);
     }
 
-    /// Runs the evaluation of a function.
+    /// Runs the evaluation of a function, with the numbers of a step coefficient or none.
     #[inline(always)]
     pub(crate) fn evaluate(
         &self,
         number: usize,
         folded: &[T],
+        arrays: Arrays<'_, T>,
+        results: &mut [T],
+    ) {
+        let numbers = match folded {
+            [] => &self.held[number].evaluation,
+            folded => folded,
+        };
+        let function = &self.code.functions[number].1;
+        self.evaluate_in(Home::Pool(&self.pool), function, numbers, arrays, results);
+    }
+
+    /// Runs an evaluation in these registers, with the numbers that it is given.
+    #[inline(always)]
+    pub(crate) fn evaluate_in(
+        &self,
+        home: Home<'_, T>,
+        function: &FunctionCode,
+        numbers: &[T],
         mut arrays: Arrays<'_, T>,
         results: &mut [T],
     ) {
-        let function = &self.code.functions[number].1;
         for range in &function.cleared {
             arrays.clear(*range);
         }
-        let held = &self.held[number].evaluation;
-        run(
-            &function.evaluation,
-            Given {
-                held,
-                folded,
-                data: &self.data,
-            },
-            &self.pool,
-            &mut arrays,
-            results,
-        );
+        let given = Given {
+            numbers,
+            data: &self.data,
+        };
+        run(&function.evaluation, given, home, &mut arrays, results);
     }
 
     /// The value of a function that returns one.
@@ -234,11 +241,12 @@ impl<T: Real> Prepared<T> {
     /// Adds what a function adds for a coefficient, whose numbers are on the stack where they are few.
     #[inline(always)]
     pub(crate) fn add(&self, purpose: Purpose, c: T, arrays: Arrays<'_, T>) {
-        const FEW: usize = 32;
+        const FEW: usize = 64;
         let Some(number) = self.code.number(purpose) else {
             return;
         };
         let count = self.code.functions[number].1.coefficient.results.len();
+        let count = self.held[number].evaluation.len() + count;
         if count <= FEW {
             let mut folded = [T::zero(); FEW];
             self.fold(number, c, &mut folded[..count]);

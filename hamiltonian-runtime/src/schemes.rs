@@ -229,15 +229,24 @@ fn all() -> Vec<(String, Known)> {
     all
 }
 
+/// A name without the setting.
+fn head(name: &str) -> &str {
+    name.split('(').next().unwrap_or(name)
+}
+
 /// The scheme of a name: with its setting, or the first one of the name alone.
 fn known(name: &str) -> Result<&'static (String, Known), RunError> {
     let asked = plain(name);
     let exact = ALL.iter().find(|(known, _)| *known == asked);
-    let of_default = |known: &str| known.split('(').next() == Some(&*asked);
+    let of_default = |known: &str| head(known) == asked;
     let found = exact.or_else(|| ALL.iter().find(|(known, _)| of_default(known)));
-    found.ok_or_else(|| RunError::UnknownScheme {
-        name: name.to_owned(),
-        nearest: nearest(&asked, ALL.iter().map(|(known, _)| &**known)).map(str::to_owned),
+    found.ok_or_else(|| {
+        // With their settings, and without them.
+        let names = ALL.iter().flat_map(|(known, _)| [&**known, head(known)]);
+        RunError::UnknownScheme {
+            name: name.to_owned(),
+            nearest: nearest(&asked, names).map(str::to_owned),
+        }
     })
 }
 

@@ -4,7 +4,7 @@
 //! function that differs. Invariant: a definition that is left out is so by the name of a feature.
 
 use crate::common::{definitions, numbers};
-use hamiltonian::schemes::author::{self, Dynamics, Flow, Piece, Pieces, VectorField};
+use hamiltonian::schemes::author::{self, Dynamics, Flow, Piece, Pieces, Scratch, VectorField};
 use hamiltonian::{Separable, Split, System};
 use hamiltonian_language::analyse::{self, analyse};
 use hamiltonian_language::{read, report::Report};
@@ -133,7 +133,8 @@ fn moved(flow: &PartFlow<f64>, t: f64, q: &mut Vector, p: &mut Vector) {
         q: q.clone(),
         p: p.clone(),
     };
-    flow.apply(t, &mut point, &mut ());
+    let mut work = Scratch::like(&point);
+    flow.apply(t, &mut point, &mut work);
     (*q, *p) = (point.q, point.p);
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Input: definitions as text. Output: a panic with what differs. Invariant: no scheme is compiled here.
 
+use crate::allocator::allocations;
 use hamiltonian::prelude::State;
 use hamiltonian::schemes::author::{Needs, catalogue};
 use hamiltonian_runtime::{Definition, Run, RunError, RuntimeSystem, Swarm, Values, schemes};
@@ -81,6 +82,39 @@ fn every_scheme_runs_and_follows_the_orbit() {
         assert!(error < due, "{}: {error:e}", scheme.name);
         assert_eq!(run.entry(), scheme.entry);
         assert_eq!(run.crossings().count(), 1, "{}", scheme.name);
+    }
+}
+
+/// Code without loops, and with them. A block may allocate when a scheme enters its lanes, its steps may not.
+#[test]
+fn steps_allocate_nothing() {
+    let chain = "struct Chain { n: usize }
+        H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 - cos(q[i]) + (q[(i + 1) % n] - q[i])^2/2 }";
+    let chain = Definition::parse(chain, "text")
+        .unwrap()
+        .system([("n", 40)])
+        .unwrap();
+    for (system, n) in [(made("H(q; p) = p^2/2 - cos(q)"), 1), (chain, 40)] {
+        let begin = |scheme: &str| {
+            let start = State::new(vec![0.5; n], vec![0.1; n]);
+            let mut run = Run::new(&system, scheme, start, 0.01).unwrap();
+            run.advance(20).unwrap();
+            run
+        };
+        assert!(allocations(|| drop(begin("Strang"))) > 0);
+        let splittings = ["StormerVerlet", "BlanesMoan6", "Srkn11b", "Processed6"];
+        for scheme in
+            splittings
+                .into_iter()
+                .chain(["RungeKutta4", "Tao", "Gauss8", "GaussNystrom8"])
+        {
+            let mut run = begin(scheme);
+            let made = [20, 60].map(|steps| allocations(|| run.advance(steps).unwrap()));
+            assert_eq!(made[0], made[1], "{scheme} with {n} coordinates");
+            if splittings.contains(&scheme) {
+                assert_eq!(made, [0, 0], "{scheme} with {n} coordinates");
+            }
+        }
     }
 }
 

@@ -16,7 +16,6 @@ mod events;
 mod exponential;
 mod function;
 mod observers;
-mod orbits;
 mod own;
 mod preserving;
 mod processed;

@@ -37,6 +37,7 @@ fn chaotic(k: u32) -> Plane {
 }
 
 #[test]
+#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn lyapunov_exponents_of_henon_heiles() {
     // Over 48 starts, mean and standard deviation: T = 10⁴ .0482 ± .0103, T = 10⁵ .0443 ± .0059.
     let (end, expected, within) = match is_heavy() {
@@ -118,6 +119,7 @@ fn unit_pendulum() -> Hand<Pendulum, 1> {
 }
 
 #[test]
+#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn megno_tells_order_from_chaos() {
     let heiles = |start: Plane, steps| megno(&HEILES, BlanesMoan4, start, 0.125, steps, 8).unwrap();
     // Neighbours on a torus drift apart linearly, as do those of a pendulum that swings: 2, less a multiple of

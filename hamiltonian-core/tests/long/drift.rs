@@ -1,11 +1,11 @@
-//! Energies over many steps of implicit schemes: what rounding makes of them is a random walk.
+//! Energies over many steps: what rounding makes of those of implicit schemes is a random walk.
 //!
 //! Input: Gauss's schemes and their kin on autonomous systems. Output: the change of the mean of H from
 //! block to block. Invariant: the sum of these changes is that of independent ones, or at least below a
 //! bound that a coefficient with a wrong last place exceeds: the steps of such a method are not symplectic,
 //! and it drifts.
 
-use crate::common::systems::{Hand, HenonHeiles, Paper34, Pendulum};
+use crate::common::systems::{Hand, HenonHeiles, Paper34, Pendulum, pendulum as swings};
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Integrator, QuadraticKinetic, Scheme, State, System};
@@ -112,4 +112,57 @@ fn energies_of_variational_schemes_walk_at_random() {
     paper_34(Variational::<5, 5>::lobatto(), 0.03);
     paper_34(Variational::<3, 4>::lobatto(), 0.02);
     paper_34(MomentumVariational::<5>::default(), 0.03);
+}
+
+/// The largest |ΔH| of each tenth of a run.
+fn tenths<S: System>(
+    system: &S,
+    scheme: impl Scheme<S>,
+    start: State<VectorOf<S>>,
+    h: f64,
+    steps: u64,
+) -> Vec<f64> {
+    let energy = system.energy(&start);
+    let mut run = Integrator::new(system, scheme, start, h).expect("a good start");
+    (0..10)
+        .map(|_| {
+            (0..steps / 10).fold(0.0_f64, |worst, _| {
+                let state = run.advance(1).expect("a good step");
+                worst.max((system.energy(state) - energy).abs())
+            })
+        })
+        .collect()
+}
+
+/// The error of H in every tenth of a long run is that in the first, to 2 per cent.
+#[test]
+fn symplectic_schemes_do_not_drift() {
+    let heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
+    let steps = if heavy { 10_000_000 } else { 100_000 };
+    fn spread(name: &str, tenths: &[f64]) -> f64 {
+        let spread = (tenths.iter())
+            .map(|worst| (worst / tenths[0] - 1.0).abs())
+            .fold(0.0, f64::max);
+        println!(
+            "{name}: |ΔH| {:.3e}, tenths differ by {spread:.1e}",
+            tenths[0]
+        );
+        spread
+    }
+    let of_pendulum = |scheme: StormerVerlet| {
+        let start = State::new([std::f64::consts::FRAC_PI_4], [0.0]);
+        tenths(&swings(true), scheme, start, 0.1, steps)
+    };
+    assert!(spread("Verlet", &of_pendulum(StormerVerlet::default())) <= 0.02);
+    fn of_34(scheme: impl Scheme<Hand<Paper34, 1>>, steps: u64) -> f64 {
+        let name = format!("{scheme:?}");
+        let start = State::new([-3.0], [0.0]);
+        spread(&name, &tenths(&Hand(Paper34), scheme, start, 0.1, steps))
+    }
+    assert!(of_34(Gauss::<2>::default(), steps) <= 0.02);
+    assert!(of_34(Variational::<2, 2>::lobatto(), steps) <= 0.02);
+    assert!(of_34(Variational::<1, 2>::lobatto(), steps) <= 0.02);
+    assert!(of_34(Semiexplicit::<Strang>::default(), steps) <= 0.02);
+    // Negative control: it loses H, all of it in the long run.
+    assert!(of_34(RungeKutta4, steps) > 0.1);
 }

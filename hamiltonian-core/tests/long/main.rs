@@ -4,5 +4,6 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod drift;
-#[path = "../orbits/mod.rs"]
 mod orbits;
+#[path = "../tangent.rs"]
+mod tangent;

@@ -63,7 +63,6 @@ fn rough(planar: &Planar, random: &mut Random) -> (Place, f64) {
 
 /// Kepler's ellipses, which all close, and orbits of Hénon and Heiles, some of which do: what is found is one.
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn orbits_of_kepler_and_of_henon_and_heiles_are_periodic() {
     let mut found = [0; 2];
     let mut unclosed = 0;

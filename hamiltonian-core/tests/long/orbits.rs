@@ -132,7 +132,6 @@ fn driven_oscillators_follow_their_force() {
 
 /// The start of an orbit has its period, from guesses that are off by up to a fifth.
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn oscillators_have_the_periods_of_elliptic_integrals() {
     let (mut found, mut refused) = (0, 0);
     for seed in 0..cases(300, 10_000) {
@@ -361,7 +360,6 @@ impl Restricted {
 
 /// The orbits round L1 of the Earth and the Moon, from the linear guess, against half a period that ends at an event.
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn lyapunov_orbits_of_three_amplitudes_are_found() {
     let restricted = Restricted {
         mu: 0.01215058560962404,
@@ -439,7 +437,6 @@ fn followed(system: &Hand<Planar, 2>, orbit: &PeriodicOrbit<SVector<f64, 2>>) ->
 
 /// Random masses, both points, amplitudes and guesses: whatever is found is an orbit near the guess.
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
 fn no_orbit_of_the_restricted_problem_is_wrong() {
     let (mut found, mut by_arcs, mut refused) = (0, [0; 2], 0);
     for seed in 0..cases(300, 3_000) {

@@ -45,6 +45,20 @@ impl<const S: usize> Collocation<S> {
     /// Gauss' nodes, the zeros of the Legendre polynomial: order 2s, symplectic.
     pub fn gauss() -> Self {
         const { assert!(S > 0, "collocation needs a stage") };
+        // Those of runs to a tolerance are computed once: they would take longer than a hundred steps.
+        #[cfg(feature = "std")]
+        if S == 8 {
+            static EIGHT: std::sync::OnceLock<Collocation<8>> = std::sync::OnceLock::new();
+            let eight: &dyn core::any::Any = EIGHT.get_or_init(Collocation::computed);
+            if let Some(known) = eight.downcast_ref() {
+                return *known;
+            }
+        }
+        Self::computed()
+    }
+
+    /// [`gauss`](Self::gauss).
+    fn computed() -> Self {
         Self::at(
             |j| {
                 let mut x = number(Real::cos(PI * (j as f64 + 0.75) / (S as f64 + 0.5)));

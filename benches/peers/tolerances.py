@@ -95,7 +95,7 @@ def section(rows):
            "straight in logarithms; where all tolerances have a smaller error, it is that of the fastest. A dash means "
            "that one program does not reach the error. Compilation is not counted, nor is the construction of heyoka's "
            "integrator. This library's time includes the start of the run, in which it computes coefficients and "
-           "chooses steps: some tenths of a millisecond, which decide the rows of short runs. Problems with a star were "
+           "chooses steps: about a tenth of a millisecond, which decides the rows of short runs. Problems with a star were "
            "chosen before they were measured. `python3 benches/peers/tolerances.py` makes these numbers again.", "",
            "| problem | " + " | ".join(map(report.number, GOALS)) + " |", "|---|" + "---|" * len(GOALS)]
     for name, title in TITLES.items():

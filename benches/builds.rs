@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut programs = files(&root.join("benches/builds"), "rs")?;
     let mut features = "";
     if has_book {
-        features = ", features = [\"plot\"]";
+        features = ", features = [\"linear-algebra\", \"plot\", \"progress\"]";
         programs.extend(book(&root.join("book/src"), &package)?);
     }
     let names: Vec<String> = programs.iter().map(|path| name(path)).collect();

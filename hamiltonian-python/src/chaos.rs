@@ -58,7 +58,7 @@ pub fn derivative<'py>(
     numbers.into_pyarray(py).reshape([size, size])
 }
 
-/// What is computed of each member.
+/// The numbers that are computed for each member.
 #[derive(Clone, Copy)]
 enum Indicator {
     Exponents(usize),

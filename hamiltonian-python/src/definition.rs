@@ -32,7 +32,7 @@ impl Definition {
     /// Reads a text. `source` is its name in errors.
     #[new]
     fn new(py: Python<'_>, text: String, source: String) -> PyResult<Self> {
-        // What is parsed stays in the memory of its thread, so a thread of its own gives it back.
+        // Parsed text stays in the memory of its thread, so a thread of its own gives it back.
         let (sent, name) = (text.clone(), source);
         let thread = std::thread::Builder::new().stack_size(STACK);
         let read = py.detach(|| {
@@ -64,7 +64,7 @@ impl Definition {
         self.read.parameters().collect()
     }
 
-    /// What is proven of H, a sentence each.
+    /// The proven properties of H, a sentence each.
     #[getter]
     fn facts(&self) -> Vec<&str> {
         self.read.facts().collect()

@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use std::sync::{MutexGuard, TryLockError, TryLockResult};
 
-/// What `hamiltonian.errors.Diagnostic` takes: message, help, source, line, column, the line of the text.
+/// The arguments of `hamiltonian.errors.Diagnostic`: message, help, source, line, column, the line of the text.
 type Fields = (String, String, String, usize, usize, String);
 
 /// `hamiltonian.DefinitionError` with its diagnostics.

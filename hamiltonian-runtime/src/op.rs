@@ -161,7 +161,7 @@ pub(crate) struct Axis {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Address {
     pub(crate) base: i64,
-    /// What is added for variables of loops: factors, 0 if there is none.
+    /// Two loops with the factors of their variables, 0 if there is none: their products are added to the base.
     pub(crate) terms: [(u8, i64); 2],
     pub(crate) axes: Vec<Axis>,
 }

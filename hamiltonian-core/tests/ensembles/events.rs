@@ -39,12 +39,12 @@ fn sought(member: Member) -> Events<hamiltonian::private::SVector<f64, 1>> {
 }
 
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
+#[ignore = "many steps: `.ci/run` makes them"]
 fn events_of_members_are_those_of_single_runs() {
     // Long steps: functions come near 0 and turn within two of them. Closing pieces move momenta, or coordinates.
     let (kicks, drifts) = (StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift);
     for (scheme, step) in [(kicks, 0.03), (kicks, 0.9), (drifts, 0.7), (drifts, -0.2)] {
-        // What single runs find is the same on every level.
+        // Single runs find the same on every level.
         let single: Vec<_> = (0..COUNT)
             .map(|index| {
                 let member = Member::new(index, 0);
@@ -107,7 +107,7 @@ fn closing_pieces_and_observables_are_of_the_halves_they_name() {
 }
 
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
+#[ignore = "many steps: `.ci/run` makes them"]
 fn neighbours_of_events_change_no_bit() {
     let sweep = || {
         Sweep::new(COUNT, swinging, BlanesMoan4, 0.05)

@@ -171,7 +171,7 @@ fn a_process_that_is_killed() {
 }
 
 #[test]
-#[ignore = "many steps: `.ci/run` makes them with optimised code"]
+#[ignore = "many steps: `.ci/run` makes them"]
 fn killed_processes_lose_and_double_nothing() {
     let _level = one_level();
     let (disturbed, whole) = (place("disturbed"), place("whole"));

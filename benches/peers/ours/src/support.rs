@@ -1,4 +1,4 @@
-//! What both programs share: CPU times, references, rows.
+//! Parts of both programs: CPU times, references, rows.
 
 use cpu_time::ThreadTime;
 use hamiltonian::Vector;

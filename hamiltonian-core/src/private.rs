@@ -59,7 +59,7 @@ pub use crate::systems::system::gather::{InPack, Kept, in_pack};
 pub use crate::systems::system::{
     Arithmetic, Autonomous, Description, Dynamics, Exact, Group, NamedPiece, Nystrom, Observable,
     ObservableKind, ParameterText, QuadraticKinetic, Separable, Split, System, Text, Unforced,
-    VectorOf, deepest,
+    VectorOf, declared_energy_at, deepest,
 };
 pub use crate::systems::uneven::Uneven;
 pub use crate::systems::vector::{IntoVector, Over, Shape, Vector};

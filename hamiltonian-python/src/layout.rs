@@ -1,9 +1,9 @@
 //! Coordinates as Python orders them: each array row after row.
 //!
-//! Input: the groups of a description. Output: their shapes, and copies from and to the order of the system. Invariant: a
+//! Input: coordinates. Output: their shapes, and copies from and to the order of the system. Invariant: a
 //! group keeps its place, and only arrays of two axes change their order.
 
-use hamiltonian_core::schemes::author::Description;
+use hamiltonian_runtime::Coordinates;
 
 /// The places of the numbers of a state.
 pub struct Layout {
@@ -15,35 +15,14 @@ pub struct Layout {
 }
 
 impl Layout {
-    pub fn new(description: &Description, len: usize) -> Self {
-        let groups = &description.groups;
-        let ends = groups.iter().skip(1).map(|group| group.offset).chain([len]);
-        let mut shapes = Vec::new();
-        let mut places = Vec::new();
-        for (group, end) in groups.iter().zip(ends) {
-            let columns = group.columns.max(1);
-            let rows = (end - group.offset) / columns;
-            shapes.push(match group.rank {
-                0 => Vec::new(),
-                1 => vec![rows],
-                _ => vec![rows, columns],
-            });
-            if rows > 1 && columns > 1 {
-                // Those of the groups before, which have one axis.
-                places.extend(places.len()..group.offset);
-                for row in 0..rows {
-                    places.extend((0..columns).map(|column| group.offset + column * rows + row));
-                }
-            }
-        }
-        let is_moved = !places.is_empty();
-        if is_moved {
-            places.extend(places.len()..len);
-        }
+    pub fn new(coordinates: &[Coordinates]) -> Self {
+        let places: Vec<usize> = coordinates.iter().flat_map(Coordinates::places).collect();
+        let is_moved = places.iter().enumerate().any(|(at, place)| at != *place);
+        let shapes = coordinates.iter().map(|of| of.extents().to_vec());
         Layout {
-            len,
+            len: places.len(),
+            shapes: shapes.collect(),
             places: is_moved.then_some(places),
-            shapes,
         }
     }
 

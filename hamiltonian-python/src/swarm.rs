@@ -8,7 +8,7 @@ use crate::signals::Signals;
 use crate::system::System;
 use hamiltonian_core::System as _;
 use hamiltonian_core::nalgebra::DVector;
-use hamiltonian_core::schemes::author::Dynamics;
+use hamiltonian_core::private::declared_energy_at;
 use hamiltonian_runtime::{RunError, RuntimeSystem};
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
@@ -80,7 +80,7 @@ impl Members {
                 if self.systems.len() > 1 {
                     prepared = self.systems[member].prepare();
                 }
-                prepared.energy(*t, &point[0], &point[1])
+                declared_energy_at::<f64, RuntimeSystem>(&prepared, *t, &point[0], &point[1])
             };
             t.iter().enumerate().map(one).collect::<Vec<f64>>()
         });

@@ -2,11 +2,13 @@
 //!
 //! Input: points, one a row. Output: numbers or points, one a row.
 
+use crate::errors;
 use crate::layout::Layout;
 use hamiltonian_core::System as _;
 use hamiltonian_core::nalgebra::DVector;
+use hamiltonian_core::private::declared_energy_at;
 use hamiltonian_core::schemes::author::{Dynamics, ObservableKind};
-use hamiltonian_runtime::{Prepared, RuntimeSystem};
+use hamiltonian_runtime::{Coordinates, FlatState, Prepared, RunError, RuntimeSystem};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -17,21 +19,33 @@ pub struct System {
     pub system: RuntimeSystem,
     prepared: Prepared<f64>,
     pub layout: Layout,
+    /// Of the variables that the definition declares.
+    declared: Layout,
 }
 
 /// Points, one a row.
 type Rows<'py> = PyReadonlyArray2<'py, f64>;
+/// Times, coordinates, momenta.
+type States<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
+/// Names of coordinates, of momenta, of velocities, and extents.
+type Groups = Vec<(String, String, Option<String>, Vec<usize>)>;
 /// Two arrays of points: of coordinates and of momenta.
 type Pair<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
 
 impl System {
     pub fn new(system: RuntimeSystem) -> Self {
-        let layout = Layout::new(system.description(), system.degrees_of_freedom());
+        let layout = Layout::new(system.coordinates());
+        let declared = Layout::new(system.declared_coordinates());
         let prepared = system.prepare();
         System {
             system,
             prepared,
             layout,
+            declared,
         }
     }
 
@@ -99,18 +113,99 @@ impl System {
     }
 }
 
+/// Names and extents.
+fn groups(all: &[Coordinates]) -> Groups {
+    let one = |of: &Coordinates| {
+        let velocity = of.velocity().map(str::to_owned);
+        let (name, momentum) = (of.name().to_owned(), of.momentum().to_owned());
+        (name, momentum, velocity, of.extents().to_vec())
+    };
+    all.iter().map(one).collect()
+}
+
+/// States in other variables, from one layout into another.
+fn mapped<'py>(
+    py: Python<'py>,
+    [from, into]: [&Layout; 2],
+    (q, p, t): (Rows<'_>, Rows<'_>, PyReadonlyArray1<'_, f64>),
+    map: impl Fn(&FlatState) -> Result<FlatState, RunError> + Sync,
+) -> PyResult<States<'py>> {
+    let (q, p, t) = (q.as_slice()?, p.as_slice()?, t.as_slice()?);
+    let (len, own) = (from.len(), into.len());
+    let made = py.detach(|| {
+        let mut times = Vec::with_capacity(t.len());
+        let mut sides = [(); 2].map(|()| vec![0.0; t.len() * own]);
+        let zeros = || DVector::zeros(len);
+        let mut state = FlatState {
+            t: 0.0,
+            q: zeros(),
+            p: zeros(),
+        };
+        for (row, t) in t.iter().enumerate() {
+            state.t = *t;
+            from.read(&q[row * len..][..len], state.q.as_mut_slice());
+            from.read(&p[row * len..][..len], state.p.as_mut_slice());
+            let found = map(&state)?;
+            times.push(found.t);
+            for (side, found) in sides.iter_mut().zip([&found.q, &found.p]) {
+                into.write(found.as_slice(), &mut side[row * own..][..own]);
+            }
+        }
+        Ok((times, sides))
+    });
+    let (times, [q, p]) = made.map_err(|error| errors::of_run(py, &error))?;
+    let shaped = |all: Vec<f64>| all.into_pyarray(py).reshape([t.len(), own]);
+    Ok((times.into_pyarray(py), shaped(q)?, shaped(p)?))
+}
+
 #[pymethods]
 impl System {
-    /// The name, the momentum and the extents of each group of coordinates.
+    /// The names of each group of coordinates, of its momenta and of its velocities, and its extents.
     #[getter]
-    fn groups(&self) -> Vec<(String, String, Vec<usize>)> {
-        let groups = self.system.description().groups.iter();
-        let all = groups.zip(self.layout.shapes());
-        let one = |(group, shape): (&hamiltonian_core::schemes::author::Group, &Vec<usize>)| {
-            let names = (group.coordinate.to_string(), group.momentum.to_string());
-            (names.0, names.1, shape.clone())
-        };
-        all.map(one).collect()
+    fn groups(&self) -> Groups {
+        groups(self.system.coordinates())
+    }
+
+    /// The same of the variables that the definition declares.
+    #[getter]
+    fn declared_groups(&self) -> Groups {
+        groups(self.system.declared_coordinates())
+    }
+
+    /// The name of the time of runs.
+    #[getter]
+    fn clock(&self) -> &str {
+        self.system.description().clock()
+    }
+
+    /// The states of the system from states in the declared variables, with momenta or with velocities.
+    fn from_declared<'py>(
+        &self,
+        py: Python<'py>,
+        q: Rows<'_>,
+        p: Rows<'_>,
+        t: PyReadonlyArray1<'_, f64>,
+        velocities: bool,
+    ) -> PyResult<States<'py>> {
+        let layouts = [&self.declared, &self.layout];
+        mapped(py, layouts, (q, p, t), |state| match velocities {
+            true => self.system.state_from_velocity(state),
+            false => self.system.from_declared(state),
+        })
+    }
+
+    /// The states in the declared variables from states of the system.
+    fn to_declared<'py>(
+        &self,
+        py: Python<'py>,
+        q: Rows<'_>,
+        p: Rows<'_>,
+        t: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<States<'py>> {
+        let layouts = [&self.layout, &self.declared];
+        mapped(py, layouts, (q, p, t), |state| {
+            self.system.to_declared(state)
+        })
     }
 
     /// The name and the kind of each observable: `monitor`, `invariant`, `event`.
@@ -170,7 +265,7 @@ impl System {
         all.map(one).collect()
     }
 
-    /// H at each point.
+    /// H of the definition at each point.
     fn energy<'py>(
         &self,
         py: Python<'py>,
@@ -179,7 +274,9 @@ impl System {
         t: PyReadonlyArray1<'_, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let prepared = &self.prepared;
-        self.numbers(py, (q, p, t), |t, q, p| prepared.energy(t, q, p))
+        self.numbers(py, (q, p, t), |t, q, p| {
+            declared_energy_at::<f64, RuntimeSystem>(prepared, t, q, p)
+        })
     }
 
     /// An observable at each point, by its name.

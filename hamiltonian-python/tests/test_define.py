@@ -1,6 +1,7 @@
 """Definitions: names, values, derivatives, copies, pickles."""
 
 import copy
+import math
 import pickle
 
 import hamiltonian as hm
@@ -150,7 +151,7 @@ def test_copies_and_pickles(henon, bodies):
         for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
             again = pickle.loads(pickle.dumps(system, protocol))
             assert repr(again) == repr(system)
-            q = np.linspace(0.1, 1, again._len).reshape(again.shape)
+            q = np.linspace(0.1, 1, math.prod(again.shape)).reshape(again.shape)
             assert again.H(q, q) == system.H(q, q)
 
 

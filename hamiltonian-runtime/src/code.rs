@@ -6,13 +6,14 @@
 use crate::flatten::{Kind, Places, Setting, computed, stage};
 use crate::op::{FunctionCode, Stage, To};
 use crate::sizes::value;
+use crate::variables::{Coordinates, Declared, coordinates};
 use hamiltonian_core::schemes::author::{Description, Group, Observable, ObservableKind};
 use hamiltonian_core::systems::{Missing, NamedPiece};
-use hamiltonian_language::analyse::System;
 use hamiltonian_language::analyse::described::Described;
 use hamiltonian_language::analyse::structure::{
     FieldSource, GradientSource, Kick, Nystrom, Reason, Verdicts,
 };
+use hamiltonian_language::analyse::{System, variables};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::halves::are_apart;
 use hamiltonian_symbolic::index::Affine;
@@ -58,6 +59,9 @@ pub(crate) struct Code {
     /// The extents of parameters; none of a number.
     pub(crate) extents: Vec<Vec<usize>>,
     pub(crate) description: Description,
+    pub(crate) coordinates: Vec<Coordinates>,
+    /// The variables in which the definition is written, if the system has others.
+    pub(crate) declared: Option<Declared>,
     pub(crate) places: Places,
     pub(crate) prepare: Stage,
     pub(crate) functions: Vec<(Purpose, Arc<FunctionCode>)>,
@@ -67,8 +71,8 @@ pub(crate) struct Code {
     /// True if the gradient is the two halves one after the other.
     pub(crate) gradient_is_apart: bool,
     pub(crate) field: FieldSource,
-    /// The vector function of the force.
-    pub(crate) force: Option<Purpose>,
+    /// The uses of the vector functions.
+    pub(crate) vectors: Vec<VectorUse>,
     /// The pieces of `Split`, the outermost first; none if it is missing.
     pub(crate) pieces: Vec<Part>,
     /// Those of `Nystrom`: the kick, and the piece that is at most quadratic in the momenta.
@@ -77,14 +81,19 @@ pub(crate) struct Code {
 
 impl Code {
     /// The code of a system, or the feature for which there is none.
-    pub(crate) fn of(system: &System, sizes: &[usize]) -> Result<Code, String> {
+    pub(crate) fn of(
+        system: &System,
+        declared: Option<&variables::Declared>,
+        sizes: &[usize],
+    ) -> Result<Code, String> {
         let System {
             model,
             program,
             structure,
             ..
         } = system;
-        let places = places(system, sizes);
+        let (coordinates, len) = coordinates(&model.groups, sizes);
+        let places = places(system, len, sizes);
         let setting = Setting {
             program,
             sizes,
@@ -100,8 +109,6 @@ impl Code {
                 functions.push((function.purpose, code));
             }
         }
-        let mut vectors = model.vectors.iter();
-        let force = vectors.position(|vector| vector.usage == VectorUse::Force);
         let halves = [Purpose::GradientQ, Purpose::GradientP];
         let (pieces, split) = pieces(model, structure);
         let (nystrom, nystrom_missing) = nystrom(structure, &pieces);
@@ -139,11 +146,19 @@ impl Code {
             gradient: system.gradient,
             gradient_is_apart: are_apart(program, Purpose::Gradient, halves),
             field: system.field,
-            force: force.map(|at| Purpose::Vector(at as u16)),
+            vectors: model.vectors.iter().map(|vector| vector.usage).collect(),
+            declared: declared.map(|declared| Declared::of(declared, &coordinates, sizes)),
+            coordinates,
             pieces,
             nystrom,
             places,
         })
+    }
+
+    /// The purpose of the vector function with this use.
+    pub(crate) fn vector(&self, usage: VectorUse) -> Option<Purpose> {
+        let at = self.vectors.iter().position(|known| *known == usage);
+        at.map(|at| Purpose::Vector(at as u16))
     }
 
     /// The function of a purpose.
@@ -181,14 +196,14 @@ fn extents(shape: &Shape, sizes: &[usize]) -> Vec<usize> {
 }
 
 /// The places of coordinates and of arrays.
-fn places(system: &System, sizes: &[usize]) -> Places {
+fn places(system: &System, len: usize, sizes: &[usize]) -> Places {
     let model = &system.model;
     let extent = |form: &Affine| value(form, sizes).max(0) as usize;
-    let mut len = 0;
+    let mut next = 0;
     let groups = model.groups.iter().map(|group| {
         let rows = group.shape.rows().map_or(1, extent);
-        let first = len;
-        len += rows * usize::from(group.shape.columns());
+        let first = next;
+        next += rows * usize::from(group.shape.columns());
         (first, rows)
     });
     let groups = groups.collect();

@@ -9,6 +9,7 @@ use crate::error::SystemError;
 use crate::sizes::{self, Obligation};
 use crate::system::RuntimeSystem;
 use crate::values::{Value, Values};
+use hamiltonian_language::analyse::variables::Declared;
 use hamiltonian_language::analyse::{self, Analysis, analyse, surface};
 use hamiltonian_language::checked::Checked;
 use hamiltonian_language::read;
@@ -48,6 +49,8 @@ pub(crate) struct Parameter {
 pub struct Definition {
     pub(crate) system: Arc<analyse::System>,
     pub(crate) parameters: Vec<Parameter>,
+    /// The variables in which it is written, if the system has others.
+    declared: Option<Declared>,
     obligations: Vec<Obligation>,
     /// What systems at run time do not have, with its place.
     not_carried: Option<(String, Place)>,
@@ -122,6 +125,7 @@ impl Definition {
             parameters,
             obligations: checked.reaches.iter().map(Obligation::of).collect(),
             not_carried,
+            declared: analysis.declared,
             system: Arc::new(analysis.whole),
             last: Mutex::new(None),
         })
@@ -213,7 +217,8 @@ impl Definition {
         if let Some(code) = last.as_ref().filter(|code| code.sizes == sizes) {
             return Ok(code.clone());
         }
-        let made = Code::of(&self.system, sizes).map_err(|feature| SystemError::NotCarried {
+        let made = Code::of(&self.system, self.declared.as_ref(), sizes);
+        let made = made.map_err(|feature| SystemError::NotCarried {
             feature,
             place: Place {
                 source: self.name().to_owned(),
@@ -244,18 +249,7 @@ fn not_carried(checked: &Checked) -> Option<(String, Span)> {
         let feature = format!("the function `{}`, which is written in Rust", function.name);
         return Some((feature, function.name.span()));
     }
-    if let Some(chart) = checked.charts.first() {
-        let feature = format!("the coordinates `{}`", chart.name);
-        return Some((feature, chart.name.span()));
-    }
-    if let Some((_, span)) = checked.time_factor {
-        return Some(("another time, `dt = …*ds`".to_owned(), span));
-    }
-    let mut groups = checked.groups.iter();
-    let lattice = groups.find(|group| group.is_lattice)?;
-    let name = &lattice.coordinate;
-    let feature = format!("the coordinates `{name}` on a lattice of several axes");
-    Some((feature, name.span()))
+    None
 }
 
 /// The value of a size.

@@ -13,6 +13,7 @@ use hamiltonian_core::schemes::author::{
 };
 use hamiltonian_lanes::{Pack, Real};
 use hamiltonian_language::analyse::structure::{FieldSource, GradientSource};
+use hamiltonian_symbolic::model::VectorUse;
 use hamiltonian_symbolic::program::Purpose;
 
 impl<T: Real> Dynamics<T> for Prepared<T> {
@@ -155,7 +156,7 @@ impl<T: Real> Dynamics<T> for Prepared<T> {
     }
 
     fn force(&self, t: T, q: &Flat<T>, p: &Flat<T>, out: &mut Flat<T>) {
-        let Some(force) = self.code.force else {
+        let Some(force) = self.code.vector(VectorUse::Force) else {
             return out.set_zero();
         };
         let arrays = Arrays {

@@ -135,6 +135,8 @@ pub enum RunError {
         /// The length of the list.
         found: usize,
     },
+    /// Velocities are those of a Lagrangian, and the definition gives H.
+    NoLagrangian,
     /// The cancel hook ended the call. The steps made so far are kept.
     Interrupted,
     /// The bytes are not those of a saved run.
@@ -165,6 +167,9 @@ impl Display for RunError {
                 expected,
                 found,
             } => write!(f, "there must be {expected} {what}, found {found}"),
+            Self::NoLagrangian => f.write_str(
+                "velocities begin a Lagrangian, and the definition gives H: give momenta",
+            ),
             Self::Interrupted => f.write_str("interrupted: the steps made so far are kept"),
             Self::NotSaved => f.write_str("these are not the bytes of a saved run"),
             Self::Run(error) => error.fmt(f),

@@ -59,9 +59,11 @@ mod prepared;
 mod run;
 mod schemes;
 mod sizes;
+mod starts;
 mod swarm;
 mod system;
 mod values;
+mod variables;
 mod watching;
 
 pub use definition::Definition;
@@ -74,3 +76,4 @@ pub use schemes::{NamedScheme, schemes};
 pub use swarm::{MemberStates, Swarm};
 pub use system::{RuntimePiece, RuntimePieces, RuntimeSystem};
 pub use values::{Value, Values};
+pub use variables::Coordinates;

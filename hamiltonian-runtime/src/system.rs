@@ -41,7 +41,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Debug, Clone)]
 pub struct RuntimeSystem {
-    code: Arc<Code>,
+    pub(crate) code: Arc<Code>,
     /// The numbers of each parameter.
     parameters: Arc<Vec<Vec<f64>>>,
 }

@@ -253,3 +253,54 @@ fn help_and_schemes_are_listed() {
     assert!(!output.status.success() && text(&output.stderr).starts_with("usage: "));
     assert!(text(&run("none.ham").stderr).starts_with("error: none.ham: "));
 }
+
+#[test]
+fn a_start_is_in_declared_variables_or_from_velocities() {
+    let kepler = "struct Kepler {}
+H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2);
+coordinates polar(x, y);
+dt = sqrt(x^2 + y^2)*ds
+---
+start x = 0, y = 0.5, p_x = -1.5, p_y = 0, t = 2
+";
+    let folder = folder("variables");
+    let rows = |text: &str| -> Vec<String> {
+        let output = command(&folder, text);
+        assert_eq!(self::text(&output.stderr), "");
+        self::text(&output.stdout)
+            .lines()
+            .map(str::to_owned)
+            .collect()
+    };
+    let run = "run s = 0..1, every = 0.5, tolerance = 1e-10\n";
+    let table = rows(&format!("{kepler}{run}"));
+    assert_eq!(table[0], "s,r,phi,t,p_r,p_phi,p_t,H");
+    let first: Vec<f64> = table[1]
+        .split(',')
+        .map(|one| one.parse().expect("a number"))
+        .collect();
+    let angle = std::f64::consts::FRAC_PI_2;
+    assert_eq!(first[..4], [0.0, 0.5, angle, 2.0]);
+    // H = 1.5²/2 − 1/0.5, and not g·(H + p_t) = 0.
+    assert!((first[7] + 0.875).abs() < 1e-14, "{}", table[1]);
+    assert_eq!(table.len(), 4);
+
+    let output = command(
+        &folder,
+        &format!("{kepler}run t = 0..1, every = 0.5, tolerance = 1e-10\n"),
+    );
+    let error = text(&output.stderr);
+    assert!(
+        error.starts_with("error: the time of this run is `s`\n --> study.ham:7:5"),
+        "{error}"
+    );
+
+    let swing = "struct Pendulum { l = 2.0 } L(theta; v) = l^2*v^2/2 + l*cos(theta)
+---
+start theta = 0.5, v = 1.5
+run t = 0..1, every = 0.5, tolerance = 1e-10
+";
+    let table = rows(swing);
+    assert_eq!(table[0], "t,theta,p_theta,H");
+    assert!(table[1].starts_with("0.0,0.5,6.0,"), "{}", table[1]);
+}

@@ -9,3 +9,4 @@ mod diagnostics;
 mod named;
 mod refusals;
 mod runs;
+mod variables;

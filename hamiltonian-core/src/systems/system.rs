@@ -526,7 +526,7 @@ pub(crate) fn declared_energy<T: Real, S: System>(
 
 /// See [`declared_energy`].
 #[inline(always)]
-pub(crate) fn declared_energy_at<T: Real, S: System>(
+pub fn declared_energy_at<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     t: T,
     q: &VectorOf<S, T>,

@@ -33,8 +33,8 @@ class Ensemble:
     def __init__(self, system: System, q, p, t, threads, values: dict):
         self.system, self.errors = system, {}
         self._threads = None if threads is None else arrays.count("threads", threads)
-        q = arrays.points("q", system._number_or_row(arrays.finite("q", q)), system.shape)
-        p = arrays.points("p", system._number_or_row(arrays.finite("p", p)), system.shape)
+        q = arrays.points("q", system._variables.number_or_row(arrays.finite("q", q)), system.shape)
+        p = arrays.points("p", system._variables.number_or_row(arrays.finite("p", p)), system.shape)
         axes = len(system.shape)
         leading = {"q": q.shape[: q.ndim - axes], "p": p.shape[: p.ndim - axes]}
         known = {name: extents for name, extents, _ in system._own.parameters}

@@ -44,7 +44,7 @@ class Crossings(NamedTuple):
 
 def start_of(system: System, q, p, t) -> tuple[np.ndarray, np.ndarray, float]:
     """A checked start, flat."""
-    numbers = [system._number_or_row(arrays.finite(name, value)) for name, value in (("q", q), ("p", p))]
+    numbers = [system._variables.number_or_row(arrays.finite(name, value)) for name, value in (("q", q), ("p", p))]
     q, p = (arrays.point(name, value, system.shape).ravel() for name, value in zip("qp", numbers))
     return q, p, arrays.number("t", t)
 
@@ -124,6 +124,11 @@ class Solution:
         """H at each state."""
         return self.system.H(self.q, self.p, self.t)
 
+    @property
+    def declared(self) -> State:
+        """The states in the variables of the definition; see `System.to_declared`."""
+        return self.system.to_declared(self.q, self.p, self.t)
+
     def observable(self, name: str) -> np.ndarray:
         """The invariant, monitor or event of that name at each state."""
         return self.system.observable(name, self.q, self.p, self.t)
@@ -162,7 +167,7 @@ class Solution:
             return getattr(self, name)
         for side, names in ((self.q, self.system.coordinates), (self.p, self.system.momenta)):
             if name in names:
-                return self.system._group(side, names.index(name)).reshape(len(self.t), -1)
+                return self.system._variables.group(side, names.index(name)).reshape(len(self.t), -1)
         return self.observable(name)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 
 import numpy as np
@@ -12,7 +11,8 @@ from . import arrays
 from ._hamiltonian import Definition
 from ._hamiltonian import System as _System
 from .ensembles import Ensemble
-from .runs import Run, Solution, made, sensitivities, solved
+from .runs import Run, Solution, State, made, sensitivities, solved
+from .variables import Variables
 
 
 def define(definition, /, **values) -> System:
@@ -92,12 +92,14 @@ class System:
     """The definition."""
     source: str
     """Its name in errors."""
+    declared: Variables
+    """The variables in which the definition is written: ``coordinates``, ``momenta``, ``velocities`` and ``shape``. They
+    are those of the system, unless the definition has ``coordinates …`` or ``dt = …``: see `from_declared`."""
 
     def __init__(self, definition: Definition, own: _System, text: str, source: str, values: dict[str, np.ndarray]):
         self._definition, self._own, self._values = definition, own, values
         self.text, self.source = text, source
-        self._groups = own.groups
-        self._len = sum(math.prod(extents) for _, _, extents in self._groups)
+        self._variables, self.declared = Variables(own.groups), Variables(own.declared_groups)
 
     @property
     def name(self) -> str:
@@ -107,19 +109,22 @@ class System:
     @property
     def shape(self) -> tuple[int, ...]:
         """The shape of q and p: that of the only array, or the number of coordinates."""
-        if len(self._groups) == 1 and self._groups[0][2]:
-            return tuple(self._groups[0][2])
-        return (self._len,)
+        return self._variables.shape
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The declared names of the coordinates."""
-        return tuple(name for name, _, _ in self._groups)
+        """The names of the coordinates."""
+        return self._variables.coordinates
 
     @property
     def momenta(self) -> tuple[str, ...]:
-        """The declared names of their momenta."""
-        return tuple(name for _, name, _ in self._groups)
+        """The names of their momenta."""
+        return self._variables.momenta
+
+    @property
+    def clock(self) -> str:
+        """The name of the time of runs: ``t``, or ``s`` of a definition with ``dt = g*ds``."""
+        return self._own.clock
 
     @property
     def parameters(self) -> dict[str, float | np.ndarray]:
@@ -182,20 +187,20 @@ class System:
     def H(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> np.ndarray:
         """H(q, p, t). Leading axes of q, p and t are broadcast: one number for each point.
 
-        A point outside the domain of H gives NaN or an infinity.
+        It is the H of the definition, also with ``dt = g*ds``, where the system's own Hamiltonian is g·(H + p_t). A point outside the domain of H gives NaN or an infinity.
         """
-        leading, points = self._points(q, p, t)
+        leading, points = self._variables.points(q, p, t)
         return self._own.energy(*points).reshape(leading)
 
     def gradient(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """(∂H/∂q, ∂H/∂p), exact, at each point; see `H`."""
-        leading, points = self._points(q, p, t)
+        leading, points = self._variables.points(q, p, t)
         dq, dp = self._own.gradient(*points)
         return dq.reshape(leading + self.shape), dp.reshape(leading + self.shape)
 
     def field(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """(q̇, ṗ) = (∂H/∂p, −∂H/∂q + f) at each point, f the force; see `H`."""
-        leading, points = self._points(q, p, t)
+        leading, points = self._variables.points(q, p, t)
         dq, dp = self._own.field(*points)
         return dq.reshape(leading + self.shape), dp.reshape(leading + self.shape)
 
@@ -207,8 +212,57 @@ class System:
         """
         if name not in (known for known, _ in self._own.observables):
             raise KeyError(self._unknown(name))
-        leading, points = self._points(q, p, t)
+        leading, points = self._variables.points(q, p, t)
         return self._own.observable(name, *points).reshape(leading)
+
+    def from_declared(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> State:
+        """The state of the system from one in the variables of the definition, see `declared`; many along leading axes.
+
+        With ``coordinates …``, q and p are those of the new coordinates. With ``dt = g*ds``, the time is the last
+        coordinate, its momentum is −H, and the new time s is 0. Otherwise the state is the same.
+
+        >>> kepler = define('''
+        ...     H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2);
+        ...     coordinates polar(x, y);
+        ...     dt = sqrt(x^2 + y^2)*ds
+        ... ''')
+        >>> kepler.coordinates, kepler.clock
+        (('r', 'phi', 't'), 's')
+        >>> start = kepler.from_declared(q=[0.5, 0.0], p=[0.0, 1.5])
+        >>> sol = kepler.solve(start.q, start.p, t=[0, 2*np.pi/np.sqrt(1.75)])  # once around
+        >>> bool(abs(sol.declared.q[1] - [0.5, 0.0]).max() < 1e-8)
+        True
+        """
+        return self._of_declared(q, p, t, False)
+
+    def from_velocity(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0) -> State:
+        """The state of the system from coordinates and velocities of a Lagrangian; see `from_declared`.
+
+        >>> pendulum = define("L(theta; v) = l^2*v^2/2 + l*cos(theta)", l=2.0)
+        >>> pendulum.from_velocity(0.5, 1.5).p
+        array([6.])
+
+        Raises:
+            ValueError: The definition gives H.
+        """
+        return self._of_declared(q, v, t, True)
+
+    def to_declared(self, q: ArrayLike, p: ArrayLike, t: ArrayLike = 0.0) -> State:
+        """The state in the variables of the definition from one of the system; many along leading axes.
+
+        With ``dt = g*ds``, its t is the time t of the definition.
+        """
+        leading, points = self._variables.points(q, p, t)
+        return self._states(leading, self.declared.shape, self._own.to_declared(*points))
+
+    def _of_declared(self, q, p, t, velocities: bool) -> State:
+        leading, points = self.declared.points(q, p, t)
+        return self._states(leading, self.shape, self._own.from_declared(*points, velocities))
+
+    def _states(self, leading: tuple[int, ...], shape: tuple[int, ...], rows) -> State:
+        """States of one row each, in this shape behind the leading axes."""
+        t, q, p = rows
+        return State(t.reshape(leading)[()], q.reshape(leading + shape), p.reshape(leading + shape))
 
     def solve(
         self,
@@ -289,28 +343,6 @@ class System:
 
     def _flat(self) -> list[tuple[str, float | np.ndarray]]:
         return _flat(self._values)
-
-    def _group(self, points: np.ndarray, number: int) -> np.ndarray:
-        """One group of coordinates of points, or of their momenta."""
-        leading = points.shape[: points.ndim - len(self.shape)]
-        before = sum(math.prod(extents) for _, _, extents in self._groups[:number])
-        extents = self._groups[number][2]
-        return points.reshape(*leading, -1)[..., before : before + math.prod(extents)].reshape(*leading, *extents)
-
-    def _points(self, q, p, t) -> tuple[tuple[int, ...], tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """The leading axes of all points, and q, p and t as rows."""
-        shape = self.shape
-        q = arrays.points("q", self._number_or_row(arrays.numbers("q", q)), shape)
-        p = arrays.points("p", self._number_or_row(arrays.numbers("p", p)), shape)
-        t = arrays.numbers("t", t)
-        axes = len(shape)
-        leading = arrays.together(q=q.shape[: q.ndim - axes], p=p.shape[: p.ndim - axes], t=t.shape)
-        times = arrays.rows(t, leading, ())[:, 0]
-        return leading, (arrays.rows(q, leading, shape), arrays.rows(p, leading, shape), times)
-
-    def _number_or_row(self, value: np.ndarray) -> np.ndarray:
-        """The value; a number for a point of one coordinate."""
-        return value.reshape(1) if self.shape == (1,) and value.ndim == 0 else value
 
     def __repr__(self) -> str:
         values = {**self.sizes, **self.parameters}

@@ -5,10 +5,11 @@
 
 use crate::places::Word;
 use crate::study::{Assignment, Number, Stepping, Study};
-use hamiltonian_core::schemes::author::{Description, Dynamics};
+use hamiltonian_core::private::declared_energy_at;
+use hamiltonian_core::schemes::author::Dynamics;
 use hamiltonian_core::{System, Table};
 use hamiltonian_runtime::{
-    Definition, Diagnostic, FlatState, Run, RunError, RuntimeSystem, Value, Values,
+    Coordinates, Definition, Diagnostic, FlatState, Run, RunError, RuntimeSystem, Value, Values,
 };
 
 /// The results.
@@ -19,58 +20,44 @@ pub struct Tables {
     pub events: Table,
 }
 
-/// A coordinate or momentum: its name, the place of its first number, its extents.
+/// Coordinates, their momenta or their velocities, with their name.
 struct Group<'a> {
     name: &'a str,
-    is_momentum: bool,
-    offset: usize,
-    rank: usize,
-    rows: usize,
-    columns: usize,
+    is_coordinate: bool,
+    of: &'a Coordinates,
 }
 
 impl Group<'_> {
-    /// The place of an element: arrays are stored column after column.
-    fn place(&self, row: usize, column: usize) -> usize {
-        self.offset + column * self.rows + row
-    }
-
-    /// The names of all elements, row after row, with their places.
+    /// The names of all elements, the last index fastest, with their places.
     fn elements(&self) -> Vec<(String, usize)> {
-        let name = self.name;
-        let mut all = Vec::new();
-        for row in 0..self.rows {
-            for column in 0..self.columns {
-                let element = match self.rank {
-                    0 => name.to_owned(),
-                    1 => format!("{name}[{row}]"),
-                    _ => format!("{name}[{row}][{column}]"),
-                };
-                all.push((element, self.place(row, column)));
-            }
+        let mut names = vec![self.name.to_owned()];
+        for extent in self.of.extents() {
+            let with = |name: &String| {
+                let name = name.clone();
+                (0..*extent).map(move |index| format!("{name}[{index}]"))
+            };
+            names = names.iter().flat_map(with).collect();
         }
-        all
+        names.into_iter().zip(self.of.places()).collect()
     }
 }
 
-/// The groups of a system: coordinates, then momenta.
-fn groups(description: &Description, len: usize) -> Vec<Group<'_>> {
-    let groups = &description.groups;
-    let ends = groups.iter().skip(1).map(|group| group.offset).chain([len]);
-    let both = groups.iter().zip(ends).map(|(group, end)| {
-        let columns = group.columns.max(1);
-        [(&*group.coordinate, false), (&*group.momentum, true)].map(|(name, is_momentum)| Group {
-            name,
-            is_momentum,
-            offset: group.offset,
-            rank: group.rank,
-            rows: (end - group.offset) / columns,
-            columns,
-        })
+/// The coordinates, then the momenta, or the velocities of a Lagrangian.
+fn groups(all: &[Coordinates], by_velocity: bool) -> Vec<Group<'_>> {
+    let coordinates = all.iter().map(|of| Group {
+        name: of.name(),
+        is_coordinate: true,
+        of,
     });
-    let mut all: Vec<Group> = both.flatten().collect();
-    all.sort_by_key(|group| group.is_momentum);
-    all
+    let others = all.iter().map(|of| Group {
+        name: of
+            .velocity()
+            .filter(|_| by_velocity)
+            .unwrap_or(of.momentum()),
+        is_coordinate: false,
+        of,
+    });
+    coordinates.chain(others).collect()
 }
 
 /// The numbers of a list, row after row.
@@ -104,84 +91,73 @@ fn system(study: &Study) -> Result<RuntimeSystem, String> {
     })
 }
 
+/// Appends the numbers of a value if it has these extents.
+fn shaped(value: &Number, extents: &[usize], into: &mut Vec<f64>) -> bool {
+    match (value, extents) {
+        (Number::One(number), []) => {
+            into.push(*number);
+            true
+        }
+        (Number::List(list), [extent, inner @ ..]) => {
+            list.len() == *extent && list.iter().all(|one| shaped(one, inner, into))
+        }
+        _ => false,
+    }
+}
+
 /// Writes the value of a group into a state.
 fn fill(group: &Group, setting: &Assignment, into: &mut [f64]) -> Result<(), Box<Diagnostic>> {
-    let (rows, columns) = (group.rows, group.columns);
-    let name = group.name;
-    let shape = match group.rank {
-        0 => "a number".to_owned(),
-        1 => format!("a list of {rows} numbers"),
-        _ => format!("a list of {rows} lists of {columns} numbers"),
-    };
-    let wrong = || {
-        let help = "an array is a list, and one with two indices a list of its rows; one number is that of all elements";
-        setting
-            .word
-            .error(format!("`{name}` must be {shape}"), help)
-    };
-    let rows_of = |list: &'_ [Number]| list.len() == rows;
+    let extents = group.of.extents();
+    let mut numbers = Vec::new();
     match &setting.value {
-        Number::One(number) => {
-            for row in 0..rows {
-                for column in 0..columns {
-                    into[group.place(row, column)] = *number;
+        Number::One(number) => numbers.resize(group.of.places().len(), *number),
+        list if shaped(list, extents, &mut numbers) => {}
+        _ => {
+            let shape = match extents {
+                [] => "a number".to_owned(),
+                [outer @ .., last] => {
+                    let lists: String = outer.iter().map(|of| format!("{of} lists of ")).collect();
+                    format!("a list of {lists}{last} numbers")
                 }
-            }
+            };
+            let message = format!("`{}` must be {shape}", group.name);
+            let help = "an array is a list, and one with two indices a list of its rows; one number is that of all elements";
+            return Err(setting.word.error(message, help));
         }
-        Number::List(list) if group.rank == 1 && rows_of(list) => {
-            for (row, number) in list.iter().enumerate() {
-                let Number::One(number) = number else {
-                    return Err(wrong());
-                };
-                into[group.place(row, 0)] = *number;
-            }
-        }
-        Number::List(list) if group.rank == 2 && rows_of(list) => {
-            for (row, numbers) in list.iter().enumerate() {
-                let Number::List(numbers) = numbers else {
-                    return Err(wrong());
-                };
-                if numbers.len() != columns {
-                    return Err(wrong());
-                }
-                for (column, number) in numbers.iter().enumerate() {
-                    let Number::One(number) = number else {
-                        return Err(wrong());
-                    };
-                    into[group.place(row, column)] = *number;
-                }
-            }
-        }
-        Number::List(_) => return Err(wrong()),
+    }
+    for (place, number) in group.of.places().zip(numbers) {
+        into[place] = number;
     }
     Ok(())
 }
 
-/// The start of a run.
-fn start(study: &Study, groups: &[Group], len: usize) -> Result<FlatState, Box<Diagnostic>> {
+/// The start of a run, in the variables of the system.
+fn start(study: &Study, system: &RuntimeSystem) -> Result<FlatState, Box<Diagnostic>> {
+    let declared = system.declared_coordinates();
+    let named = |name: &str| study.start.iter().find(|one| one.name.text == name);
+    let velocities = declared.iter().filter_map(Coordinates::velocity);
+    let by_velocity = velocities.into_iter().any(|name| named(name).is_some());
+    let groups = groups(declared, by_velocity);
+    // Beside s, the time begins where the start says.
+    let has_time = system.description().fictitious_time.is_some();
     let known = || {
-        let names: Vec<String> = groups
-            .iter()
-            .map(|group| format!("`{}`", group.name))
-            .collect();
-        names.join(", ")
+        let names = groups.iter().map(|group| format!("`{}`", group.name));
+        names.collect::<Vec<_>>().join(", ")
     };
     for setting in &study.start {
-        if !groups.iter().any(|group| group.name == setting.name.text) {
+        let is_time = has_time && setting.name.text == "t";
+        if !is_time && !groups.iter().any(|group| group.name == setting.name.text) {
             let message = format!("there is no coordinate or momentum `{}`", setting.name.text);
-            return Err(setting
-                .name
-                .error(message, format!("there are {}", known())));
+            let help = format!("there are {}", known());
+            return Err(setting.name.error(message, help));
         }
     }
+    let len = declared.iter().map(|of| of.places().len()).sum();
     let (mut q, mut p) = (vec![0.0; len], vec![0.0; len]);
-    for group in groups {
-        let setting = study.start.iter().find(|one| one.name.text == group.name);
-        let Some(setting) = setting else {
-            let place = study
-                .start
-                .first()
-                .map_or(study.run, |setting| setting.name);
+    for group in &groups {
+        let Some(setting) = named(group.name) else {
+            let first = study.start.first();
+            let place = first.map_or(study.run, |setting| setting.name);
             let message = format!("`{}` has no value at the start", group.name);
             let help = format!("`start` has a value for each of {}", known());
             return Err(place.error(message, help));
@@ -189,10 +165,30 @@ fn start(study: &Study, groups: &[Group], len: usize) -> Result<FlatState, Box<D
         fill(
             group,
             setting,
-            if group.is_momentum { &mut p } else { &mut q },
+            if group.is_coordinate { &mut q } else { &mut p },
         )?;
     }
-    Ok(hamiltonian_core::State::new(q, p).at(study.times.start))
+    let time = match (has_time, named("t")) {
+        (false, _) => study.times.start,
+        (true, None) => 0.0,
+        (true, Some(setting)) => match setting.value {
+            Number::One(time) => time,
+            Number::List(_) => {
+                return Err(setting.word.error("`t` must be a number", "write `t = 0`"));
+            }
+        },
+    };
+    let state = hamiltonian_core::State::new(q, p).at(time);
+    let state = match by_velocity {
+        true => system.state_from_velocity(&state),
+        false => system.from_declared(&state),
+    };
+    let mut state =
+        state.map_err(|error| study.run.error(error.to_string(), "change the start"))?;
+    if has_time {
+        state.t = study.times.start;
+    }
+    Ok(state)
 }
 
 fn begin(study: &Study, system: &RuntimeSystem, start: FlatState) -> Result<Run, Box<Diagnostic>> {
@@ -217,10 +213,14 @@ fn begin(study: &Study, system: &RuntimeSystem, start: FlatState) -> Result<Run,
 pub fn calculate(study: &Study) -> Result<(Tables, Result<(), String>), String> {
     let system = system(study)?;
     let description = system.description();
-    let len = system.degrees_of_freedom();
-    let groups = groups(description, len);
     let told = |error: Box<Diagnostic>| error.to_string();
-    let start = start(study, &groups, len).map_err(told)?;
+    let clock = description.clock();
+    if study.clock.text != clock {
+        let message = format!("the time of this run is `{clock}`");
+        let help = format!("write `run {clock} = 0..100`");
+        return Err(told(study.clock.error(message, help)));
+    }
+    let start = start(study, &system).map_err(told)?;
     if matches!(study.steps, Stepping::Tolerance(_)) && study.times.end < study.times.start {
         let help = "run backwards with `scheme` and `step`";
         return Err(told(
@@ -229,25 +229,21 @@ pub fn calculate(study: &Study) -> Result<(Tables, Result<(), String>), String> 
     }
     let mut run = begin(study, &system, start).map_err(told)?;
 
-    let elements: Vec<(String, usize, bool)> = groups
-        .iter()
-        .flat_map(|group| {
-            let elements = group.elements().into_iter();
-            elements.map(|(name, place)| (name, place, group.is_momentum))
-        })
-        .collect();
+    let groups = groups(system.coordinates(), false);
+    let elements = groups.iter().flat_map(|group| {
+        let elements = group.elements().into_iter();
+        elements.map(|(name, place)| (name, place, group.is_coordinate))
+    });
+    let elements: Vec<(String, usize, bool)> = elements.collect();
     let state = |state: &FlatState, row: &mut Vec<f64>| {
         row.push(state.t);
-        for (_, place, is_momentum) in &elements {
-            row.push(if *is_momentum {
-                state.p[*place]
-            } else {
-                state.q[*place]
-            });
+        for (_, place, is_coordinate) in &elements {
+            let side = if *is_coordinate { &state.q } else { &state.p };
+            row.push(side[*place]);
         }
     };
     let names = || elements.iter().map(|(name, ..)| name.clone());
-    let time = || std::iter::once("t".to_owned());
+    let time = || std::iter::once(clock.to_owned());
     let observables = description.observables.iter();
     let observables = observables.map(|observable| observable.name.to_string());
     let energy = std::iter::once("H".to_owned());
@@ -279,7 +275,8 @@ pub fn calculate(study: &Study) -> Result<(Tables, Result<(), String>), String> 
             Ok(at) => {
                 let mut row = Vec::with_capacity(orbit.columns().len());
                 state(&at, &mut row);
-                row.push(prepared.energy(at.t, &at.q, &at.p));
+                let (t, q, p) = (at.t, &at.q, &at.p);
+                row.push(declared_energy_at::<f64, RuntimeSystem>(&prepared, t, q, p));
                 let number = description.observables.len();
                 row.extend((0..number).map(|index| prepared.observable(index, at.t, &at.q, &at.p)));
                 orbit.push(&row).map_err(failed)?;

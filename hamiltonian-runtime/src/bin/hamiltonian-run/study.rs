@@ -40,6 +40,8 @@ pub struct Study<'a> {
     pub start: Vec<Assignment<'a>>,
     /// The word `run`, for errors of the whole.
     pub run: Word<'a>,
+    /// The name of the time of the run: `t`, or `s` of another time.
+    pub clock: Word<'a>,
     /// The first and the last time.
     pub times: Range<f64>,
     /// The time between two rows.
@@ -95,7 +97,7 @@ pub fn read<'a>(text: &'a str, file: &'a str) -> Result<Study<'a>, Box<Diagnosti
             return Err(second.0.error("`run` is there twice", help));
         }
     };
-    let (times, every, steps) = run_line(run)?;
+    let ((clock, times), every, steps) = run_line(run)?;
     let settings = |words: &[Word<'a>]| {
         let settings: Result<Vec<Assignment<'a>>, _> = words.iter().map(setting).collect();
         let settings = settings?;
@@ -116,6 +118,7 @@ pub fn read<'a>(text: &'a str, file: &'a str) -> Result<Study<'a>, Box<Diagnosti
         with: settings(&lines.with)?,
         start: settings(&lines.start)?,
         run: run.0,
+        clock,
         times,
         every,
         steps,
@@ -204,16 +207,19 @@ fn positive(word: &Word) -> Result<f64, Box<Diagnostic>> {
     }
 }
 
+/// The time of a run, with its name.
+type Times<'a> = (Word<'a>, Range<f64>);
+
 /// The times, the time between rows and the steps of a run.
 fn run_line<'a>(
     (run, words): &(Word<'a>, Vec<Word<'a>>),
-) -> Result<(Range<f64>, f64, Stepping<'a>), Box<Diagnostic>> {
+) -> Result<(Times<'a>, f64, Stepping<'a>), Box<Diagnostic>> {
     let (mut times, mut every, mut tolerance, mut scheme, mut step) =
         (None, None, None, None, None);
     for word in words {
         let (name, value) = named(word)?;
         let is_twice = match name.text {
-            "t" => times.replace(range(&value)?).is_some(),
+            "t" | "s" => times.replace((name, range(&value)?)).is_some(),
             "every" => every.replace(positive(&value)?).is_some(),
             "tolerance" => tolerance.replace(positive(&value)?).is_some(),
             "scheme" => scheme.replace(value).is_some(),

@@ -20,14 +20,33 @@ where
             .with_threads(threads)
             .reproducible()
     };
-    let compare = |all: &[Found], alone: &dyn Fn(&S, StateOf<S>) -> Found| {
+    let tangent =
+        |system: &S, start, deviations| Tangent::new(system, scheme.clone(), start, h, deviations);
+    // Single tangents are the same on each level.
+    let alone = |indicator: &dyn Fn(&S, StateOf<S>) -> Found| -> Vec<Found> {
+        let members = (0..COUNT).map(|index| make(Member::new(index, 0)));
+        members
+            .map(|(system, start)| indicator(&system, start))
+            .collect()
+    };
+    let exponents = alone(&|system, start| tangent(system, start, deviations)?.lyapunov(50, 8));
+    let megnos = alone(&|system, start| Ok(vec![megno(system, scheme.clone(), start, h, 50, 8)?]));
+    let galis = alone(&|system, start| {
+        let mut tangent = tangent(system, start, deviations)?;
+        for _ in 0..6 {
+            tangent.advance(8)?;
+            tangent.normalise();
+        }
+        tangent.advance(2)?;
+        Ok(vec![tangent.gali()])
+    });
+    let compare = |all: &[Found], alone: &[Found]| {
         assert_eq!(all.len(), COUNT);
         let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        for (index, found) in all.iter().enumerate() {
-            let (system, start) = make(Member::new(index, 0));
-            match (found, alone(&system, start)) {
+        for (index, both) in all.iter().zip(alone).enumerate() {
+            match both {
                 (Ok(found), Ok(expected)) => {
-                    let same = bits(found) == bits(&expected);
+                    let same = bits(found) == bits(expected);
                     assert!(same, "member {index}: {found:?} {expected:?}");
                 }
                 (
@@ -42,35 +61,22 @@ where
             }
         }
     };
-    let tangent =
-        |system: &S, start, deviations| Tangent::new(system, scheme.clone(), start, h, deviations);
+    at_each_level(|_| {
+        let all = swarm(COUNT, 2).collect().expect("there are members");
+        compare(&all, &exponents);
+        let few = swarm(3, 1).collect().expect("there are members");
+        assert!(
+            few.iter()
+                .zip(&all)
+                .all(|(few, all)| few.as_ref().ok() == all.as_ref().ok())
+        );
 
-    let all = swarm(COUNT, 2).collect().expect("there are members");
-    compare(&all, &|system, start| {
-        tangent(system, start, deviations)?.lyapunov(50, 8)
-    });
-    let few = swarm(3, 1).collect().expect("there are members");
-    assert!(
-        few.iter()
-            .zip(&all)
-            .all(|(few, all)| few.as_ref().ok() == all.as_ref().ok())
-    );
-
-    let each = |all: Result<Vec<Result<f64, Error>>, Error>| -> Vec<Found> {
-        let all = all.expect("there are members").into_iter();
-        all.map(|one| one.map(|number| vec![number])).collect()
-    };
-    compare(&each(swarm(COUNT, 2).megno()), &|system, start| {
-        Ok(vec![megno(system, scheme.clone(), start, h, 50, 8)?])
-    });
-    compare(&each(swarm(COUNT, 2).gali(deviations)), &|system, start| {
-        let mut tangent = tangent(system, start, deviations)?;
-        for _ in 0..6 {
-            tangent.advance(8)?;
-            tangent.normalise();
-        }
-        tangent.advance(2)?;
-        Ok(vec![tangent.gali()])
+        let each = |all: Result<Vec<Result<f64, Error>>, Error>| -> Vec<Found> {
+            let all = all.expect("there are members").into_iter();
+            all.map(|one| one.map(|number| vec![number])).collect()
+        };
+        compare(&each(swarm(COUNT, 2).megno()), &megnos);
+        compare(&each(swarm(COUNT, 2).gali(deviations)), &galis);
     });
 }
 
@@ -85,12 +91,10 @@ fn indicators_of_members_are_those_of_single_tangents() {
         };
         (Hole::default(), State::new([q], [0.0]))
     };
-    at_each_level(|_| {
-        deviates(henon_heiles, StormerVerlet::default(), 3);
-        deviates(pendulum, Gauss::<2>::default(), 2);
-        deviates(falling, StormerVerlet::default(), 1);
-        deviates(falling, StormerVerlet::default(), 2);
-    });
+    deviates(henon_heiles, StormerVerlet::default(), 3);
+    deviates(pendulum, Gauss::<2>::default(), 2);
+    deviates(falling, StormerVerlet::default(), 1);
+    deviates(falling, StormerVerlet::default(), 2);
     let _level = one_level();
     let of = || Lyapunov::new(2, mixture, ImplicitMidpoint::default(), 0.1);
     assert!(matches!(

@@ -22,39 +22,35 @@ hamiltonian! {
 
 #[test]
 fn captures_of_each_member() {
-    at_each_level(|_| {
-        let swing = |member: Member| {
-            let at = part(member.index);
-            let (l, g) = (1.0 + at, 2.0 - at);
-            let system = hamiltonian! { H(q; p) = p^2/(2*l^2) - g*l*cos(q) };
-            (system, State::new([at - 0.3], [0.2]))
-        };
-        agrees(swing, StormerVerlet::default());
-    });
+    let swing = |member: Member| {
+        let at = part(member.index);
+        let (l, g) = (1.0 + at, 2.0 - at);
+        let system = hamiltonian! { H(q; p) = p^2/(2*l^2) - g*l*cos(q) };
+        (system, State::new([at - 0.3], [0.2]))
+    };
+    agrees(swing, StormerVerlet::default());
 }
 
 #[test]
 fn arrays_of_each_member() {
-    at_each_level(|_| {
-        let springs = |member: Member| {
-            let at = part(member.index);
-            let springs = Springs {
-                k: [1.0, 2.0 - at, at].into(),
-                c: 0.1 * at,
-                d: [[[0.0; 3]], [[0.1, at, 0.2]]],
-            };
-            (springs, State::new([at, 0.3, -at], [0.2, at, 0.1]))
+    let springs = |member: Member| {
+        let at = part(member.index);
+        let springs = Springs {
+            k: [1.0, 2.0 - at, at].into(),
+            c: 0.1 * at,
+            d: [[[0.0; 3]], [[0.1, at, 0.2]]],
         };
-        agrees(springs, StormerVerlet::default());
-        let masses = |member: Member| {
-            let at = part(member.index);
-            let w = vec![vec![0.3, 0.1 * at, 0.0], vec![0.2; 3], vec![at, 0.1, 0.5]];
-            let d = vec![[[0.0; 3], [0.1, 0.2 * at, 0.3]]; 3];
-            let masses = Masses::new(3, vec![1.0, 1.0 + at, 2.0 - at], w, d).expect("three masses");
-            (masses, State::new(vec![at, 0.3, -at], vec![0.2, at, 0.1]))
-        };
-        agrees(masses, StormerVerlet::default());
-    });
+        (springs, State::new([at, 0.3, -at], [0.2, at, 0.1]))
+    };
+    agrees(springs, StormerVerlet::default());
+    let masses = |member: Member| {
+        let at = part(member.index);
+        let w = vec![vec![0.3, 0.1 * at, 0.0], vec![0.2; 3], vec![at, 0.1, 0.5]];
+        let d = vec![[[0.0; 3], [0.1, 0.2 * at, 0.3]]; 3];
+        let masses = Masses::new(3, vec![1.0, 1.0 + at, 2.0 - at], w, d).expect("three masses");
+        (masses, State::new(vec![at, 0.3, -at], vec![0.2, at, 0.1]))
+    };
+    agrees(masses, StormerVerlet::default());
 }
 
 /// H = ½(p² + ω²q²), by hand; it describes no parameters.
@@ -170,7 +166,7 @@ fn spring(member: Member) -> (Spring, StateOf<Spring>) {
 
 #[test]
 fn a_system_by_hand() {
-    at_each_level(|_| agrees(spring, RungeKutta4));
+    agrees(spring, RungeKutta4);
 }
 
 #[test]

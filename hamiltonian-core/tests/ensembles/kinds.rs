@@ -76,53 +76,47 @@ fn kepler(member: Member) -> (Kepler, StateOf<Kepler>) {
 
 #[test]
 fn members_with_forces() {
-    at_each_level(|_| {
-        let dragged = |member: Member| {
-            let at = part(member.index);
-            let (oil, air) = (0.3 * at, 0.2 - 0.1 * at);
-            (Dragged { oil, air }, swing(at))
-        };
-        agrees(dragged, StormerVerlet::default());
-        let pushed = |member: Member| {
-            let at = part(member.index);
-            (Pushed { gamma: 0.3 * at }, swing(at))
-        };
-        agrees(pushed, BlanesMoan4);
-    });
+    let dragged = |member: Member| {
+        let at = part(member.index);
+        let (oil, air) = (0.3 * at, 0.2 - 0.1 * at);
+        (Dragged { oil, air }, swing(at))
+    };
+    agrees(dragged, StormerVerlet::default());
+    let pushed = |member: Member| {
+        let at = part(member.index);
+        (Pushed { gamma: 0.3 * at }, swing(at))
+    };
+    agrees(pushed, BlanesMoan4);
 }
 
 #[test]
 fn members_with_declared_pieces() {
-    at_each_level(|_| {
-        let perturbed = |member: Member| {
-            let at = part(member.index);
-            (Perturbed { e: 0.2 * at }, swing(at))
-        };
-        agrees(perturbed, Saba4);
-    });
+    let perturbed = |member: Member| {
+        let at = part(member.index);
+        (Perturbed { e: 0.2 * at }, swing(at))
+    };
+    agrees(perturbed, Saba4);
 }
 
 #[test]
 fn members_in_another_time() {
-    at_each_level(|_| {
-        let slowed = |member: Member| {
-            let at = part(member.index);
-            let (Kepler { mu }, start) = kepler(member);
-            let system = Slowed { mu };
-            let start = system.from_declared(&start.at(at));
-            (system, start)
-        };
-        agrees(slowed, ImplicitMidpoint::default());
-        let transformed = |member: Member| {
-            let (system, start) = kepler(member);
-            let system = TimeTransformed::by(system, "r").expect("it is declared");
-            let start = system
-                .start(&start.at(part(member.index)))
-                .expect("g is positive");
-            (system, start)
-        };
-        agrees(transformed, TransformedVerlet::default());
-    });
+    let slowed = |member: Member| {
+        let at = part(member.index);
+        let (Kepler { mu }, start) = kepler(member);
+        let system = Slowed { mu };
+        let start = system.from_declared(&start.at(at));
+        (system, start)
+    };
+    agrees(slowed, ImplicitMidpoint::default());
+    let transformed = |member: Member| {
+        let (system, start) = kepler(member);
+        let system = TimeTransformed::by(system, "r").expect("it is declared");
+        let start = system
+            .start(&start.at(part(member.index)))
+            .expect("g is positive");
+        (system, start)
+    };
+    agrees(transformed, TransformedVerlet::default());
 }
 
 #[test]
@@ -130,14 +124,12 @@ fn members_with_variable_steps() {
     // The first prepares each step, the second makes it at once.
     let verlet = Paced::new(StormerVerlet::default(), Close);
     let suzuki = Paced::new(Suzuki4, Close);
-    at_each_level(|_| {
-        agrees(kepler, verlet);
-        agrees(kepler, suzuki);
-    });
+    agrees(kepler, verlet);
+    agrees(kepler, suzuki);
 }
 
 #[test]
 fn members_to_a_tolerance() {
     let scheme = Adaptive::new(GaussNystrom::<8>::default(), 1e-9);
-    at_each_level(|_| agrees(kepler, scheme));
+    agrees(kepler, scheme);
 }

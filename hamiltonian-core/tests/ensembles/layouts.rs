@@ -26,7 +26,7 @@ fn with_errors<S: System, M: Scheme<S>, A: Rounding>(
 #[test]
 fn failing_members_change_no_bit_whatever_the_layout() {
     let sweep = || {
-        Sweep::try_new(COUNT, holes, StormerVerlet::default(), 0.01)
+        Sweep::try_new(COUNT, holes, StormerVerlet::default(), 0.04)
             .with_end_each(|member| 12.0 + 5.0 * part(COUNT - member.index))
     };
     at_each_level(|cpu| {

@@ -4,7 +4,7 @@ use super::*;
 use hamiltonian::errors::{StartError, StepError, SweepError};
 use hamiltonian::schemes::{SecondPoint, Tao, TwoStepMidpoint};
 
-/// Members of a reproducible ensemble, advanced in two calls on two threads, have the bits of single runs.
+/// Members of a reproducible ensemble, advanced in two calls on two threads, have the bits of single runs, on each level.
 pub(super) fn agrees<S, M>(make: impl Fn(Member) -> (S, StateOf<S>), scheme: M)
 where
     S: System,
@@ -12,41 +12,42 @@ where
 {
     let name = hamiltonian::schemes::author::Listed::entry(&scheme).to_string();
     let h = 0.03125;
-    let mut swarm = Ensemble::new(COUNT, &make, scheme.clone(), h)
-        .expect("there are members")
-        .reproducible()
-        .with_threads(2);
-    swarm.advance(7).advance(6);
-    let mut members = 0;
-    for (index, end) in swarm.states().enumerate() {
+    let alone = |index| {
         let (system, start) = make(Member::new(index, 0));
         let mut run = Integrator::new(&system, scheme.clone(), start, h).expect("a good start");
-        let expected = run.advance(13).expect("finite").clone();
-        let found = end.expect("finite");
-        assert_eq!(
-            bits(&found),
-            bits(&expected),
-            "{name}, member {index}: {found:?} {expected:?}"
-        );
-        members += 1;
-    }
-    assert_eq!(members, COUNT);
+        run.advance(13).expect("finite").clone()
+    };
+    let expected: Vec<_> = (0..COUNT).map(alone).collect();
+    at_each_level(|cpu| {
+        let mut swarm = Ensemble::new(COUNT, &make, scheme.clone(), h)
+            .expect("there are members")
+            .reproducible()
+            .with_threads(2);
+        swarm.advance(7).advance(6);
+        assert_eq!(swarm.states().count(), COUNT);
+        for (index, (found, expected)) in swarm.states().zip(&expected).enumerate() {
+            let found = found.expect("finite");
+            assert_eq!(
+                bits(&found),
+                bits(expected),
+                "{name} on {cpu:?}, member {index}: {found:?} {expected:?}"
+            );
+        }
+    });
 }
 
 #[test]
 fn members_have_the_bits_of_single_runs() {
-    at_each_level(|_| {
-        // `benches/catalogue.rs` does the same with every scheme.
-        agrees(pendulum, StormerVerlet::default());
-        agrees(pendulum, ImplicitMidpoint::default());
-        agrees(henon_heiles, Gauss::<2>::default());
-        agrees(mixture, Tao::default());
-        agrees(
-            mixture,
-            TwoStepMidpoint::default().with_second_point(SecondPoint::SecondOrder),
-        );
-        agrees(chain, StormerVerlet::default());
-    });
+    // `benches/catalogue.rs` does the same with every scheme.
+    agrees(pendulum, StormerVerlet::default());
+    agrees(pendulum, ImplicitMidpoint::default());
+    agrees(henon_heiles, Gauss::<2>::default());
+    agrees(mixture, Tao::default());
+    agrees(
+        mixture,
+        TwoStepMidpoint::default().with_second_point(SecondPoint::SecondOrder),
+    );
+    agrees(chain, StormerVerlet::default());
 }
 
 #[test]
@@ -86,26 +87,30 @@ fn a_failing_member_says_where_and_disturbs_nobody() {
         };
         (Hole::default(), State::new([q], [0.0]))
     };
+    let alone = |index| {
+        let (system, start) = holes(Member::new(index, 0));
+        Integrator::new(&system, StormerVerlet::default(), start, 0.01)
+            .and_then(|mut run| run.advance(1800).cloned())
+    };
+    let singles: Vec<_> = (0..COUNT).map(alone).collect();
     at_each_level(|_| {
         let swarm = || {
             Ensemble::new(COUNT, holes, StormerVerlet::default(), 0.01).expect("there are members")
         };
-        fail_alone(swarm(), holes, false);
-        fail_alone(swarm().reproducible(), holes, true);
+        fail_alone(swarm(), &singles, false);
+        fail_alone(swarm().reproducible(), &singles, true);
     });
 }
 
 fn fail_alone<A: hamiltonian::Rounding>(
     mut swarm: Ensemble<Hole, StormerVerlet, (), A>,
-    holes: impl Fn(Member) -> (Hole, StateOf<Hole>),
+    singles: &[Result<StateOf<Hole>, Error>],
     is_exact: bool,
 ) {
     swarm.advance(900).advance(900);
     let mut failed = 0;
-    for (index, end) in swarm.states().enumerate() {
-        let (system, start) = holes(Member::new(index, 0));
-        let single = Integrator::new(&system, StormerVerlet::default(), start, 0.01)
-            .and_then(|mut run| run.advance(1800).cloned());
+    assert_eq!(swarm.states().count(), singles.len());
+    for (index, (single, end)) in singles.iter().zip(swarm.states()).enumerate() {
         match (single, end) {
             (Ok(expected), Ok(found)) => {
                 assert!((found.q[0] - expected.q[0]).abs() < 1e-10);
@@ -123,7 +128,7 @@ fn fail_alone<A: hamiltonian::Rounding>(
                     // By text, since a NaN is not itself.
                     assert_eq!(error.to_string(), expected.to_string());
                 }
-                let same = match (&*error, &expected) {
+                let same = match (&*error, expected) {
                     (
                         Error::Step(StepError::NotFinite {
                             step: a, piece: c, ..

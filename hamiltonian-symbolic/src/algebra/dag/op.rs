@@ -177,7 +177,10 @@ macro_rules! operations {
             pub fn eval_apart<T: Real>(self, arguments: &[T]) -> T {
                 match (self, arguments) {
                     $((Op::$variant, &[$($arg),+]) => {
-                        T::out_of_line(|| operations!(@call $name $($arg)+))
+                        T::out_of_line(
+                            #[inline(always)]
+                            || operations!(@call $name $($arg)+),
+                        )
                     })+
                     (op, arguments) => unreachable!("{op:?} of {} arguments", arguments.len()),
                 }

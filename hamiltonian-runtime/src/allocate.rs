@@ -4,16 +4,39 @@
 //! same time share registers. Invariant: a value that a loop reads and that is computed before it keeps its register to
 //! the end of the loop.
 
-use crate::op::{COEFFICIENT, HELD, Op, Register, Stage};
+use crate::op::{COEFFICIENT, HELD, Op, PHASE, Register, Stage};
 use hamiltonian_symbolic::dag::Map;
 
 /// The first and the last operation that needs a register.
 type Span = (usize, usize);
 
+/// The first register of each kind.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layout {
+    pub(crate) held: usize,
+    pub(crate) coefficients: usize,
+    /// That of the point.
+    pub(crate) phase: usize,
+    /// That of values.
+    pub(crate) values: usize,
+}
+
+impl Layout {
+    /// Held registers first, then those of the step coefficient, then values.
+    pub(crate) fn of(stage: &Stage) -> Layout {
+        let held = stage.held.len();
+        Layout {
+            held: 0,
+            coefficients: held,
+            phase: 0,
+            values: held + stage.coefficients,
+        }
+    }
+}
+
 /// Numbers the registers of a stage anew.
-pub(crate) fn allocate(stage: &mut Stage) {
-    let (held, coefficients) = (stage.held.len(), stage.coefficients);
-    let first = (held + coefficients) as Register;
+pub(crate) fn allocate(stage: &mut Stage, layout: Layout) {
+    let first = layout.values as Register;
     let mut spans: [Map<Register, Span>; 2] = [Map::default(), Map::default()];
     for (at, op) in stage.ops.iter().enumerate() {
         let mut op = *op;
@@ -85,10 +108,11 @@ pub(crate) fn allocate(stage: &mut Stage) {
     }
     let image = |register: &mut Register, class: usize| {
         *register = match *register {
+            phase if phase >= PHASE => layout.phase as Register + phase - PHASE,
             coefficient if coefficient >= COEFFICIENT => {
-                held as Register + coefficient - COEFFICIENT
+                layout.coefficients as Register + coefficient - COEFFICIENT
             }
-            held if held >= HELD => held - HELD,
+            held if held >= HELD => layout.held as Register + held - HELD,
             register => images[class][&register],
         };
     };
@@ -124,7 +148,7 @@ fn extended((from, mut to): Span, loops: &[Span]) -> Span {
 }
 
 /// Visits the registers of an operation: of numbers in class 0, of conditions in class 1.
-fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize)) {
+pub(crate) fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize)) {
     match op {
         Op::Time(a)
         | Op::Coefficient(a)
@@ -136,7 +160,7 @@ fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize)) {
         | Op::AddToQ(_, a)
         | Op::AddToP(_, a)
         | Op::LoadAt(a, ..) => visit(a, 0),
-        Op::Neg(a, b) | Op::Recip(a, b) | Op::Call(a, _, b) => {
+        Op::Copy(a, b) | Op::Neg(a, b) | Op::Recip(a, b) | Op::Call(a, _, b) => {
             [a, b].into_iter().for_each(|r| visit(r, 0));
         }
         Op::Add(a, b, c)

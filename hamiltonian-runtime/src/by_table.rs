@@ -4,11 +4,14 @@
 //! take a splitting. Invariant: a step applies the same flows in the same order as the scheme of the type, so the bits are
 //! the same; the map is compiled once.
 
+use crate::cycle::{Cycle, CycleFrame};
 use crate::flow::{Inside, PartFlow};
+use crate::machine::Registers;
 use crate::prepared::{Flat, Prepared};
 use crate::system::{RuntimePieces, RuntimeSystem};
+use hamiltonian_core::private::Times;
 use hamiltonian_core::schemes::author::{
-    Description, Durations, Dynamics, Entry, Listed, Point, Splitting, Step, Zigzag,
+    Cause, Description, Durations, Dynamics, Entry, Listed, Map, Point, Splitting, Step, Zigzag,
 };
 use hamiltonian_core::{Scheme, State};
 use hamiltonian_lanes::Real;
@@ -148,7 +151,7 @@ impl Listed for ByTable {
 
 impl Scheme<RuntimeSystem> for ByTable {
     type Carried = Point<<RuntimeSystem as hamiltonian_core::System>::Shape>;
-    type Map<T: Real> = Zigzag<Point<Flat<T>>, PartFlow<T>, Inside<T>, Weights>;
+    type Map<T: Real> = ByTableMap<T>;
 
     fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
         self.weights.times_on(self.moves.on(of).1)
@@ -156,10 +159,73 @@ impl Scheme<RuntimeSystem> for ByTable {
 
     fn prepare<T: Real>(&self, prepared: &Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (pieces, _) = self.moves.on(prepared.description());
-        Zigzag::new(&self.weights, &pieces, prepared, step)
+        let flows = Zigzag::new(&self.weights, &pieces, prepared, step);
+        ByTableMap {
+            cycle: Cycle::new(flows.flows()),
+            flows,
+        }
     }
 
     fn start<T: Real>(&self, _: &Prepared<T>, state: &State<Flat<T>>, _: T) -> Point<Flat<T>> {
         state.point()
+    }
+}
+
+/// A splitting for a given step, whose flows are one code where they are short.
+#[derive(Debug)]
+pub(crate) struct ByTableMap<T: Real> {
+    flows: Zigzag<Point<Flat<T>>, PartFlow<T>, Inside<T>, Weights>,
+    cycle: Option<Cycle<T>>,
+}
+
+impl<T: Real> Map for ByTableMap<T> {
+    type Carried = Point<Flat<T>>;
+    /// The scratch of the flows, and the frame.
+    type Work = ((Registers<T>, Registers<T>), CycleFrame<T>);
+
+    #[inline(always)]
+    fn open(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
+        self.flows.open(t, z, &mut work.0);
+    }
+    #[inline(always)]
+    fn body(&self, t: T, end: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
+        self.flows.body(t, end, z, &mut work.0);
+    }
+    #[inline(always)]
+    fn close(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
+        self.flows.close(t, z, &mut work.0);
+    }
+    #[inline(always)]
+    fn closing(&self) -> [bool; 2] {
+        self.flows.closing()
+    }
+    #[inline(always)]
+    fn join(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
+        self.flows.join(t, z, &mut work.0);
+    }
+    #[cold]
+    fn explain(
+        &self,
+        t: T,
+        end: T,
+        first: bool,
+        z: &mut Point<Flat<T>>,
+        work: &mut Self::Work,
+    ) -> Cause {
+        self.flows.explain(t, end, first, z, &mut work.0)
+    }
+    #[inline(always)]
+    fn go_on<C: Times<T>>(
+        &self,
+        times: &C,
+        made: u64,
+        end: u64,
+        z: &mut Point<Flat<T>>,
+        work: &mut Self::Work,
+    ) {
+        match &self.cycle {
+            Some(cycle) => cycle.go_on(|k| times.at(k), (made, end), z, &mut work.1),
+            None => self.flows.go_on(times, made, end, z, &mut work.0),
+        }
     }
 }

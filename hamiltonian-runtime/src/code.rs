@@ -6,6 +6,7 @@
 use crate::flatten::{Kind, Places, Setting, computed, stage};
 use crate::op::{FunctionCode, Stage, To};
 use crate::sizes::value;
+use crate::unroll::{frames, straight};
 use crate::variables::{Coordinates, Declared, coordinates};
 use hamiltonian_core::schemes::author::{Description, Group, Observable, ObservableKind};
 use hamiltonian_core::systems::{Missing, NamedPiece};
@@ -101,14 +102,21 @@ impl Code {
         };
         let prepared = &program.prepared;
         let (prepare, _) = stage(setting, Kind::Prepare, &program.prepare, &[], prepared)?;
-        let mut functions = Vec::new();
+        let (mut functions, mut flows) = (Vec::new(), Vec::new());
         for function in &program.functions {
             // Derivatives by parameters are not part of a run.
             if function.purpose != Purpose::ParameterGradient {
-                let code = Arc::new(of_function(setting, function)?);
+                let (code, flow) = of_function(setting, function)?;
                 functions.push((function.purpose, code));
+                flows.push(flow);
             }
         }
+        for ((_, code), framed) in functions.iter_mut().zip(frames(places.len, flows)) {
+            code.framed = framed;
+        }
+        let functions = functions.into_iter();
+        let functions = functions.map(|(purpose, code)| (purpose, Arc::new(code)));
+        let functions: Vec<_> = functions.collect();
         let halves = [Purpose::GradientQ, Purpose::GradientP];
         let (pieces, split) = pieces(model, structure);
         let (nystrom, nystrom_missing) = nystrom(structure, &pieces);
@@ -234,7 +242,11 @@ fn places(system: &System, len: usize, sizes: &[usize]) -> Places {
     }
 }
 
-fn of_function(setting: Setting, function: &Function) -> Result<FunctionCode, String> {
+/// The code of a function, and that of a flow in a frame before its registers are numbered.
+fn of_function(
+    setting: Setting,
+    function: &Function,
+) -> Result<(FunctionCode, Option<Stage>), String> {
     let mut coefficients = Vec::new();
     computed(&function.coefficient, &mut coefficients);
     let kind = match function.purpose {
@@ -244,6 +256,12 @@ fn of_function(setting: Setting, function: &Function) -> Result<FunctionCode, St
     let (steps, results) = (&function.evaluation, &function.results);
     let (evaluation, read) = stage(setting, kind, steps, &coefficients, results)?;
     let (coefficient, _) = stage(setting, Kind::Plain, &function.coefficient, &[], &read)?;
+    let flow = match function.purpose {
+        Purpose::Kick | Purpose::Drift | Purpose::Piece(_) if results.is_empty() => {
+            straight(setting, kind, steps, &coefficients, &read)
+        }
+        _ => None,
+    };
     let cleared = function.cleared.iter().map(|target| match target {
         Target::Phase(column) => {
             let to = match column.side {
@@ -257,11 +275,13 @@ fn of_function(setting: Setting, function: &Function) -> Result<FunctionCode, St
         _ => Err("derivatives by parameters".to_owned()),
     });
     let cleared = cleared.collect::<Result<_, String>>()?;
-    Ok(FunctionCode {
+    let code = FunctionCode {
         coefficient,
         evaluation,
+        framed: None,
         cleared,
-    })
+    };
+    Ok((code, flow))
 }
 
 /// The reason against a kick that is not a plain one.

@@ -3,7 +3,7 @@
 //! Input: a program, the sizes, the places of arrays. Output: a [`Stage`] for each block of steps. Invariant: operations in
 //! the order of the program's steps; what has no such code is refused by name.
 
-use crate::allocate::allocate;
+use crate::allocate::{Layout, allocate};
 use crate::machine;
 use crate::op::{
     Address, Axis, COEFFICIENT, Change, DEPTH, Form, From, HELD, Held, LoopCode, Op, Register,
@@ -59,18 +59,7 @@ pub(crate) fn stage(
     coefficients: &[Value],
     results: &[Value],
 ) -> Result<(Stage, Vec<Value>), String> {
-    let mut builder = Builder {
-        setting,
-        kind,
-        coefficients,
-        stage: Stage::default(),
-        numbers: Map::default(),
-        masks: Map::default(),
-        cosines: Map::default(),
-        loops: Vec::new(),
-        read: Vec::new(),
-        next: [0; 2],
-    };
+    let mut builder = Builder::new(setting, kind, coefficients);
     builder.steps(steps)?;
     for result in results {
         let register = match setting.program.instruction(*result).is_mask() {
@@ -87,7 +76,8 @@ pub(crate) fn stage(
     let read = builder.read;
     let mut stage = builder.stage;
     stage.coefficients = read.len();
-    allocate(&mut stage);
+    let layout = Layout::of(&stage);
+    allocate(&mut stage, layout);
     stage.is_short = machine::is_short(&stage);
     Ok((stage, read))
 }
@@ -106,35 +96,70 @@ pub(crate) fn computed(steps: &[Step], values: &mut Vec<Value>) {
     }
 }
 
-struct Builder<'a> {
-    setting: Setting<'a>,
-    kind: Kind,
-    coefficients: &'a [Value],
-    stage: Stage,
-    numbers: Map<Value, Register>,
-    masks: Map<Value, Register>,
+/// The iterations of loops that are unrolled.
+#[derive(Default)]
+pub(crate) struct Unrolled {
+    pub(crate) variables: Map<Domain, i64>,
+    /// The partial sums of the present loop, if its sums are trees: of each sum, eight.
+    pub(crate) partials: Option<Map<Value, [Register; 8]>>,
+    /// The number of the present iteration.
+    pub(crate) iteration: usize,
+}
+
+impl Unrolled {
+    fn variable(&self, domain: Domain) -> Result<i64, String> {
+        let known = self.variables.get(&domain).copied();
+        known.ok_or_else(|| "a variable outside of its loop".to_owned())
+    }
+}
+
+pub(crate) struct Builder<'a> {
+    pub(crate) setting: Setting<'a>,
+    pub(crate) kind: Kind,
+    pub(crate) coefficients: &'a [Value],
+    pub(crate) stage: Stage,
+    pub(crate) numbers: Map<Value, Register>,
+    pub(crate) masks: Map<Value, Register>,
     /// The cosines that were computed with a sine.
-    cosines: Map<Value, Register>,
+    pub(crate) cosines: Map<Value, Register>,
+    /// Where code has no loops and no addresses: the iterations of the present step.
+    pub(crate) unrolled: Option<Unrolled>,
     /// The loops around the present step, each with the first partial sums of its sums.
     loops: Vec<(Domain, Vec<(Register, Register)>)>,
     /// The values of the coefficient stage that are read.
-    read: Vec<Value>,
+    pub(crate) read: Vec<Value>,
     /// The next register of numbers, and of conditions.
     next: [Register; 2],
 }
 
-impl Builder<'_> {
-    fn push(&mut self, op: Op) {
+impl<'a> Builder<'a> {
+    pub(crate) fn new(setting: Setting<'a>, kind: Kind, coefficients: &'a [Value]) -> Self {
+        Builder {
+            setting,
+            kind,
+            coefficients,
+            stage: Stage::default(),
+            numbers: Map::default(),
+            masks: Map::default(),
+            cosines: Map::default(),
+            unrolled: None,
+            loops: Vec::new(),
+            read: Vec::new(),
+            next: [0; 2],
+        }
+    }
+
+    pub(crate) fn push(&mut self, op: Op) {
         self.stage.ops.push(op);
     }
 
-    fn register(&mut self) -> Register {
+    pub(crate) fn register(&mut self) -> Register {
         self.next[0] += 1;
         self.next[0] - 1
     }
 
     /// A register that holds a number.
-    fn held(&mut self, held: Held) -> Register {
+    pub(crate) fn held(&mut self, held: Held) -> Register {
         let same = |known: &Held| match (known, &held) {
             (Held::Constant(a, b), Held::Constant(c, d)) => {
                 [a.to_bits(), b.to_bits()] == [c.to_bits(), d.to_bits()]
@@ -166,7 +191,7 @@ impl Builder<'_> {
     }
 
     /// The register of a number.
-    fn number(&mut self, of: Value) -> Result<Register, String> {
+    pub(crate) fn number(&mut self, of: Value) -> Result<Register, String> {
         if let Some(register) = self.numbers.get(&of) {
             return Ok(*register);
         }
@@ -205,13 +230,18 @@ impl Builder<'_> {
         Ok(level as u8)
     }
 
-    fn form(&self, affine: &Affine) -> Result<Form, String> {
-        let terms = affine.loops.iter();
-        let terms = terms.map(|(domain, factor)| Ok((self.level(*domain)?, *factor)));
-        Ok(Form {
+    pub(crate) fn form(&self, affine: &Affine) -> Result<Form, String> {
+        let mut form = Form {
             constant: value(affine, self.setting.sizes),
-            terms: terms.collect::<Result<_, String>>()?,
-        })
+            terms: Vec::new(),
+        };
+        for (domain, factor) in &affine.loops {
+            match &self.unrolled {
+                Some(unrolled) => form.constant += factor * unrolled.variable(*domain)?,
+                None => form.terms.push((self.level(*domain)?, *factor)),
+            }
+        }
+        Ok(form)
     }
 
     fn form_number(&mut self, affine: &Affine) -> Result<u32, String> {
@@ -285,7 +315,7 @@ impl Builder<'_> {
         array: Array,
         row: &Index,
         column: Option<&Index>,
-    ) -> Result<(), String> {
+    ) -> Result<Register, String> {
         let places = self.setting.places;
         let is_prepare = self.kind == Kind::Prepare;
         let data = match is_prepare {
@@ -317,6 +347,7 @@ impl Builder<'_> {
             Array::Velocity(_) => return Err("velocities in a program".to_owned()),
         };
         let op = match self.address(base, row, column)? {
+            Ok(place) if self.unrolled.is_some() => return self.in_frame(from, place),
             Ok(place) => match from {
                 From::Q => Op::LoadQ(to, place),
                 From::P => Op::LoadP(to, place),
@@ -325,13 +356,17 @@ impl Builder<'_> {
             Err(address) => Op::LoadAt(to, from, address),
         };
         self.push(op);
-        Ok(())
+        Ok(to)
     }
 
-    fn steps(&mut self, steps: &[Step]) -> Result<(), String> {
+    pub(crate) fn steps(&mut self, steps: &[Step]) -> Result<(), String> {
         for step in steps {
             match step {
                 Step::Let(value) => self.compute(*value)?,
+                Step::Accumulate(sum, term) if self.unrolled.is_some() => {
+                    self.add_term(*sum, *term)?;
+                }
+                Step::Loop(of) if self.unrolled.is_some() => self.unroll(of)?,
                 Step::Accumulate(sum, term) => {
                     let (sum, term) = (self.number(*sum)?, self.number(*term)?);
                     let level = self.loops.len().saturating_sub(1) as u8;
@@ -386,6 +421,9 @@ impl Builder<'_> {
         };
         let (a, b) = (self.number(*a)?, self.number(*b)?);
         let op = match self.address(base, row, None)? {
+            Ok(place) if self.unrolled.is_some() => {
+                return self.change_in_frame(to, place, change, [a, b]);
+            }
             Ok(place) => match (to, change) {
                 (To::Q, Change::Add) => Op::AddToQ(place, a),
                 (To::P, Change::Add) => Op::AddToP(place, a),
@@ -479,6 +517,11 @@ impl Builder<'_> {
         let op = match (instruction, operands.as_slice()) {
             (I::Time, _) => Op::Time(to),
             (I::Coefficient, _) => Op::Coefficient(to),
+            (I::Variable(_) | I::Extent(_) | I::Count(..), _) if self.unrolled.is_some() => {
+                let number = self.count(instruction)?;
+                self.numbers.insert(of, number);
+                return Ok(());
+            }
             (I::Variable(domain), _) => {
                 Op::Number(to, self.form_number(&Affine::variable(*domain))?)
             }
@@ -487,7 +530,7 @@ impl Builder<'_> {
                 Op::Count(to, self.form_number(start)?, self.form_number(end)?)
             }
             (I::Load(array, row, column), _) => {
-                self.load(to, *array, row, column.as_ref())?;
+                let to = self.load(to, *array, row, column.as_ref())?;
                 self.numbers.insert(of, to);
                 return Ok(());
             }

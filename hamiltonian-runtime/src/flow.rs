@@ -16,10 +16,10 @@ use std::sync::Arc;
 
 /// A function with the numbers of a step coefficient.
 #[derive(Debug, Clone)]
-struct Folded<T> {
+pub(crate) struct Folded<T> {
     /// The function; `None` if there is none.
-    function: Option<Arc<FunctionCode>>,
-    numbers: Vec<T>,
+    pub(crate) function: Option<Arc<FunctionCode>>,
+    pub(crate) numbers: Vec<T>,
 }
 
 impl<T: Real> Folded<T> {
@@ -93,23 +93,31 @@ impl<T: Real> Scratch<Point<Flat<T>>> for Registers<T> {
 /// The flow of a piece of H for a duration.
 #[derive(Debug, Clone)]
 pub struct PartFlow<T: Real> {
-    prepared: Prepared<T>,
+    pub(crate) prepared: Prepared<T>,
     part: Part,
-    folded: Folded<T>,
+    pub(crate) folded: Folded<T>,
 }
 
 impl<T: Real> PartFlow<T> {
     pub(crate) fn new(prepared: &Prepared<T>, part: Part, c: T) -> Self {
-        let purpose = match part {
-            Part::Kick => Purpose::Kick,
-            Part::Drift => Purpose::Drift,
-            Part::Piece(number) => Purpose::Piece(number as u16),
-        };
         PartFlow {
             prepared: prepared.clone(),
             part,
-            folded: Folded::new(prepared, purpose, c),
+            folded: Folded::new(prepared, PartFlow::<T>::purpose(part), c),
         }
+    }
+
+    fn purpose(part: Part) -> Purpose {
+        match part {
+            Part::Kick => Purpose::Kick,
+            Part::Drift => Purpose::Drift,
+            Part::Piece(number) => Purpose::Piece(number as u16),
+        }
+    }
+
+    /// The number of its function.
+    pub(crate) fn number(&self) -> Option<usize> {
+        self.prepared.code.number(PartFlow::<T>::purpose(self.part))
     }
 }
 

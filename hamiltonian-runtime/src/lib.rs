@@ -32,6 +32,9 @@
 //!    The scalar is `f64`, a dual number, a pack of members or of stages. Each operation is that of `interpret` of
 //!    hamiltonian-symbolic, in the same order, so the bits are those of compiled code that does not fuse.
 //!
+//!    The flows of a splitting, if they are short, are unrolled (`unroll`), and made one after the other with the point in
+//!    registers, for as many steps as nobody looks at (`cycle`).
+//!
 //! [`Run`] and [`Swarm`] are core's runs and ensembles behind a trait object, so that a text names the scheme. A splitting is a
 //! table of run time (`by_table`), and all of them have one map.
 //!
@@ -47,6 +50,7 @@ mod readme {}
 mod allocate;
 mod by_table;
 mod code;
+mod cycle;
 mod definition;
 mod diagnostics;
 mod dynamics;
@@ -62,6 +66,7 @@ mod sizes;
 mod starts;
 mod swarm;
 mod system;
+mod unroll;
 mod values;
 mod variables;
 mod watching;

@@ -9,7 +9,10 @@ use hamiltonian_lanes::{Mask, Real};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The least number of iterations of an innermost loop whose sums are trees.
-const LONG: i64 = 32;
+pub(crate) const LONG: i64 = 32;
+
+/// The registers of a frame, and those of conditions: powers of two, as those of short code.
+pub(crate) const FRAME: [usize; 2] = [256, 16];
 
 /// The registers of short code without loops, a power of two so that a masked number of a register is one of them, and those
 /// of conditions.
@@ -246,33 +249,11 @@ struct Frame {
     is_long: bool,
 }
 
-/// Runs an operation: those that need no loop, or one of the arms behind.
-macro_rules! operation {
-    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, $data:ident, $arrays:ident, { $($arms:tt)* }) => {
+/// Runs an operation of registers, or one of the arms behind.
+macro_rules! of_registers {
+    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, { $($arms:tt)* }) => {
         match $op {
-            Op::Time(to) => $r[$index(to)] = $arrays.t,
-            Op::Coefficient(to) => $r[$index(to)] = $arrays.c,
-            Op::Load(to, from, at) => $r[$index(to)] = $arrays.read($data, from, at as usize),
-            Op::LoadQ(to, at) => $r[$index(to)] = $arrays.q[at as usize],
-            Op::LoadP(to, at) => $r[$index(to)] = $arrays.p[at as usize],
-            Op::AddToQ(at, a) => $arrays.into_q[at as usize] += $r[$index(a)],
-            Op::AddToP(at, a) => $arrays.into_p[at as usize] += $r[$index(a)],
-            Op::AddProductToQ(at, a, b) => {
-                let element = &mut $arrays.into_q[at as usize];
-                *element = $r[$index(a)].fma($r[$index(b)], *element);
-            }
-            Op::AddProductToP(at, a, b) => {
-                let element = &mut $arrays.into_p[at as usize];
-                *element = $r[$index(a)].fma($r[$index(b)], *element);
-            }
-            Op::SubProductFromQ(at, a, b) => {
-                let element = &mut $arrays.into_q[at as usize];
-                *element = (-$r[$index(a)]).fma($r[$index(b)], *element);
-            }
-            Op::SubProductFromP(at, a, b) => {
-                let element = &mut $arrays.into_p[at as usize];
-                *element = (-$r[$index(a)]).fma($r[$index(b)], *element);
-            }
+            Op::Copy(to, a) => $r[$index(to)] = $r[$index(a)],
             Op::Neg(to, a) => $r[$index(to)] = -$r[$index(a)],
             Op::Add(to, a, b) => $r[$index(to)] = $r[$index(a)] + $r[$index(b)],
             Op::Sub(to, a, b) => $r[$index(to)] = $r[$index(a)] - $r[$index(b)],
@@ -318,12 +299,62 @@ macro_rules! operation {
                 $r[$index(to)] = <$T>::select($m[$index(mask)], <$T>::one(), <$T>::zero());
             }
             Op::IsOne(to, a) => $m[$index(to)] = $r[$index(a)].equals(<$T>::one()),
+            $($arms)*
+        }
+    };
+}
+
+/// Runs an operation: those that need no loop, or one of the arms behind.
+macro_rules! operation {
+    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, $data:ident, $arrays:ident, { $($arms:tt)* }) => {
+        of_registers!($op, $T, $r, $m, $index, {
+            Op::Time(to) => $r[$index(to)] = $arrays.t,
+            Op::Coefficient(to) => $r[$index(to)] = $arrays.c,
+            Op::Load(to, from, at) => $r[$index(to)] = $arrays.read($data, from, at as usize),
+            Op::LoadQ(to, at) => $r[$index(to)] = $arrays.q[at as usize],
+            Op::LoadP(to, at) => $r[$index(to)] = $arrays.p[at as usize],
+            Op::AddToQ(at, a) => $arrays.into_q[at as usize] += $r[$index(a)],
+            Op::AddToP(at, a) => $arrays.into_p[at as usize] += $r[$index(a)],
+            Op::AddProductToQ(at, a, b) => {
+                let element = &mut $arrays.into_q[at as usize];
+                *element = $r[$index(a)].fma($r[$index(b)], *element);
+            }
+            Op::AddProductToP(at, a, b) => {
+                let element = &mut $arrays.into_p[at as usize];
+                *element = $r[$index(a)].fma($r[$index(b)], *element);
+            }
+            Op::SubProductFromQ(at, a, b) => {
+                let element = &mut $arrays.into_q[at as usize];
+                *element = (-$r[$index(a)]).fma($r[$index(b)], *element);
+            }
+            Op::SubProductFromP(at, a, b) => {
+                let element = &mut $arrays.into_p[at as usize];
+                *element = (-$r[$index(a)]).fma($r[$index(b)], *element);
+            }
             Op::Store(to, at, change, a, b) => {
                 $arrays.change(to, at as usize, change, [$r[$index(a)], $r[$index(b)]]);
             }
             $($arms)*
-        }
+        })
     };
+}
+
+/// Runs the code of a frame.
+#[inline(always)]
+pub(crate) fn in_frame<T: Real>(
+    ops: &[Op],
+    t: T,
+    r: &mut [T; FRAME[0]],
+    m: &mut [T::Mask; FRAME[1]],
+) {
+    let number = |register: Register| register as usize % FRAME[0];
+    for op in ops {
+        of_registers!(*op, T, r, m, number, {
+            Op::Time(to) => r[number(to)] = t,
+            // A frame has none of the others.
+            _ => {}
+        });
+    }
 }
 
 /// The place of a register among those of short code.

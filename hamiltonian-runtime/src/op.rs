@@ -12,6 +12,8 @@ pub(crate) type Register = u32;
 pub(crate) const HELD: Register = 1 << 30;
 /// Registers from here on are those of the step coefficient.
 pub(crate) const COEFFICIENT: Register = 1 << 31;
+/// Registers from here on are the coordinates, and behind them the momenta, of code in a frame.
+pub(crate) const PHASE: Register = COEFFICIENT + HELD;
 
 /// The most loops inside each other.
 pub(crate) const DEPTH: usize = 8;
@@ -71,6 +73,7 @@ pub(crate) enum Op {
     LoadP(Register, u32),
     /// The element at the address of this number.
     LoadAt(Register, From, u32),
+    Copy(Register, Register),
     Neg(Register, Register),
     Add(Register, Register, Register),
     Sub(Register, Register, Register),
@@ -241,6 +244,8 @@ pub(crate) enum Held {
     Scalar(u16),
     /// A prepared value.
     Prepared(u32),
+    /// An element of the arrays of parameters, and those that preparation fills.
+    Data(u32),
 }
 
 /// A straight piece of code with loops.
@@ -270,6 +275,24 @@ pub(crate) struct FunctionCode {
     /// The values that depend on parameters and the step coefficient alone.
     pub(crate) coefficient: Stage,
     pub(crate) evaluation: Stage,
+    /// The evaluation in a frame, if it is the flow of a piece and short.
+    pub(crate) framed: Option<Framed>,
     /// The ranges of outputs that begin at 0.
     pub(crate) cleared: Vec<(To, usize, usize)>,
+}
+
+/// A flow as straight code in a frame, whose registers hold the point and the numbers of all flows.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Framed {
+    pub(crate) ops: Vec<Op>,
+    /// What its held registers hold.
+    pub(crate) held: Vec<Held>,
+    /// The first of them.
+    pub(crate) first_held: usize,
+    /// The first register of the step coefficient.
+    pub(crate) first_coefficient: usize,
+    /// The number of those.
+    pub(crate) coefficients: usize,
+    /// True if the time is read.
+    pub(crate) reads_time: bool,
 }

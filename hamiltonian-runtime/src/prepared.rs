@@ -5,7 +5,7 @@
 
 use crate::code::Code;
 use crate::machine::{Arrays, Given, Home, Pool, run};
-use crate::op::{FunctionCode, Held, Stage};
+use crate::op::{FunctionCode, Held};
 use hamiltonian_core::nalgebra::DVector;
 use hamiltonian_core::schemes::author::{Arithmetic, gather};
 use hamiltonian_lanes::{Pack, Real};
@@ -19,6 +19,8 @@ use std::sync::Arc;
 pub(crate) struct HeldOf<T> {
     pub(crate) coefficient: Vec<T>,
     pub(crate) evaluation: Vec<T>,
+    /// Those of its evaluation in a frame.
+    pub(crate) framed: Vec<T>,
 }
 
 /// A system with all numbers that depend on its parameters alone.
@@ -46,13 +48,14 @@ impl<T: Real> fmt::Debug for Prepared<T> {
 }
 
 /// What a stage holds.
-fn held<T: Real>(stage: &Stage, scalars: &[T], prepared: &[T]) -> Vec<T> {
+fn held<T: Real>(held: &[Held], scalars: &[T], prepared: &[T], data: &[T]) -> Vec<T> {
     let number = |held: &Held| match *held {
         Held::Constant(hi, lo) => T::constant(hi, lo),
         Held::Scalar(number) => scalars[usize::from(number)],
         Held::Prepared(number) => prepared[number as usize],
+        Held::Data(place) => data[place as usize],
     };
-    stage.held.iter().map(number).collect()
+    held.iter().map(number).collect()
 }
 
 impl<T: Real> Prepared<T> {
@@ -74,7 +77,7 @@ impl<T: Real> Prepared<T> {
         }
         let pool = Pool::new();
         let mut prepared = vec![T::zero(); code.prepare.results.len()];
-        let given = held(&code.prepare, &scalars, &[]);
+        let given = held(&code.prepare.held, &scalars, &[], &[]);
         let mut arrays = Arrays {
             into_data: &mut data,
             ..Arrays::none()
@@ -89,9 +92,11 @@ impl<T: Real> Prepared<T> {
             &mut arrays,
             &mut prepared,
         );
+        let of = |all: &[Held]| held(all, &scalars, &prepared, &data);
         let of_function = |(_, function): &(Purpose, Arc<FunctionCode>)| HeldOf {
-            coefficient: held(&function.coefficient, &scalars, &prepared),
-            evaluation: held(&function.evaluation, &scalars, &prepared),
+            coefficient: of(&function.coefficient.held),
+            evaluation: of(&function.evaluation.held),
+            framed: of(function.framed.as_ref().map_or(&[], |framed| &framed.held)),
         };
         let all = code.functions.iter().map(of_function).collect();
         Prepared::whole(code.clone(), all, data, Arithmetic::default())
@@ -137,6 +142,7 @@ impl<T: Real> Prepared<T> {
             evaluation: lanes(held.evaluation.len(), &|member, at| {
                 member.held[f].evaluation[at]
             }),
+            framed: lanes(held.framed.len(), &|member, at| member.held[f].framed[at]),
         });
         let held = held.collect();
         let data = lanes(first.data.len(), &|member, at| member.data[at]);

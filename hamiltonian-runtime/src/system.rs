@@ -99,6 +99,7 @@ impl RuntimeSystem {
 impl System for RuntimeSystem {
     type Shape = OMatrix<(), Dyn, Const<1>>;
     type Prepared<T: Real> = Prepared<T>;
+    const INTERPRETED: bool = true;
 
     fn description(&self) -> &Description {
         &self.code.description

@@ -5,10 +5,10 @@
 
 use crate::common::{definitions, numbers};
 use hamiltonian::schemes::author::{self, Dynamics, Flow, Piece, Pieces, Scratch, VectorField};
-use hamiltonian::{Separable, Split, System};
+use hamiltonian::{Separable, Split, State, System};
 use hamiltonian_language::analyse::{self, analyse};
 use hamiltonian_language::{read, report::Report};
-use hamiltonian_runtime::{Definition, PartFlow, RuntimeSystem, SystemError, Value, Values};
+use hamiltonian_runtime::{Definition, Run, RuntimeSystem, SystemError, Value, Values};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Size};
 use hamiltonian_symbolic::interpret::{Point, run};
@@ -128,7 +128,7 @@ fn same(a: &[f64], b: &[f64]) -> bool {
 }
 
 /// Moves a point by a flow.
-fn moved(flow: &PartFlow<f64>, t: f64, q: &mut Vector, p: &mut Vector) {
+fn moved(flow: &impl Flow<author::Point<Vector>>, t: f64, q: &mut Vector, p: &mut Vector) {
     let mut point = author::Point {
         q: q.clone(),
         p: p.clone(),
@@ -136,6 +136,39 @@ fn moved(flow: &PartFlow<f64>, t: f64, q: &mut Vector, p: &mut Vector) {
     let mut work = Scratch::like(&point);
     flow.apply(t, &mut point, &mut work);
     (*q, *p) = (point.q, point.p);
+}
+
+/// The end of three steps by the flows of the pieces, one after the other, from the time 0.3.
+fn steps_by_flows(system: &RuntimeSystem, q: &mut Vector, p: &mut Vector, h: f64) {
+    let prepared = system.prepare::<f64>();
+    let pieces = <RuntimeSystem as Split>::pieces::<f64>();
+    let [half, whole] = [0.5 * h, h].map(|c| pieces.outer(&prepared, c));
+    let inner = pieces.inner(&prepared, 0.5 * h, 0.5 * h);
+    let at = |k: i32| h * f64::from(k) + 0.3;
+    moved(&half, at(0), q, p);
+    for k in 0..3 {
+        moved(&inner, at(k) + 0.5 * h, q, p);
+        moved(if k < 2 { &whole } else { &half }, at(k + 1), q, p);
+    }
+}
+
+/// A run by name against the flows of the pieces: it makes many steps in one code. Returns true if it ended.
+fn compare_steps(text: &str, made: &RuntimeSystem) -> bool {
+    const H: f64 = 0.01;
+    let mut next = numbers(3);
+    let mut vector = || Vector::from_fn(made.degrees_of_freedom(), |_, _| next());
+    let (mut q, mut p) = (vector(), vector());
+    let start = State::new(q.clone(), p.clone()).at(0.3);
+    let Ok(mut run) = Run::new(made, "Strang", start, H) else {
+        return false;
+    };
+    if run.advance(3).is_err() {
+        return false;
+    }
+    steps_by_flows(made, &mut q, &mut p, H);
+    assert!(same(run.q(), q.as_slice()), "steps of {text}");
+    assert!(same(run.p(), p.as_slice()), "steps of {text}");
+    true
 }
 
 /// The functions of a system against the interpreter; returns how many were compared.
@@ -233,7 +266,7 @@ fn compare(text: &str, system: &analyse::System, made: &RuntimeSystem, size: usi
 fn functions_have_the_bits_of_the_interpreter() {
     let definitions = definitions();
     assert!(definitions.len() > 300, "{} definitions", definitions.len());
-    let (mut functions, mut systems, mut refused) = (0, 0, 0);
+    let (mut functions, mut systems, mut refused, mut runs) = (0, 0, 0, 0);
     let mut left_out: BTreeMap<String, usize> = BTreeMap::new();
     // The rest belongs to the long sweeps.
     let is_heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
@@ -252,6 +285,7 @@ fn functions_have_the_bits_of_the_interpreter() {
             match definition.system(values(&due, size)) {
                 Ok(made) => {
                     functions += compare(text, &due, &made, size);
+                    runs += usize::from(compare_steps(text, &made));
                     systems += 1;
                 }
                 Err(error @ SystemError::NotCarried { .. }) => {
@@ -268,8 +302,13 @@ fn functions_have_the_bits_of_the_interpreter() {
             }
         }
     }
-    println!("{systems} systems, {functions} functions, {refused} refused, left out: {left_out:?}");
-    assert!(systems > 90 && functions > 700, "{systems}, {functions}");
+    println!(
+        "{systems} systems, {functions} functions, {runs} runs, {refused} refused, left out: {left_out:?}"
+    );
+    assert!(
+        systems > 90 && functions > 700 && runs > 60,
+        "{systems}, {functions}, {runs}"
+    );
     let known = ["the function"];
     for feature in left_out.keys() {
         assert!(known.contains(&feature.as_str()), "{feature}");

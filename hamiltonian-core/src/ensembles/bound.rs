@@ -101,6 +101,8 @@ where
         // member at a time. The conditions are constant, so the compiler emits no code for the other widths.
         if const { matches!(L::CPU, Cpu::Portable | Cpu::Sse2) } {
             self.work.at::<L, f64, M>(self.scheme);
+        } else if const { S::INTERPRETED } {
+            self.at::<L, L::Several, Nf<L::Several>>();
         } else if const { numbers::<T, S, M>() <= 2 } {
             self.at::<L, L::Wide, Nf<L::Several>>();
         } else if const { numbers::<T, S, M>() <= 4 } {

@@ -311,6 +311,19 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         }
     }
 
+    /// The flows of a step after its opening one, if they [merge](Flow::MERGES): of each stage the inner and the outer flow,
+    /// each with its time after the beginning of the step. The last outer flow joins the step to the next, at its end.
+    pub fn flows(&self) -> impl Iterator<Item = (&I, X::Scalar, &O, X::Scalar)> {
+        let stages = self.stages.as_ref();
+        stages.iter().enumerate().map(move |(i, stage)| {
+            let outer = match i + 1 == stages.len() {
+                true => &self.joining,
+                false => &stage.outer,
+            };
+            (&stage.inner, stage.inner_at, &outer.up, stage.outer_at)
+        })
+    }
+
     /// The flow with which the step ends.
     #[inline(always)]
     fn last(&self) -> Option<&Link<O>> {

@@ -79,6 +79,7 @@ impl<S: System> System for Observed<S> {
     type Prepared<T: Real> =
         ReadyObserved<T, S::Prepared<T>, S::Prepared<Dual<T>>, S::Prepared<Dual<Dual<T>>>>;
     const DUALS: u32 = S::DUALS;
+    const INTERPRETED: bool = S::INTERPRETED;
 
     fn description(&self) -> &Description {
         &self.description

@@ -195,6 +195,10 @@ pub trait System {
     /// ```
     const DUALS: u32 = 0;
 
+    /// True if starting an operation takes longer than computing it, as in code that is interpreted. Members of an ensemble
+    /// then share packs that are as wide as the CPU level has, not as wide as stays in registers.
+    const INTERPRETED: bool = false;
+
     /// Writes each parameter with its value and all its digits, one per line, `m = 1.5`.
     ///
     /// [`resume`](crate::Integrator::resume) compares these lines with those of the saved run. The provided method writes

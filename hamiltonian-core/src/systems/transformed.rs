@@ -171,6 +171,7 @@ where
     type Shape = Pair<S::Shape, SVector<(), 1>>;
     type Prepared<T: Real> = InNewTime<S::Prepared<T>, G::Prepared<T>>;
     const DUALS: u32 = deepest(&[S::DUALS, G::DUALS]);
+    const INTERPRETED: bool = S::INTERPRETED;
 
     fn description(&self) -> &Description {
         &self.description

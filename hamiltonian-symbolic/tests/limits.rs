@@ -62,13 +62,13 @@ fn depth_costs_no_stack() {
         ] {
             let mut m = model("q, x; p, u", "", "a");
             let from = parse(&mut m, "q + p");
-            let h = chain(&mut m, from, ops, 750);
+            let h = chain(&mut m, from, ops, 500);
             everything(&mut m, h);
         }
         let mut m = model("q, x; p, u", "", "a");
         let mut node = parse(&mut m, "q*p");
         let one = m.dag.integer(1);
-        for _ in 0..1500 {
+        for _ in 0..1000 {
             let sum = m.dag.add(&[one, node]);
             node = m.dag.powi(sum, -1);
         }

@@ -185,18 +185,11 @@ const LIMITS: [(&str, &str); 2] = [
     ("struct Held ", "it is neither proven nor disproven"),
 ];
 
-/// The documentation of a definition whose pieces were found shows them as a statement. With it the definition is
-/// accepted, and has the same pieces in the same order.
-#[test]
-fn the_pieces_of_the_documentation_can_be_pasted() {
-    let mut sources: Vec<String> = DEFINITIONS.iter().map(|one| (*one).to_owned()).collect();
-    sources.extend(
-        ["examples", "benches", "tests", "tests/flows"]
-            .iter()
-            .flat_map(|folder| definitions_in(folder)),
-    );
+/// Pastes the pieces of these definitions into them. Returns how many have pieces that are shown, the errors, and the
+/// names of the definitions that a limit refuses.
+fn paste(sources: &[String]) -> (usize, Vec<String>, Vec<&'static str>) {
     let (mut count, mut wrong, mut limited) = (0, Vec::new(), Vec::new());
-    for source in sources.iter().filter(|source| source.contains("struct ")) {
+    for source in sources {
         let Ok(code) = built(source) else { continue };
         let shown = code.contains("Another version may find");
         let Some(pasted) = shown.then(|| pasted(source)).flatten() else {
@@ -215,6 +208,29 @@ fn the_pieces_of_the_documentation_can_be_pasted() {
             Ok(_) => {}
         }
     }
+    (count, wrong, limited)
+}
+
+/// The documentation of a definition whose pieces were found shows them as a statement. With it the definition is
+/// accepted, and has the same pieces in the same order.
+#[test]
+fn the_pieces_of_the_documentation_can_be_pasted() {
+    let mut sources: Vec<String> = DEFINITIONS.iter().map(|one| (*one).to_owned()).collect();
+    sources.extend(
+        ["examples", "benches", "tests", "tests/flows"]
+            .iter()
+            .flat_map(|folder| definitions_in(folder)),
+    );
+    sources.retain(|source| source.contains("struct "));
+    let (first, second) = sources.split_at(sources.len() / 2);
+    let halves = std::thread::scope(|scope| {
+        let first = scope.spawn(|| paste(first));
+        let second = paste(second);
+        [first.join().expect("no panic"), second]
+    });
+    let count = halves.iter().map(|half| half.0).sum::<usize>();
+    let wrong: Vec<_> = halves.iter().flat_map(|half| &half.1).cloned().collect();
+    let limited: Vec<_> = halves.iter().flat_map(|half| half.2.clone()).collect();
     assert!(count > 50, "{count} definitions");
     assert!(
         wrong.is_empty(),

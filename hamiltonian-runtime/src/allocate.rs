@@ -160,7 +160,7 @@ pub(crate) fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize
         | Op::AddToQ(_, a)
         | Op::AddToP(_, a)
         | Op::LoadAt(a, ..) => visit(a, 0),
-        Op::Copy(a, b) | Op::Neg(a, b) | Op::Recip(a, b) | Op::Call(a, _, b) => {
+        Op::Copy(a, b) | Op::Neg(a, b) | Op::Recip(a, b) | Op::Sqrt(a, b) | Op::Call(a, _, b) => {
             [a, b].into_iter().for_each(|r| visit(r, 0));
         }
         Op::Add(a, b, c)

@@ -13,6 +13,7 @@ use crate::sizes::value;
 use hamiltonian_symbolic::PI_LOW;
 use hamiltonian_symbolic::dag::{Array, Column, Map, Relation, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::op;
 use hamiltonian_symbolic::pairs::{self, pairs};
 use hamiltonian_symbolic::program::{Instruction, Loop, Program, Step, Target, Update, Value};
 
@@ -543,6 +544,7 @@ impl<'a> Builder<'a> {
             (I::NegMulAdd(..), &[a, b, c]) => Op::NegMulAdd(to, a, b, c),
             (I::Div(..), &[a, b]) => Op::Div(to, a, b),
             (I::Recip(_), &[a]) => Op::Recip(to, a),
+            (I::Call(op::Op::Sqrt, _), &[a]) => Op::Sqrt(to, a),
             (I::Call(op, _), &[a]) => Op::Call(to, *op, a),
             (I::Call(op, _), &[a, b]) => Op::CallTwo(to, *op, a, b),
             (I::Call(op, _), &[a, b, c]) => Op::CallThree(to, *op, a, b, c),

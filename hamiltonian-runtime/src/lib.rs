@@ -32,7 +32,7 @@
 //!    The scalar is `f64`, a dual number, a pack of members or of stages. Each operation is that of `interpret` of
 //!    hamiltonian-symbolic, in the same order, so the bits are those of compiled code that does not fuse.
 //!
-//!    The flows of a splitting, if they are short, are unrolled (`unroll`), and made one after the other with the point in
+//!    The flows of a splitting, if they are short, are unrolled (`unroll`, `interleave`), and made one after the other with the point in
 //!    registers, for as many steps as nobody looks at (`cycle`).
 //!
 //! [`Run`] and [`Swarm`] are core's runs and ensembles behind a trait object, so that a text names the scheme. A splitting is a
@@ -57,6 +57,7 @@ mod dynamics;
 mod error;
 mod flatten;
 mod flow;
+mod interleave;
 mod machine;
 mod op;
 mod prepared;

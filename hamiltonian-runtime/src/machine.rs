@@ -18,6 +18,10 @@ pub(crate) const FRAME: [usize; 2] = [256, 16];
 /// of conditions.
 const SHORT: [usize; 2] = [32, 8];
 
+/// The same of code that is shorter still. Registers on the stack are cleared at each call, which would take longer than the
+/// code.
+const SHORTEST: [usize; 2] = [8, 1];
+
 /// True if a stage is short code that reads no variable of a loop.
 pub(crate) fn is_short(stage: &Stage) -> bool {
     let is_plain = |op: &Op| {
@@ -202,6 +206,14 @@ fn run_here<T: Real>(
     results: &mut [T],
 ) {
     if stage.is_short {
+        if let Home::Pool(_) = home
+            && stage.registers <= SHORTEST[0]
+            && stage.masks <= SHORTEST[1]
+        {
+            let mut numbers = [T::zero(); SHORTEST[0]];
+            let mut masks = [T::Mask::splat(false); SHORTEST[1]];
+            return straight(stage, given, &mut numbers, &mut masks, arrays, results);
+        }
         let mut on_stack;
         let (numbers, masks) = match home {
             Home::Own(registers) => (&mut *registers.numbers, &mut *registers.masks),
@@ -210,14 +222,7 @@ fn run_here<T: Real>(
                 (&mut on_stack.0, &mut on_stack.1)
             }
         };
-        for (to, from) in numbers.iter_mut().zip(given.numbers) {
-            *to = *from;
-        }
-        straight(stage, given.data, numbers, masks, arrays);
-        for (to, from) in results.iter_mut().zip(&stage.results) {
-            *to = numbers[*from as usize % SHORT[0]];
-        }
-        return;
+        return straight(stage, given, numbers, masks, arrays, results);
     }
     let mut taken = None;
     let registers = match home {
@@ -269,6 +274,7 @@ macro_rules! of_registers {
             }
             Op::Div(to, a, b) => $r[$index(to)] = $r[$index(a)] / $r[$index(b)],
             Op::Recip(to, a) => $r[$index(to)] = $r[$index(a)].recip(),
+            Op::Sqrt(to, a) => $r[$index(to)] = $r[$index(a)].sqrt(),
             Op::Call(to, function, a) => $r[$index(to)] = function.eval_apart(&[$r[$index(a)]]),
             Op::CallTwo(to, function, a, b) => {
                 $r[$index(to)] = function.eval_apart(&[$r[$index(a)], $r[$index(b)]]);
@@ -342,25 +348,39 @@ macro_rules! operation {
 /// Runs the code of a frame.
 #[inline(always)]
 pub(crate) fn in_frame<T: Real>(
-    ops: &[Op],
+    mut ops: &[Op],
     t: T,
     r: &mut [T; FRAME[0]],
     m: &mut [T::Mask; FRAME[1]],
 ) {
     let number = |register: Register| register as usize % FRAME[0];
-    for op in ops {
-        of_registers!(*op, T, r, m, number, {
-            Op::Time(to) => r[number(to)] = t,
-            // A frame has none of the others.
-            _ => {}
-        });
+    // The most frequent operations, as long as they are equal: the CPU foresees that without the jump of a match.
+    macro_rules! repeated {
+        ($kind:ident($($from:ident),+) => $value:expr) => {
+            while let [Op::$kind(to, $($from),+), rest @ ..] = ops {
+                r[number(*to)] = $value;
+                ops = rest;
+            }
+        };
     }
-}
-
-/// The place of a register among those of short code.
-#[inline(always)]
-fn short(register: Register) -> usize {
-    register as usize % SHORT[0]
+    while let [op, rest @ ..] = ops {
+        match op {
+            Op::Mul(..) => repeated!(Mul(a, b) => r[number(*a)] * r[number(*b)]),
+            Op::Add(..) => repeated!(Add(a, b) => r[number(*a)] + r[number(*b)]),
+            Op::Sub(..) => repeated!(Sub(a, b) => r[number(*a)] - r[number(*b)]),
+            Op::MulAdd(..) => {
+                repeated!(MulAdd(a, b, c) => r[number(*a)].fma(r[number(*b)], r[number(*c)]));
+            }
+            _ => {
+                of_registers!(*op, T, r, m, number, {
+                    Op::Time(to) => r[number(to)] = t,
+                    // A frame has none of the others.
+                    _ => {}
+                });
+                ops = rest;
+            }
+        }
+    }
 }
 
 /// The place of a register.
@@ -371,19 +391,29 @@ fn long(register: Register) -> usize {
 
 /// Runs short code without loops.
 #[inline(always)]
-fn straight<T: Real>(
+fn straight<T: Real, const N: usize, const M: usize>(
     stage: &Stage,
-    data: &[T],
-    r: &mut [T; SHORT[0]],
-    m: &mut [T::Mask; SHORT[1]],
+    given: Given<'_, T>,
+    r: &mut [T; N],
+    m: &mut [T::Mask; M],
     arrays: &mut Arrays<'_, T>,
+    results: &mut [T],
 ) {
+    // A power of two, so that a masked number of a register is one of them.
+    let short = |register: Register| register as usize % N;
+    let data = given.data;
+    for (to, from) in r.iter_mut().zip(given.numbers) {
+        *to = *from;
+    }
     for op in &stage.ops {
         operation!(*op, T, r, m, short, data, arrays, {
             // Short code has none of these.
             Op::Number(..) | Op::Count(..) | Op::LoadAt(..) | Op::StoreAt(..) => {}
             Op::Accumulate { .. } | Op::Loop(_) | Op::End(_) => {}
         });
+    }
+    for (to, from) in results.iter_mut().zip(&stage.results) {
+        *to = r[short(*from)];
     }
 }
 

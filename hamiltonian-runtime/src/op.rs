@@ -86,6 +86,7 @@ pub(crate) enum Op {
     NegMulAdd(Register, Register, Register, Register),
     Div(Register, Register, Register),
     Recip(Register, Register),
+    Sqrt(Register, Register),
     /// A function of one argument.
     Call(Register, op::Op, Register),
     /// A function of two arguments.

@@ -7,6 +7,7 @@
 
 use crate::allocate::{Layout, allocate};
 use crate::flatten::{Builder, Kind, Setting, Unrolled};
+use crate::interleave::interleave;
 use crate::machine::{FRAME, LONG};
 use crate::op::{Change, Framed, From, Held, Op, PHASE, Register, Stage, To};
 use hamiltonian_symbolic::dag::Map;
@@ -15,6 +16,12 @@ use hamiltonian_symbolic::program::{Instruction, Loop, Step, Value};
 
 /// The most operations of a flow.
 const LONGEST: usize = 4096;
+
+/// The length of code that a CPU foresees as it is.
+const FORESEEN: usize = 100;
+
+/// The most operations that one overtakes, as long as there are registers.
+const WINDOWS: [usize; 3] = [256, 64, 1];
 
 /// The code of a flow before its registers are numbered, or `None` if it is too long.
 pub(crate) fn straight(
@@ -51,22 +58,29 @@ pub(crate) fn frames(width: usize, flows: Vec<Option<Stage>>) -> Vec<Option<Fram
             (stage, held, coefficients)
         }));
     }
-    let number = |(mut stage, held, coefficients): (Stage, usize, usize)| {
+    let number = |(stage, held, coefficients): (Stage, usize, usize)| {
         let layout = Layout {
             held,
             coefficients,
             phase: 0,
             values: next,
         };
-        allocate(&mut stage, layout);
-        let fits = stage.registers <= FRAME[0] && stage.masks <= FRAME[1];
-        fits.then(|| Framed {
-            reads_time: stage.ops.iter().any(|op| matches!(op, Op::Time(_))),
-            ops: stage.ops,
-            held: stage.held,
-            first_held: held,
-            first_coefficient: coefficients,
-            coefficients: stage.coefficients,
+        let is_long = stage.ops.len() > FORESEEN;
+        WINDOWS.iter().find_map(|window| {
+            let mut stage = stage.clone();
+            if is_long {
+                stage.ops = interleave(&stage.ops, *window);
+            }
+            allocate(&mut stage, layout);
+            let fits = stage.registers <= FRAME[0] && stage.masks <= FRAME[1];
+            fits.then(|| Framed {
+                reads_time: stage.ops.iter().any(|op| matches!(op, Op::Time(_))),
+                ops: stage.ops,
+                held: stage.held,
+                first_held: held,
+                first_coefficient: coefficients,
+                coefficients: stage.coefficients,
+            })
         })
     };
     layouts

@@ -41,7 +41,7 @@ pub use crate::flows::exponential::Exponential;
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
 /// For maps of other crates.
 pub use crate::flows::map::Times;
-pub use crate::flows::push::Coupled;
+pub use crate::flows::push::{Coupled, SubStep};
 pub use crate::loops::calls::*;
 pub use crate::loops::pairs::{TILED, TileRow, Triangle, pairs};
 pub use crate::loops::slabs::rows;

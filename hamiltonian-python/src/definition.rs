@@ -3,6 +3,7 @@
 //! Input: a text. Output: [`Definition`], or the exception with the diagnostics.
 
 use crate::errors;
+use crate::function::Function;
 use crate::system::System;
 use hamiltonian_runtime as runtime;
 use numpy::PyReadonlyArray1;
@@ -20,11 +21,12 @@ pub struct Definition {
     text: String,
 }
 
-/// A number, or the elements of an array row after row.
+/// A number, the elements of an array row after row, or a function.
 #[derive(FromPyObject)]
 pub enum Value<'py> {
     Number(f64),
     List(PyReadonlyArray1<'py, f64>),
+    Function(Py<Function>),
 }
 
 #[pymethods]
@@ -62,6 +64,12 @@ impl Definition {
     #[getter]
     fn parameters(&self) -> Vec<&str> {
         self.read.parameters().collect()
+    }
+
+    /// The names of the functions with data.
+    #[getter]
+    fn functions(&self) -> Vec<&str> {
+        self.read.functions().collect()
     }
 
     /// The proven properties of H, a sentence each.
@@ -106,6 +114,7 @@ pub fn values(all: &[(String, Value<'_>)]) -> PyResult<runtime::Values> {
         values = match value {
             Value::Number(number) => values.with(name, *number),
             Value::List(list) => values.with(name, list.as_slice()?),
+            Value::Function(function) => values.with(name, function.get().own.clone()),
         };
     }
     Ok(values)

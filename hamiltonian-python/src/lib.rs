@@ -6,6 +6,7 @@
 mod chaos;
 mod definition;
 mod errors;
+mod function;
 mod layout;
 mod run;
 mod signals;
@@ -17,6 +18,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _hamiltonian(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<definition::Definition>()?;
+    module.add_class::<function::Function>()?;
     module.add_class::<system::System>()?;
     module.add_class::<run::Run>()?;
     module.add_class::<swarm::Members>()?;

@@ -202,3 +202,27 @@ def test_threads_define_at_once():
 
     with ThreadPoolExecutor(4) as pool:
         assert list(pool.map(of, range(40))) == [2.0 * k for k in range(40)]
+
+
+def test_functions_with_data():
+    text = "struct Well { V: fn(r), W: fn(x, y), m = 1.0 } H(x, y; u, v) = (u^2 + v^2)/(2*m) + V(x) + W(x, y)"
+    knots = np.linspace(-4, 4, 17)
+    spline = hm.Spline(knots, knots**2/2)
+    x, y = np.meshgrid(knots, knots, indexing="ij")
+    grid = hm.Grid([-4, -4], [0.5, 0.5], y**2/2 + 0*x)
+    well = hm.define(text, V=spline, W=grid, m=2.0)
+    assert well.H([0.3, 0.7], 0.0) == spline(0.3) + grid(0.3, 0.7)
+    assert abs(spline(knots) - knots**2/2).max() < 1e-14 and np.isnan(spline(5.0))
+    again = pickle.loads(pickle.dumps(well))
+    sol = again.solve(q=[1, 0], p=[0, 1], t=[0, 1], scheme="BlanesMoan6", step=0.05)
+    assert abs(sol.q[1, 0] - np.cos(1/np.sqrt(2))) < 0.01 and abs(sol.energy[1]/sol.energy[0] - 1) < 1e-6
+    for values, error, words in [
+        ({"V": spline, "W": spline}, ValueError, "`W` must be a function of two numbers"),
+        ({"V": spline}, TypeError, "`W` has no default"),
+        ({"V": spline, "W": 1.0}, TypeError, "`W` must be a function: a `Spline` or a `Grid`"),
+        ({"V": spline, "W": grid, "m": spline}, TypeError, "`m` must be a real number"),
+    ]:
+        with pytest.raises(error, match=words):
+            hm.define(text, **values)
+    with pytest.raises(ValueError, match="knot"):
+        hm.Spline([0, 0, 1], [1, 2, 3])

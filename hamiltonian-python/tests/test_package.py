@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import hamiltonian as hm
+import hamiltonian.functions
 import hamiltonian.system
 
 CPU = "import time, numpy; start = time.process_time(); import hamiltonian; print(time.process_time() - start)"
@@ -23,7 +24,7 @@ def test_other_packages_are_imported_by_their_users_alone():
 
 
 def test_examples_of_the_documentation():
-    for module in (hm, hamiltonian.system):
+    for module in (hm, hamiltonian.functions, hamiltonian.system):
         failed, _ = doctest.testmod(module)
         assert failed == 0
 

@@ -168,6 +168,7 @@ pub(crate) fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize
         | Op::Mul(a, b, c)
         | Op::Div(a, b, c)
         | Op::CallTwo(a, _, b, c)
+        | Op::External(a, _, _, b, c)
         | Op::SinCos(a, b, c) => [a, b, c].into_iter().for_each(|r| visit(r, 0)),
         Op::CallThree(a, _, b, c, d)
         | Op::MulAdd(a, b, c, d)

@@ -6,8 +6,8 @@
 
 use crate::cycle::{Cycle, CycleFrame};
 use crate::flow::{Inside, PartFlow};
-use crate::machine::Registers;
 use crate::prepared::{Flat, Prepared};
+use crate::pushing::PartWork;
 use crate::system::{RuntimePieces, RuntimeSystem};
 use hamiltonian_core::private::Times;
 use hamiltonian_core::schemes::author::{
@@ -181,7 +181,7 @@ pub(crate) struct ByTableMap<T: Real> {
 impl<T: Real> Map for ByTableMap<T> {
     type Carried = Point<Flat<T>>;
     /// The scratch of the flows, and the frame.
-    type Work = ((Registers<T>, Registers<T>), CycleFrame<T>);
+    type Work = ((PartWork<T>, PartWork<T>), CycleFrame<T>);
 
     #[inline(always)]
     fn open(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {

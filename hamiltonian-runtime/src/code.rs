@@ -57,6 +57,7 @@ pub(crate) struct Code {
     pub(crate) sizes: Vec<usize>,
     pub(crate) size_names: Vec<String>,
     pub(crate) parameter_names: Vec<String>,
+    pub(crate) function_names: Vec<String>,
     /// The extents of parameters; none of a number.
     pub(crate) extents: Vec<Vec<usize>>,
     pub(crate) description: Description,
@@ -72,10 +73,14 @@ pub(crate) struct Code {
     /// True if the gradient is the two halves one after the other.
     pub(crate) gradient_is_apart: bool,
     pub(crate) field: FieldSource,
+    /// The functions that the kick is made of.
+    pub(crate) kick: Option<Kick>,
     /// The uses of the vector functions.
     pub(crate) vectors: Vec<VectorUse>,
     /// The pieces of `Split`, the outermost first; none if it is missing.
     pub(crate) pieces: Vec<Part>,
+    /// Of each piece of the model the side that its flow reads, if it moves the other one alone.
+    pub(crate) one_way: Vec<Option<Side>>,
     /// Those of `Nystrom`: the kick, and the piece that is at most quadratic in the momenta.
     pub(crate) nystrom: Option<[Part; 2]>,
 }
@@ -85,14 +90,21 @@ impl Code {
     pub(crate) fn of(
         system: &System,
         declared: Option<&variables::Declared>,
+        function_names: &[String],
         sizes: &[usize],
     ) -> Result<Code, String> {
         let System {
             model,
             program,
             structure,
+            third,
             ..
         } = system;
+        if let Some(function) = third {
+            return Err(format!(
+                "second derivatives of H, which have third ones of `{function}`"
+            ));
+        }
         let (coordinates, len) = coordinates(&model.groups, sizes);
         let places = places(system, len, sizes);
         let setting = Setting {
@@ -120,6 +132,10 @@ impl Code {
         let halves = [Purpose::GradientQ, Purpose::GradientP];
         let (pieces, split) = pieces(model, structure);
         let (nystrom, nystrom_missing) = nystrom(structure, &pieces);
+        let one_way = |number: usize| {
+            let function = program.function(Purpose::Piece(number as u16))?;
+            program.one_way(function)
+        };
         let described = Described::of(model, structure, &system.text);
         let mut description = description(model, structure, described, &places);
         let mut lack = |marker: &'static str, reason: Option<Reason>| {
@@ -131,8 +147,7 @@ impl Code {
             });
             description.missing.to_mut().extend(missing);
         };
-        let separable = structure.separable.clone().err();
-        lack("Separable", separable.or_else(|| no_kick(structure)));
+        lack("Separable", structure.separable.clone().err());
         lack("Split", split);
         lack("Nystrom", nystrom_missing);
         lack(
@@ -146,6 +161,7 @@ impl Code {
             sizes: sizes.to_vec(),
             size_names: model.sizes.clone(),
             parameter_names: model.parameters.iter().map(|of| of.name.clone()).collect(),
+            function_names: function_names.to_vec(),
             extents: (model.parameters.iter().map(|of| extents(&of.shape, sizes))).collect(),
             description,
             prepare,
@@ -154,10 +170,12 @@ impl Code {
             gradient: system.gradient,
             gradient_is_apart: are_apart(program, Purpose::Gradient, halves),
             field: system.field,
+            kick: structure.kick,
             vectors: model.vectors.iter().map(|vector| vector.usage).collect(),
             declared: declared.map(|declared| Declared::of(declared, &coordinates, sizes)),
             coordinates,
             pieces,
+            one_way: (0..model.pieces.len()).map(one_way).collect(),
             nystrom,
             places,
         })
@@ -167,6 +185,11 @@ impl Code {
     pub(crate) fn vector(&self, usage: VectorUse) -> Option<Purpose> {
         let at = self.vectors.iter().position(|known| *known == usage);
         at.map(|at| Purpose::Vector(at as u16))
+    }
+
+    /// True if flows of a part for two durations are the flow for their sum.
+    pub(crate) fn merges(&self, part: Part) -> bool {
+        part != Part::Kick || self.kick != Some(Kick::SubStep)
     }
 
     /// The function of a purpose.
@@ -250,7 +273,9 @@ fn of_function(
     let mut coefficients = Vec::new();
     computed(&function.coefficient, &mut coefficients);
     let kind = match function.purpose {
-        Purpose::Piece(_) => Kind::InPlace,
+        Purpose::Piece(_) | Purpose::Push if setting.program.one_way(function).is_none() => {
+            Kind::InPlace
+        }
         _ => Kind::Plain,
     };
     let (steps, results) = (&function.evaluation, &function.results);
@@ -284,16 +309,6 @@ fn of_function(
     Ok((code, flow))
 }
 
-/// The reason against a kick that is not a plain one.
-fn no_kick(structure: &Verdicts) -> Option<Reason> {
-    match structure.kick {
-        Some(Kick::Plain) | None => None,
-        Some(_) => Some(later(
-            "its force depends on momenta, and the kick of such a force",
-        )),
-    }
-}
-
 /// The reason for what compiled definitions alone have.
 fn later(what: &str) -> Reason {
     Reason {
@@ -306,9 +321,8 @@ fn later(what: &str) -> Reason {
 
 /// The pieces of the splitting, or the reason against one.
 fn pieces(model: &Model, structure: &Verdicts) -> (Vec<Part>, Option<Reason>) {
-    let reason = structure.split.clone().err().or_else(|| no_kick(structure));
-    if reason.is_some() {
-        return (Vec::new(), reason);
+    if let Err(reason) = &structure.split {
+        return (Vec::new(), Some(reason.clone()));
     }
     if model.pieces.is_empty() {
         let mut halves = vec![Part::Kick, Part::Drift];

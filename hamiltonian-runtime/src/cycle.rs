@@ -112,6 +112,9 @@ impl<T: Real> Cycle<T> {
             inner.0.first()?;
             let inner = inner.0.iter().map(|flow| (flow, inner_at));
             for (flow, at) in inner.chain([(outer, outer_at)]) {
+                if flow.pushing.is_some() {
+                    return None;
+                }
                 let function = flow.folded.function.clone()?;
                 let framed = function.framed.as_ref()?;
                 let number = flow.number()?;

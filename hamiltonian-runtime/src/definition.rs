@@ -8,6 +8,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Place, place};
 use crate::error::SystemError;
 use crate::sizes::{self, Obligation};
 use crate::system::RuntimeSystem;
+use crate::tabulated::Tabulated;
 use crate::values::{Value, Values};
 use hamiltonian_language::analyse::variables::Declared;
 use hamiltonian_language::analyse::{self, Analysis, analyse, surface};
@@ -51,6 +52,8 @@ pub struct Definition {
     pub(crate) parameters: Vec<Parameter>,
     /// The variables in which it is written, if the system has others.
     declared: Option<Declared>,
+    /// The functions with data: their names, and the number of their arguments.
+    functions: Vec<(String, usize)>,
     obligations: Vec<Obligation>,
     /// What systems at run time do not have, with its place.
     not_carried: Option<(String, Place)>,
@@ -126,6 +129,9 @@ impl Definition {
             obligations: checked.reaches.iter().map(Obligation::of).collect(),
             not_carried,
             declared: analysis.declared,
+            functions: (checked.functions.iter())
+                .map(|of| (of.name.to_string(), of.arguments.len()))
+                .collect(),
             system: Arc::new(analysis.whole),
             last: Mutex::new(None),
         })
@@ -145,6 +151,11 @@ impl Definition {
     /// The names of the sizes: `const` sizes and those of type `usize`. Both are values of a system here.
     pub fn sizes(&self) -> impl Iterator<Item = &str> {
         self.system.model.sizes.iter().map(String::as_str)
+    }
+
+    /// The names of the functions with data, `V: fn(r)`.
+    pub fn functions(&self) -> impl Iterator<Item = &str> {
+        self.functions.iter().map(|(name, _)| &**name)
     }
 
     /// The sentences on H that the documentation of a compiled definition has: its structure, its pieces.
@@ -187,7 +198,11 @@ impl Definition {
                 place: place.clone(),
             });
         }
-        let known = || self.sizes().chain(self.parameters());
+        let known = || {
+            self.sizes()
+                .chain(self.parameters())
+                .chain(self.functions())
+        };
         for (name, _) in &values.0 {
             if !known().any(|known| known == name) {
                 return Err(SystemError::Unknown {
@@ -208,7 +223,10 @@ impl Definition {
         let parameters = self.parameters.iter();
         let numbers = parameters.map(|parameter| filled(parameter, &values, &sizes));
         let numbers = numbers.collect::<Result<Vec<Vec<f64>>, SystemError>>()?;
-        Ok(RuntimeSystem::new(self.code(&sizes)?, numbers))
+        let functions = self.functions.iter();
+        let functions = functions.map(|(name, arguments)| function(name, *arguments, &values));
+        let functions = functions.collect::<Result<Vec<Tabulated>, SystemError>>()?;
+        Ok(RuntimeSystem::new(self.code(&sizes)?, numbers, functions))
     }
 
     /// The code for these sizes.
@@ -217,7 +235,8 @@ impl Definition {
         if let Some(code) = last.as_ref().filter(|code| code.sizes == sizes) {
             return Ok(code.clone());
         }
-        let made = Code::of(&self.system, self.declared.as_ref(), sizes);
+        let names: Vec<String> = self.functions().map(str::to_owned).collect();
+        let made = Code::of(&self.system, self.declared.as_ref(), &names, sizes);
         let made = made.map_err(|feature| SystemError::NotCarried {
             feature,
             place: Place {
@@ -245,7 +264,11 @@ impl Display for Definition {
 
 /// The first feature that systems at run time do not have, with its place.
 fn not_carried(checked: &Checked) -> Option<(String, Span)> {
-    if let Some(function) = checked.functions.first() {
+    let is_rust = |function: &&hamiltonian_language::ast::Function| {
+        let is_derived = function.first.is_none() && function.second.is_none();
+        function.value.is_some() || !is_derived
+    };
+    if let Some(function) = checked.functions.iter().find(is_rust) {
         let feature = format!("the function `{}`, which is written in Rust", function.name);
         return Some((feature, function.name.span()));
     }
@@ -264,6 +287,16 @@ fn size(name: &str, value: Option<&Value>) -> Result<usize, SystemError> {
             name,
             expected: "a size, a whole number that is not negative",
         }),
+    }
+}
+
+/// The value of a function with data.
+fn function(name: &str, arguments: usize, values: &Values) -> Result<Tabulated, SystemError> {
+    let name = name.to_owned();
+    match values.get(&name) {
+        None => Err(SystemError::NoValue { name }),
+        Some(Value::Function(function)) if function.arity() == arguments => Ok(function.clone()),
+        Some(_) => Err(SystemError::NoFunction { name, arguments }),
     }
 }
 
@@ -294,6 +327,12 @@ fn filled(
             return Err(SystemError::NoNumber {
                 name: name(),
                 expected: "a number",
+            });
+        }
+        (Some(Value::Function(_)), _) => {
+            return Err(SystemError::NoFunction {
+                name: name(),
+                arguments: 0,
             });
         }
         (None, Some(default)) => default.clone(),

@@ -38,6 +38,14 @@ pub enum SystemError {
         /// What is expected: `a number`, `a size`.
         expected: &'static str,
     },
+    /// A function has the place of a number or of a list, or the other way round.
+    #[non_exhaustive]
+    NoFunction {
+        /// The name of the parameter.
+        name: String,
+        /// The number of arguments that the function must have; 0 if the parameter is no function.
+        arguments: usize,
+    },
     /// A list has another number of elements than the array that is declared.
     #[non_exhaustive]
     Length {
@@ -84,6 +92,16 @@ impl Display for SystemError {
                 write!(f, "`{name}` has no default: give it a value")
             }
             Self::NoNumber { name, expected } => write!(f, "`{name}` must be {expected}"),
+            Self::NoFunction { name, arguments } => match arguments {
+                0 => write!(f, "`{name}` is a function, and must be a number or a list"),
+                1 => write!(f, "`{name}` must be a function of one number: a `Spline`"),
+                2 => write!(f, "`{name}` must be a function of two numbers: a `Grid`"),
+                _ => write!(
+                    f,
+                    "`{name}` is a function of {arguments} numbers: systems defined at run time have \
+                    functions of one and of two"
+                ),
+            },
             Self::Length {
                 name,
                 expected,

@@ -10,11 +10,11 @@ use crate::op::{
     Stage, To,
 };
 use crate::sizes::value;
+use crate::tabulated::Derivative;
 use hamiltonian_symbolic::PI_LOW;
 use hamiltonian_symbolic::dag::{Array, Column, Map, Relation, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::op;
-use hamiltonian_symbolic::pairs::{self, pairs};
 use hamiltonian_symbolic::program::{Instruction, Loop, Program, Step, Target, Update, Value};
 
 /// The places of arrays.
@@ -114,6 +114,14 @@ impl Unrolled {
     }
 }
 
+/// The range of a loop: at most up to a number.
+#[derive(Clone)]
+pub(crate) struct Bounds {
+    pub(crate) start: Form,
+    pub(crate) end: Form,
+    pub(crate) most: Option<i64>,
+}
+
 pub(crate) struct Builder<'a> {
     pub(crate) setting: Setting<'a>,
     pub(crate) kind: Kind,
@@ -126,7 +134,7 @@ pub(crate) struct Builder<'a> {
     /// Where code has no loops and no addresses: the iterations of the present step.
     pub(crate) unrolled: Option<Unrolled>,
     /// The loops around the present step, each with the first partial sums of its sums.
-    loops: Vec<(Domain, Vec<(Register, Register)>)>,
+    pub(crate) loops: Vec<(Domain, Vec<(Register, Register)>)>,
     /// The values of the coefficient stage that are read.
     pub(crate) read: Vec<Value>,
     /// The next register of numbers, and of conditions.
@@ -441,17 +449,20 @@ impl<'a> Builder<'a> {
     }
 
     fn nest(&mut self, of: &Loop) -> Result<(), String> {
-        let level = self.loops.len();
-        if level >= DEPTH {
-            return Err(format!("more than {DEPTH} loops inside each other"));
-        }
-        let has_trees = self.kind != Kind::InPlace;
         let (start, end) = (self.form(&of.start)?, self.form(&of.end)?);
-        let is_large = level == 0 && has_trees && end.constant >= pairs::LEAST as i64;
-        if is_large && pairs(of, self.setting.program).is_some() {
-            let least = pairs::LEAST;
-            return Err(format!("a sum over the pairs of {least} points or more"));
+        if let Some(pairs) = self.pairs(of, end.constant) {
+            return self.tiles(of, &pairs, end.constant);
         }
+        let bounds = Bounds {
+            start,
+            end,
+            most: None,
+        };
+        self.ranged(of, bounds, machine::LONG)
+    }
+
+    /// A loop over a range. Its sums are trees if it has this many iterations.
+    pub(crate) fn ranged(&mut self, of: &Loop, bounds: Bounds, long: i64) -> Result<(), String> {
         let mut zero = Vec::new();
         for sum in &of.accumulators {
             let register = self.register();
@@ -459,8 +470,9 @@ impl<'a> Builder<'a> {
             zero.push(register);
         }
         let is_innermost = !of.body.iter().any(|step| matches!(step, Step::Loop(_)));
+        let has_trees = is_innermost && self.kind != Kind::InPlace;
         let mut trees: Vec<(Register, Register)> = Vec::new();
-        for step in of.body.iter().filter(|_| is_innermost && has_trees) {
+        for step in of.body.iter().filter(|_| has_trees) {
             if let Step::Accumulate(sum, _) = step {
                 let sum = self.number(*sum)?;
                 if !trees.iter().any(|(known, _)| *known == sum) {
@@ -469,24 +481,60 @@ impl<'a> Builder<'a> {
                 }
             }
         }
+        let number = self.open(of.domain, bounds, zero, (trees, long))?;
+        self.steps(&of.body)?;
+        self.close(number);
+        Ok(())
+    }
+
+    /// A loop without sums around other code.
+    pub(crate) fn around(
+        &mut self,
+        domain: Domain,
+        bounds: Bounds,
+        inside: impl FnOnce(&mut Self) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let number = self.open(domain, bounds, Vec::new(), (Vec::new(), machine::LONG))?;
+        inside(self)?;
+        self.close(number);
+        Ok(())
+    }
+
+    /// The beginning of a loop; returns its number.
+    fn open(
+        &mut self,
+        domain: Domain,
+        bounds: Bounds,
+        zero: Vec<Register>,
+        (trees, long): (Vec<(Register, Register)>, i64),
+    ) -> Result<usize, String> {
+        let level = self.loops.len();
+        if level >= DEPTH {
+            return Err(format!("more than {DEPTH} loops inside each other"));
+        }
         let number = self.stage.loops.len();
+        let Bounds { start, end, most } = bounds;
         self.stage.loops.push(LoopCode {
             level,
             start,
             end,
+            most: most.unwrap_or(i64::MAX),
             zero,
             trees: trees.clone(),
+            long,
             body: 0,
             after: 0,
         });
         self.push(Op::Loop(number as u32));
         self.stage.loops[number].body = self.stage.ops.len();
-        self.loops.push((of.domain, trees));
-        self.steps(&of.body)?;
+        self.loops.push((domain, trees));
+        Ok(number)
+    }
+
+    fn close(&mut self, number: usize) {
         self.loops.pop();
         self.push(Op::End(number as u32));
         self.stage.loops[number].after = self.stage.ops.len();
-        Ok(())
     }
 
     fn compute(&mut self, of: Value) -> Result<(), String> {
@@ -564,7 +612,11 @@ impl<'a> Builder<'a> {
                 let mask = self.mask(*mask)?;
                 Op::Select(to, mask, self.number(*a)?, self.number(*b)?)
             }
-            (I::External(..), _) => return Err("a function written in Rust".to_owned()),
+            (I::External(function, part, _), &[a] | &[a, _]) => {
+                let derivative = Derivative::of(*part).ok_or("a third derivative")?;
+                let b = operands.last().copied().unwrap_or(a);
+                Op::External(to, *function, derivative, a, b)
+            }
             // A loop sets it to 0.
             (I::Accumulator, _) if self.numbers.contains_key(&of) => return Ok(()),
             (other, _) => return Err(format!("an instruction without code ({other:?})")),

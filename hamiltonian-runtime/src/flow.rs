@@ -4,39 +4,16 @@
 //! the numbers of the coefficient are computed when a flow is made; nothing allocates when it moves a point.
 
 use crate::code::Part;
-use crate::machine::{Arrays, Home, Registers};
-use crate::op::FunctionCode;
+use crate::folded::Folded;
+use crate::machine::{Arrays, Home};
 use crate::prepared::{Flat, Prepared, at};
+use crate::pushing::{PartWork, Pushing};
 use hamiltonian_core::Vector;
-use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, Scratch, VectorField};
+use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, VectorField};
 use hamiltonian_lanes::Real;
 use hamiltonian_language::analyse::structure::FieldSource;
+use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::program::Purpose;
-use std::sync::Arc;
-
-/// A function with the numbers of a step coefficient.
-#[derive(Debug, Clone)]
-pub(crate) struct Folded<T> {
-    /// The function; `None` if there is none.
-    pub(crate) function: Option<Arc<FunctionCode>>,
-    pub(crate) numbers: Vec<T>,
-}
-
-impl<T: Real> Folded<T> {
-    fn new(prepared: &Prepared<T>, purpose: Purpose, c: T) -> Self {
-        Folded {
-            function: prepared.code.function(purpose).cloned(),
-            numbers: prepared.folded(purpose, c),
-        }
-    }
-
-    #[inline(always)]
-    fn evaluate(&self, prepared: &Prepared<T>, home: Home<'_, T>, arrays: Arrays<'_, T>) {
-        if let Some(function) = &self.function {
-            prepared.evaluate_in(home, function, &self.numbers, arrays, &mut []);
-        }
-    }
-}
 
 /// The vector field of a system that is defined at run time, scaled by a step coefficient.
 #[derive(Debug, Clone)]
@@ -84,18 +61,16 @@ impl<T: Real> VectorField<Flat<T>> for Field<T> {
     }
 }
 
-impl<T: Real> Scratch<Point<Flat<T>>> for Registers<T> {
-    fn like(_: &Point<Flat<T>>) -> Self {
-        Registers::new()
-    }
-}
-
 /// The flow of a piece of H for a duration.
 #[derive(Debug, Clone)]
 pub struct PartFlow<T: Real> {
     pub(crate) prepared: Prepared<T>,
     part: Part,
+    /// The side that is read, if the other one alone moves.
+    one_way: Option<Side>,
     pub(crate) folded: Folded<T>,
+    /// The part of a kick that reads momenta, before the rest.
+    pub(crate) pushing: Option<Pushing<T>>,
 }
 
 impl<T: Real> PartFlow<T> {
@@ -103,7 +78,16 @@ impl<T: Real> PartFlow<T> {
         PartFlow {
             prepared: prepared.clone(),
             part,
+            one_way: match part {
+                Part::Kick => Some(Side::Q),
+                Part::Drift => Some(Side::P),
+                Part::Piece(number) => prepared.code.one_way[number],
+            },
             folded: Folded::new(prepared, PartFlow::<T>::purpose(part), c),
+            pushing: match part {
+                Part::Kick => Pushing::new(prepared, c),
+                Part::Drift | Part::Piece(_) => None,
+            },
         }
     }
 
@@ -123,34 +107,39 @@ impl<T: Real> PartFlow<T> {
 
 impl<T: Real> Flow<Point<Flat<T>>> for PartFlow<T> {
     const NAME: &'static str = "a piece of H";
-    type Work = Registers<T>;
+    /// The pieces know which of their flows merge.
+    const MERGES: bool = false;
+    type Work = PartWork<T>;
 
     #[inline(always)]
-    fn apply(&self, t: T, x: &mut Point<Flat<T>>, registers: &mut Registers<T>) {
+    fn apply(&self, t: T, x: &mut Point<Flat<T>>, work: &mut PartWork<T>) {
+        if let Some(pushing) = &self.pushing {
+            pushing.apply(&self.prepared, t, x, work);
+        }
         let (q, p) = (&mut x.q, &mut x.p);
         let point = Arrays {
             t,
             ..Arrays::none()
         };
-        let arrays = match self.part {
-            Part::Kick => Arrays {
+        let arrays = match self.one_way {
+            Some(Side::Q) => Arrays {
                 q: q.as_slice(),
                 into_p: p.as_mut_slice(),
                 ..point
             },
-            Part::Drift => Arrays {
+            Some(Side::P) => Arrays {
                 p: p.as_slice(),
                 into_q: q.as_mut_slice(),
                 ..point
             },
-            Part::Piece(_) => Arrays {
+            None => Arrays {
                 into_q: q.as_mut_slice(),
                 into_p: p.as_mut_slice(),
                 ..point
             },
         };
         self.folded
-            .evaluate(&self.prepared, Home::Own(registers), arrays);
+            .evaluate(&self.prepared, Home::Own(&mut work.registers), arrays);
     }
 }
 
@@ -160,12 +149,12 @@ pub struct Inside<T: Real>(pub(crate) Vec<PartFlow<T>>);
 
 impl<T: Real> Flow<Point<Flat<T>>> for Inside<T> {
     const NAME: &'static str = "the inner pieces of H";
-    type Work = Registers<T>;
+    type Work = PartWork<T>;
 
     #[inline(always)]
-    fn apply(&self, t: T, x: &mut Point<Flat<T>>, registers: &mut Registers<T>) {
+    fn apply(&self, t: T, x: &mut Point<Flat<T>>, work: &mut PartWork<T>) {
         for flow in &self.0 {
-            flow.apply(t, x, registers);
+            flow.apply(t, x, work);
         }
     }
 }

@@ -5,6 +5,7 @@
 //! first call.
 
 use crate::op::{Change, DEPTH, From, Op, Register, Stage, To};
+use crate::tabulated::Tabulated;
 use hamiltonian_lanes::{Mask, Real};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -46,6 +47,8 @@ pub(crate) struct Given<'a, T> {
     pub(crate) numbers: &'a [T],
     /// The arrays of parameters, and those that preparation fills.
     pub(crate) data: &'a [T],
+    /// The functions with data.
+    pub(crate) functions: &'a [Tabulated],
 }
 
 /// The arrays of an evaluation.
@@ -236,7 +239,7 @@ fn run_here<T: Real>(
     for (to, from) in numbers.iter_mut().zip(given.numbers) {
         *to = *from;
     }
-    with_loops(stage, given.data, numbers, masks, arrays);
+    with_loops(stage, given, numbers, masks, arrays);
     for (to, from) in results.iter_mut().zip(&stage.results) {
         *to = numbers[*from as usize];
     }
@@ -312,11 +315,11 @@ macro_rules! of_registers {
 
 /// Runs an operation: those that need no loop, or one of the arms behind.
 macro_rules! operation {
-    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, $data:ident, $arrays:ident, { $($arms:tt)* }) => {
+    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, $given:ident, $arrays:ident, { $($arms:tt)* }) => {
         of_registers!($op, $T, $r, $m, $index, {
             Op::Time(to) => $r[$index(to)] = $arrays.t,
             Op::Coefficient(to) => $r[$index(to)] = $arrays.c,
-            Op::Load(to, from, at) => $r[$index(to)] = $arrays.read($data, from, at as usize),
+            Op::Load(to, from, at) => $r[$index(to)] = $arrays.read($given.data, from, at as usize),
             Op::LoadQ(to, at) => $r[$index(to)] = $arrays.q[at as usize],
             Op::LoadP(to, at) => $r[$index(to)] = $arrays.p[at as usize],
             Op::AddToQ(at, a) => $arrays.into_q[at as usize] += $r[$index(a)],
@@ -336,6 +339,14 @@ macro_rules! operation {
             Op::SubProductFromP(at, a, b) => {
                 let element = &mut $arrays.into_p[at as usize];
                 *element = (-$r[$index(a)]).fma($r[$index(b)], *element);
+            }
+            Op::External(to, function, derivative, a, b) => {
+                let function = &$given.functions[usize::from(function)];
+                let at = [$r[$index(a)], $r[$index(b)]];
+                $r[$index(to)] = <$T>::out_of_line(
+                    #[inline(always)]
+                    || function.derivative(derivative, at),
+                );
             }
             Op::Store(to, at, change, a, b) => {
                 $arrays.change(to, at as usize, change, [$r[$index(a)], $r[$index(b)]]);
@@ -401,12 +412,11 @@ fn straight<T: Real, const N: usize, const M: usize>(
 ) {
     // A power of two, so that a masked number of a register is one of them.
     let short = |register: Register| register as usize % N;
-    let data = given.data;
     for (to, from) in r.iter_mut().zip(given.numbers) {
         *to = *from;
     }
     for op in &stage.ops {
-        operation!(*op, T, r, m, short, data, arrays, {
+        operation!(*op, T, r, m, short, given, arrays, {
             // Short code has none of these.
             Op::Number(..) | Op::Count(..) | Op::LoadAt(..) | Op::StoreAt(..) => {}
             Op::Accumulate { .. } | Op::Loop(_) | Op::End(_) => {}
@@ -421,7 +431,7 @@ fn straight<T: Real, const N: usize, const M: usize>(
 #[inline(always)]
 fn with_loops<T: Real>(
     stage: &Stage,
-    data: &[T],
+    given: Given<'_, T>,
     r: &mut [T],
     m: &mut [T::Mask],
     arrays: &mut Arrays<'_, T>,
@@ -436,7 +446,7 @@ fn with_loops<T: Real>(
     let mut next = 0;
     while let Some(op) = stage.ops.get(next) {
         next += 1;
-        operation!(*op, T, r, m, long, data, arrays, {
+        operation!(*op, T, r, m, long, given, arrays, {
             Op::Number(to, form) => {
                 let value = stage.forms[form as usize].value(&variables);
                 r[to as usize] = T::constant(value as f64, 0.0);
@@ -448,7 +458,7 @@ fn with_loops<T: Real>(
             }
             Op::LoadAt(to, from, address) => {
                 let at = stage.addresses[address as usize].value(&variables);
-                r[to as usize] = arrays.read(data, from, at);
+                r[to as usize] = arrays.read(given.data, from, at);
             }
             Op::Accumulate {
                 sum,
@@ -472,6 +482,7 @@ fn with_loops<T: Real>(
             Op::Loop(number) => {
                 let of = &stage.loops[number as usize];
                 let [start, end] = [&of.start, &of.end].map(|form| form.value(&variables));
+                let end = end.min(of.most);
                 for sum in &of.zero {
                     r[*sum as usize] = T::zero();
                 }
@@ -479,7 +490,7 @@ fn with_loops<T: Real>(
                     next = of.after;
                     continue;
                 }
-                let is_long = !of.trees.is_empty() && end - start >= LONG;
+                let is_long = !of.trees.is_empty() && end - start >= of.long;
                 if is_long {
                     for (_, partial) in &of.trees {
                         for k in 0..8 {

@@ -3,6 +3,7 @@
 //! Input: none (built by `flatten`). Output: [`Stage`], which `machine` runs. Invariant: every register, address and loop
 //! that an operation names is there; indices stay in range for the sizes of the code.
 
+use crate::tabulated::Derivative;
 use hamiltonian_symbolic::op;
 
 /// A register of numbers, or of conditions.
@@ -93,6 +94,8 @@ pub(crate) enum Op {
     CallTwo(Register, op::Op, Register, Register),
     /// A function of three arguments.
     CallThree(Register, op::Op, Register, Register, Register),
+    /// A function with data, by its number: a derivative at one or two numbers.
+    External(Register, u16, Derivative, Register, Register),
     /// The sine and, after it, the cosine.
     SinCos(Register, Register, Register),
     Less(Register, Register, Register),
@@ -226,10 +229,14 @@ pub(crate) struct LoopCode {
     pub(crate) level: usize,
     pub(crate) start: Form,
     pub(crate) end: Form,
+    /// The most that the end is.
+    pub(crate) most: i64,
     /// The sums that begin at 0.
     pub(crate) zero: Vec<Register>,
     /// Sums with the first of their partial sums, if the loop is innermost and its sums are trees.
     pub(crate) trees: Vec<(Register, Register)>,
+    /// The least number of iterations of such trees.
+    pub(crate) long: i64,
     /// The operation behind the beginning.
     pub(crate) body: usize,
     /// The operation behind the end.

@@ -6,6 +6,7 @@
 use crate::code::Code;
 use crate::machine::{Arrays, Given, Home, Pool, run};
 use crate::op::{FunctionCode, Held};
+use crate::tabulated::Tabulated;
 use hamiltonian_core::nalgebra::DVector;
 use hamiltonian_core::schemes::author::{Arithmetic, gather};
 use hamiltonian_lanes::{Pack, Real};
@@ -31,6 +32,7 @@ pub struct Prepared<T: Real> {
     pub(crate) held: Arc<Vec<HeldOf<T>>>,
     /// The arrays of parameters, and those that preparation fills.
     pub(crate) data: Arc<Vec<T>>,
+    pub(crate) functions: Arc<Vec<Tabulated>>,
     pub(crate) pool: Pool<T>,
     /// The kick for −1 and the drift for 1, or the field for −1, of which the gradient is made.
     pub(crate) unit: Arc<Vec<Vec<T>>>,
@@ -60,7 +62,11 @@ fn held<T: Real>(held: &[Held], scalars: &[T], prepared: &[T], data: &[T]) -> Ve
 
 impl<T: Real> Prepared<T> {
     /// Prepares a system from the numbers of each parameter.
-    pub(crate) fn new(code: &Arc<Code>, parameters: &[Vec<f64>]) -> Self {
+    pub(crate) fn new(
+        code: &Arc<Code>,
+        parameters: &[Vec<f64>],
+        functions: &Arc<Vec<Tabulated>>,
+    ) -> Self {
         let lifted = |number: &f64| T::constant(*number, 0.0);
         let mut scalars = vec![T::zero(); parameters.len()];
         let mut data = vec![T::constant(f64::NAN, 0.0); code.places.data];
@@ -87,6 +93,7 @@ impl<T: Real> Prepared<T> {
             Given {
                 numbers: &given,
                 data: &[],
+                functions,
             },
             Home::Pool(&pool),
             &mut arrays,
@@ -99,15 +106,28 @@ impl<T: Real> Prepared<T> {
             framed: of(function.framed.as_ref().map_or(&[], |framed| &framed.held)),
         };
         let all = code.functions.iter().map(of_function).collect();
-        Prepared::whole(code.clone(), all, data, Arithmetic::default())
+        Prepared::whole(
+            code.clone(),
+            all,
+            data,
+            functions.clone(),
+            Arithmetic::default(),
+        )
     }
 
     /// A system of its parts.
-    fn whole(code: Arc<Code>, held: Vec<HeldOf<T>>, data: Vec<T>, arithmetic: Arithmetic) -> Self {
+    fn whole(
+        code: Arc<Code>,
+        held: Vec<HeldOf<T>>,
+        data: Vec<T>,
+        functions: Arc<Vec<Tabulated>>,
+        arithmetic: Arithmetic,
+    ) -> Self {
         let mut made = Prepared {
             code,
             held: Arc::new(held),
             data: Arc::new(data),
+            functions,
             pool: Pool::new(),
             unit: Arc::new(Vec::new()),
             arithmetic,
@@ -146,11 +166,13 @@ impl<T: Real> Prepared<T> {
         });
         let held = held.collect();
         let data = lanes(first.data.len(), &|member, at| member.data[at]);
-        Prepared::whole(first.code.clone(), held, data, first.arithmetic)
+        let functions = first.functions.clone();
+        Prepared::whole(first.code.clone(), held, data, functions, first.arithmetic)
     }
 
     pub(crate) fn fits(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.code, &other.code) || self.code == other.code
+        let is_same = Arc::ptr_eq(&self.code, &other.code) || self.code == other.code;
+        is_same && self.functions == other.functions
     }
 
     pub(crate) fn equals(&self, other: &Self) -> bool {
@@ -183,6 +205,7 @@ impl<T: Real> Prepared<T> {
         let given = Given {
             numbers: &held.coefficient,
             data: &self.data,
+            functions: &self.functions,
         };
         run(stage, given, Home::Pool(&self.pool), &mut arrays, rest);
     }
@@ -220,6 +243,7 @@ impl<T: Real> Prepared<T> {
         let given = Given {
             numbers,
             data: &self.data,
+            functions: &self.functions,
         };
         run(&function.evaluation, given, home, &mut arrays, results);
     }

@@ -6,6 +6,7 @@
 use crate::code::{Code, Part};
 use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
+use crate::tabulated::Tabulated;
 use hamiltonian_core::nalgebra::{Const, Dyn, OMatrix};
 use hamiltonian_core::private;
 use hamiltonian_core::schemes::author::{Description, Needs, Piece, Pieces, Point};
@@ -44,12 +45,22 @@ pub struct RuntimeSystem {
     pub(crate) code: Arc<Code>,
     /// The numbers of each parameter.
     parameters: Arc<Vec<Vec<f64>>>,
+    /// The functions with data.
+    functions: Arc<Vec<Tabulated>>,
 }
 
 impl RuntimeSystem {
-    pub(crate) fn new(code: Arc<Code>, parameters: Vec<Vec<f64>>) -> Self {
-        let parameters = Arc::new(parameters);
-        RuntimeSystem { code, parameters }
+    pub(crate) fn new(
+        code: Arc<Code>,
+        parameters: Vec<Vec<f64>>,
+        functions: Vec<Tabulated>,
+    ) -> Self {
+        let (parameters, functions) = (Arc::new(parameters), Arc::new(functions));
+        RuntimeSystem {
+            code,
+            parameters,
+            functions,
+        }
     }
 
     /// The number of coordinates, which is that of momenta.
@@ -113,11 +124,14 @@ impl System for RuntimeSystem {
         for ((name, numbers), extents) in parameters.zip(&self.code.extents) {
             private::describe_parameter(out, name, extents, numbers)?;
         }
+        for (name, function) in self.code.function_names.iter().zip(&*self.functions) {
+            writeln!(out, "{name} = function {:016x}", function.fingerprint())?;
+        }
         Ok(())
     }
 
     fn prepare<T: Real>(&self) -> Prepared<T> {
-        Prepared::new(&self.code, &self.parameters)
+        Prepared::new(&self.code, &self.parameters, &self.functions)
     }
 
     fn zeros<T: Real>(&self) -> Flat<T> {
@@ -164,15 +178,24 @@ impl<T: Real> Piece<T, Prepared<T>> for RuntimePiece {
     type Flow = PartFlow<T>;
 
     fn flow(&self, prepared: &Prepared<T>, c: T) -> PartFlow<T> {
+        PartFlow::new(prepared, self.part(prepared), c)
+    }
+
+    fn merges(&self, prepared: &Prepared<T>) -> bool {
+        prepared.code.merges(self.part(prepared))
+    }
+}
+
+impl RuntimePiece {
+    fn part<T: Real>(self, prepared: &Prepared<T>) -> Part {
         // A run is refused before its flows are made, if they are not there.
         let [kick, quadratic] = prepared.code.nystrom.unwrap_or([Part::Kick, Part::Drift]);
-        let part = match self {
+        match self {
             RuntimePiece::Kick => Part::Kick,
             RuntimePiece::Drift => Part::Drift,
             RuntimePiece::NystromKick => kick,
             RuntimePiece::Quadratic => quadratic,
-        };
-        PartFlow::new(prepared, part, c)
+        }
     }
 }
 
@@ -226,12 +249,19 @@ impl<T: Real> Pieces<T, Prepared<T>> for RuntimePieces {
         let way_down = between
             .iter()
             .map(|part| PartFlow::new(prepared, *part, down));
-        let turn = PartFlow::new(prepared, *last, down + up);
+        let turn = match prepared.code.merges(*last) {
+            true => vec![PartFlow::new(prepared, *last, down + up)],
+            false => [down, up].map(|c| PartFlow::new(prepared, *last, c)).into(),
+        };
         let way_up = between
             .iter()
             .rev()
             .map(|part| PartFlow::new(prepared, *part, up));
-        Inside(way_down.chain([turn]).chain(way_up).collect())
+        Inside(way_down.chain(turn).chain(way_up).collect())
+    }
+
+    fn merges(&self, prepared: &Prepared<T>) -> bool {
+        prepared.code.merges(self.parts(prepared).0)
     }
 }
 

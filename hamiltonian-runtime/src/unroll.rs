@@ -40,6 +40,10 @@ pub(crate) fn straight(
         return None;
     }
     let mut stage = builder.stage;
+    // A frame has no functions with data.
+    if stage.ops.iter().any(|op| matches!(op, Op::External(..))) {
+        return None;
+    }
     stage.coefficients = read.len();
     drop_copies(&mut stage.ops);
     Some(stage)

@@ -1,6 +1,9 @@
 //! The values of parameters and sizes by name.
 //!
-//! Input: numbers and lists. Output: [`Values`]. Invariant: nothing is checked before a system is made of them.
+//! Input: numbers, lists and functions. Output: [`Values`]. Invariant: nothing is checked before a system is made of them.
+
+use crate::tabulated::Tabulated;
+use hamiltonian_core::systems::function::{Grid, Spline};
 
 /// The value of a parameter or of a size.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +12,26 @@ pub enum Value {
     Number(f64),
     /// The elements of an array, the last index fastest: those of `w[n][m]` row after row.
     List(Vec<f64>),
+    /// A function with data.
+    Function(Tabulated),
+}
+
+impl From<Spline> for Value {
+    fn from(spline: Spline) -> Value {
+        Value::Function(spline.into())
+    }
+}
+
+impl From<Grid> for Value {
+    fn from(grid: Grid) -> Value {
+        Value::Function(grid.into())
+    }
+}
+
+impl From<Tabulated> for Value {
+    fn from(function: Tabulated) -> Value {
+        Value::Function(function)
+    }
 }
 
 impl From<f64> for Value {

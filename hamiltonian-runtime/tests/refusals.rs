@@ -61,30 +61,39 @@ fn schemes_that_do_not_fit_are_refused_with_the_words_of_the_macro() {
 }
 
 #[test]
-fn a_force_of_the_momenta_has_no_kick_yet() {
-    let text = "struct Damped { gamma = 0.1 } H(q; p) = p^2/2 + q^2/2; force(q; p) = -gamma*p";
-    let damped = system(text);
-    let (marker, message) = refused(&damped, StormerVerlet::default());
-    assert_eq!(marker, "Separable");
-    assert!(message.contains("definitions at run time"), "{message}");
-    let start = State::new(vec![0.5], vec![0.25]);
-    assert!(Integrator::new(&damped, Gauss::<8>::default(), start, 0.1).is_ok());
+fn what_is_not_carried_is_named_with_its_place() {
+    let text = "struct A {}\nfn f(x) = sin, (cos);\nH = p^2/2 + f(q)";
+    let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    let error = definition.system(Values::new()).map(|_| ()).unwrap_err();
+    let shown = error.to_string();
+    assert!(matches!(error, SystemError::NotCarried { .. }), "{shown}");
+    assert!(shown.starts_with("text:2:4: the function `f`"), "{shown}");
 }
 
 #[test]
-fn what_is_not_carried_is_named_with_its_place() {
-    for (text, feature, at) in [(
-        "struct A {}\nfn f(x) = sin, (cos);\nH = p^2/2 + f(q)",
-        "the function `f`",
-        "text:2:4",
-    )] {
-        let definition =
-            Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
-        let error = definition.system(Values::new()).map(|_| ()).unwrap_err();
-        let shown = error.to_string();
-        assert!(matches!(error, SystemError::NotCarried { .. }), "{shown}");
-        assert!(shown.starts_with(at) && shown.contains(feature), "{shown}");
-    }
+fn a_function_has_the_place_of_a_function() {
+    let text = "struct A { V: fn(r), W: fn(x, y), k = 1.0 } H(q; p) = p^2/2 + k*V(q) + W(q, q)";
+    let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    let spline = Spline::natural(&[0.0, 1.0, 2.0], &[0.0, 1.0, 4.0]).unwrap();
+    let grid = Grid::natural([0.0; 2], [1.0; 2], &[[0.0; 3], [1.0; 3], [4.0; 3]]).unwrap();
+    let refused = |values: Values| definition.system(values).unwrap_err().to_string();
+    let own = Values::new().with("V", spline.clone());
+    assert!(
+        definition
+            .system(own.clone().with("W", grid.clone()))
+            .is_ok()
+    );
+    assert_eq!(refused(own.clone()), "`W` has no default: give it a value");
+    let swapped = own.clone().with("W", spline.clone());
+    assert_eq!(
+        refused(swapped),
+        "`W` must be a function of two numbers: a `Grid`"
+    );
+    let number = own.with("W", grid).with("k", spline);
+    assert_eq!(
+        refused(number),
+        "`k` is a function, and must be a number or a list"
+    );
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::Srkn6b;
-use hamiltonian::schemes::author::Listed;
+use hamiltonian::schemes::author::{Dynamics, Listed};
 use hamiltonian::{Error, Vector};
 use hamiltonian_runtime::{Definition, FlatState, Run, RunError, RuntimeSystem, Swarm, Values};
 
@@ -47,6 +47,23 @@ both!(bodies: pub struct Bodies { n: usize, G = 1.0, m: [n] }
         - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) });
 both!(damped: pub struct Damped { gamma = 0.1 }
     H(q; p) = p^2/2 - cos(q); force(q; p) = -gamma*p*abs(p));
+both!(dragged: pub struct Dragged { gamma = 0.1, k = 1.5 }
+    H(x, y; u, v) = (u^2 + v^2)/2 + k*(x^2 + y^4)/2; force(x, y; u, v) = [-gamma*x*u + y, -gamma*v]);
+both!(slowed: pub struct Slowed { gamma = 0.1 }
+    H(x, y; u, v) = u^2/2 + v^2/2 + x^2/2; force(x, y; u, v) = [-gamma*u, -gamma*(1 + y^2)*v]);
+both!(turned: pub struct Turned { b = 0.7, gamma = 0.1 }
+    H(x, y; u, v) = (u^2 + v^2)/2 + (x^2 + y^2)/2; force(x, y; u, v) = [b*v - gamma*u + x*y, -b*x*u - gamma*v]);
+both!(whirled: pub struct Whirled { gamma = 0.1 }
+    H(x, y; u, v) = (x^2 + 1)*(u^2 + 1)/2 + v^2/2 + y^2/2; force(x, y; u, v) = [-gamma*u*abs(u), -gamma*x*v]);
+both!(sliding: pub struct Sliding { n: usize, u: [n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + q[i]^2/2 + q[i]^4/4 }; force(q; p) = -dot(u, p)*u);
+both!(mean: pub struct Mean { n: usize }
+    H(q[n], x; p[n], y) = (x^2 + 1)*(y^2 + 1)/2 + sum(i in 0..n) { p[i]^2/2 }
+        + sum(i in 0..n, j in 0..n) { cos(q[i] - q[j]) }/n);
+both!(tabulated: pub struct Tabulated { V: fn(r), W: fn(x, y), k = 0.3 }
+    H(x, y; u, v) = (u^2 + v^2)/2 + V(x)*(1 + y^2) + k*W(x, y));
+both!(cloud: pub struct Cloud { n: usize }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n, j in 0..i) { 1/(1 + (q[i] - q[j])^2) });
 both!(switched: pub struct Switched { k = 3.0 }
     H(x, y; u, v) = (u^2 + v^2)/2 + if x > y { k*(x - y)^2/2 } else { sqrt(1 + (x - y)^2) } + atan2(y, 2 + x));
 
@@ -344,4 +361,134 @@ fn members_of_an_ensemble_have_the_bits_of_their_runs() {
     }
     let between = swarm.advance_until(20.25).unwrap();
     assert_eq!((swarm.steps(), between.t[0]), (202, 20.25));
+}
+
+#[test]
+fn kicks_whose_force_reads_momenta() {
+    let values = Values::new;
+    // The force is affine in each momentum, with a rest and without; momenta push each other; it is neither.
+    macro_rules! kicked {
+        ($($module:ident $system:ident $scheme:expr, $q:expr, $p:expr;)*) => {$(
+            agree!($module::$system::default(), $module::TEXT, values(), $scheme, $q, $p, 0.05);
+        )*};
+    }
+    kicked! {
+        dragged Dragged BlanesMoan4, [0.4, 0.5], [0.3, -0.2];
+        slowed Slowed BlanesMoan4, [0.4, 0.5], [0.3, -0.2];
+        turned Turned BlanesMoan4, [0.4, 0.5], [0.3, -0.2];
+        damped Damped StormerVerlet::default(), [0.5], [0.4];
+        whirled Whirled Strang, [0.4, 0.5], [0.3, -0.2];
+    }
+    // Sums of 32 terms and more.
+    let n = 40;
+    let numbers = |from: f64| -> Vec<f64> { (0..n).map(|k| (from + k as f64).sin()).collect() };
+    let u = numbers(5.0);
+    agree!(
+        sliding::Sliding::new(n, u.clone()).unwrap(),
+        sliding::TEXT,
+        Values::new().with("n", n).with("u", u.clone()),
+        BlanesMoan4,
+        numbers(0.0),
+        numbers(1.0),
+        0.05
+    );
+}
+
+#[test]
+fn a_piece_with_long_sums() {
+    let n = 40;
+    let numbers = |from: f64| -> Vec<f64> { (0..=n).map(|k| (from + k as f64).sin()).collect() };
+    agree!(
+        mean::Mean::new(n).unwrap(),
+        mean::TEXT,
+        Values::new().with("n", n),
+        BlanesMoan4,
+        numbers(0.0),
+        numbers(1.0),
+        0.02
+    );
+}
+
+#[test]
+fn functions_with_data() {
+    let knots: Vec<f64> = (0..9).map(|k| f64::from(k) - 4.0).collect();
+    let heights: Vec<f64> = knots
+        .iter()
+        .map(|x| x * x / 2.0 + (3.0 * x).sin() / 5.0)
+        .collect();
+    let spline = Spline::natural(&knots, &heights).unwrap();
+    let row = |x: &f64| {
+        knots
+            .iter()
+            .map(|y| (x * y).sin() + y * y)
+            .collect::<Vec<f64>>()
+    };
+    let rows: Vec<Vec<f64>> = knots.iter().map(row).collect();
+    let grid = Grid::natural([-4.0; 2], [1.0; 2], &rows).unwrap();
+    let values = || {
+        Values::new()
+            .with("V", spline.clone())
+            .with("W", grid.clone())
+    };
+    let compiled = || tabulated::Tabulated::new(spline.clone(), grid.clone());
+    // `Gauss8` solves with Newton's method too, which takes second derivatives.
+    agree!(
+        compiled(),
+        tabulated::TEXT,
+        values(),
+        BlanesMoan4,
+        [0.4, 0.5],
+        [0.3, -0.2],
+        0.1
+    );
+    agree!(
+        compiled(),
+        tabulated::TEXT,
+        values(),
+        Gauss::<8>::default(),
+        [0.4, 0.5],
+        [0.3, -0.2],
+        0.1
+    );
+
+    let own = made(tabulated::TEXT, values());
+    let (mut due, mut found) = (String::new(), String::new());
+    compiled().describe_parameters(&mut due).unwrap();
+    own.describe_parameters(&mut found).unwrap();
+    assert_eq!(found, due);
+    let (prepared, compiled) = (own.prepare::<f64>(), compiled().prepare::<f64>());
+    let (q, p) = ([0.7, -0.3], [0.2, 0.4]);
+    let [mut due_q, mut due_p] = [hamiltonian::nalgebra::Vector2::zeros(); 2];
+    let [q2, p2] = [q, p].map(hamiltonian::nalgebra::Vector2::from);
+    compiled.hessian_vector(0.0, &q2, &p2, &p2, &q2, &mut due_q, &mut due_p);
+    let flat = |x: [f64; 2]| hamiltonian::nalgebra::DVector::from_vec(x.to_vec());
+    let [mut own_q, mut own_p] = [flat([0.0; 2]), flat([0.0; 2])];
+    prepared.hessian_vector(
+        0.0,
+        &flat(q),
+        &flat(p),
+        &flat(p),
+        &flat(q),
+        &mut own_q,
+        &mut own_p,
+    );
+    assert_eq!(own_q.as_slice(), due_q.as_slice());
+    assert_eq!(own_p.as_slice(), due_p.as_slice());
+    assert_ne!(own_q[0], 0.0);
+}
+
+#[test]
+fn pairs_in_tiles() {
+    // From 4096 rows on there are tiles, here with a part of one at the end.
+    let n = 4100;
+    let q: Vec<f64> = (0..n).map(|k| ((k * k) as f64 * 0.37).sin()).collect();
+    let own = made(cloud::TEXT, Values::new().with("n", n));
+    let compiled = cloud::Cloud::new(n).unwrap();
+    let flat = hamiltonian::nalgebra::DVector::from_vec(q);
+    let zero = || hamiltonian::nalgebra::DVector::zeros(n);
+    let (mut due, mut found) = (zero(), zero());
+    (compiled.prepare::<f64>()).gradient_q(0.0, &flat, &zero(), &mut due);
+    (own.prepare::<f64>()).gradient_q(0.0, &flat, &zero(), &mut found);
+    assert_ne!(due[7], 0.0);
+    assert_eq!(found, due);
 }

@@ -42,7 +42,7 @@ impl<F> Link<F> {
         K: Pieces<T, P, Outer = F>,
         F: Flow<K::Point>,
     {
-        if F::MERGES {
+        if pieces.merges(prepared) {
             Link {
                 up: pieces.outer(prepared, up + down),
                 down: None,

@@ -91,6 +91,12 @@ pub trait Piece<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     type Flow: Flow<Self::Point>;
     /// The flow for the duration `c`, with `c` folded into the prepared constants.
     fn flow(&self, prepared: &P, c: T) -> Self::Flow;
+    /// True if flows of this piece merge, [`Flow::MERGES`]. A piece of run time, whose type does not decide it, has its own
+    /// answer and flows whose `MERGES` is false.
+    #[inline(always)]
+    fn merges(&self, _prepared: &P) -> bool {
+        <Self::Flow as Flow<Self::Point>>::MERGES
+    }
 }
 
 /// Pieces of H in an order: a tuple of [`Piece`]s, the outermost first.
@@ -109,6 +115,11 @@ pub trait Pieces<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     fn outer(&self, prepared: &P, c: T) -> Self::Outer;
     /// The flows of the pieces 2…k for `down` and k…2 for `up`.
     fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner;
+    /// True if flows of the first piece merge, [`Piece::merges`].
+    #[inline(always)]
+    fn merges(&self, _prepared: &P) -> bool {
+        <Self::Outer as Flow<Self::Point>>::MERGES
+    }
 }
 
 /// The flow of no piece, inside a splitting into one.
@@ -137,7 +148,7 @@ impl<F> Turn<F> {
         A: Piece<T, P, Flow = F>,
         F: Flow<A::Point>,
     {
-        if F::MERGES {
+        if piece.merges(prepared) {
             Turn {
                 down: piece.flow(prepared, down + up),
                 up: None,
@@ -204,6 +215,10 @@ impl<T: Real, P, A: Piece<T, P>> Pieces<T, P> for (A,) {
         self.0.flow(prepared, c)
     }
     #[inline(always)]
+    fn merges(&self, prepared: &P) -> bool {
+        self.0.merges(prepared)
+    }
+    #[inline(always)]
     fn inner(&self, _: &P, _: T, _: T) -> Nothing {
         Nothing
     }
@@ -226,6 +241,10 @@ macro_rules! pieces {
                 self.0.flow(prepared, c)
             }
             #[inline(always)]
+            fn merges(&self, prepared: &P) -> bool {
+                self.0.merges(prepared)
+            }
+            #[inline(always)]
             fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner {
                 Turn::new(&self.1, prepared, down, up)
             }
@@ -246,6 +265,10 @@ macro_rules! pieces {
             #[inline(always)]
             fn outer(&self, prepared: &P, c: T) -> Self::Outer {
                 self.0.flow(prepared, c)
+            }
+            #[inline(always)]
+            fn merges(&self, prepared: &P) -> bool {
+                self.0.merges(prepared)
             }
             #[inline(always)]
             fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner {

@@ -11,12 +11,13 @@ compiled. The chapter "From Python" of the book shows tasks, and the chapter "Th
 
 from .ensembles import Ensemble
 from .errors import DefinitionError, Diagnostic, RunError
+from .functions import Grid, Spline
 from .runs import Crossings, Run, Solution, State
 from .schemes import Scheme, schemes
 from .system import System, define, load
 
 __all__ = [
     *("DefinitionError", "Diagnostic", "RunError"),
-    *("Crossings", "Ensemble", "Run", "Scheme", "Solution", "State", "System"),
+    *("Crossings", "Ensemble", "Grid", "Run", "Scheme", "Solution", "Spline", "State", "System"),
     *("define", "load", "schemes"),
 ]

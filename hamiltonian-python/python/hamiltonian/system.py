@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import arrays
-from ._hamiltonian import Definition
+from ._hamiltonian import Definition, Function
 from ._hamiltonian import System as _System
 from .ensembles import Ensemble
+from .functions import Grid, Spline
 from .runs import Run, Solution, State, made, sensitivities, solved
 from .variables import Variables
 
@@ -20,7 +21,7 @@ def define(definition, /, **values) -> System:
 
     A text may declare its parameters with ``struct Name { lam = 1.0 }``. Without that, every name that is neither a
     coordinate nor a momentum is a parameter. ``values`` are those of the parameters and sizes: numbers and arrays of
-    numbers. A parameter that is not named has its default.
+    numbers, and a `Spline` or a `Grid` for a parameter ``V: fn(r)``. A parameter that is not named has its default.
 
     An expression of SymPy needs ``coordinates`` and ``momenta``, tuples of symbols, and ``time`` if H depends on it.
     ``events``, ``monitors`` and ``invariants`` are dictionaries of more expressions by their names.
@@ -65,19 +66,36 @@ def _restored(text: str, source: str, values: dict) -> System:
 
 def _made(definition: Definition, text: str, source: str, values: dict) -> System:
     """The system of a definition that was read."""
-    known = {name: arrays.numbers(name, value) for name, value in values.items()}
+    functions = definition.functions
+    known = {name: _value(name, value, name in functions) for name, value in values.items()}
     own = definition.system(_flat(known))
     for name, extents, _ in own.parameters:
         if name in known and list(known[name].shape) != extents:
             raise ValueError(f"`{name}` must have the shape {tuple(extents)}, found {known[name].shape}")
     for value in known.values():
-        value.flags.writeable = False
+        if isinstance(value, np.ndarray):
+            value.flags.writeable = False
     return System(definition, own, text, source, known)
 
 
-def _flat(values: dict[str, np.ndarray]) -> list[tuple[str, float | np.ndarray]]:
-    """Numbers, and arrays row after row."""
-    return [(name, float(value) if value.ndim == 0 else value.ravel()) for name, value in values.items()]
+def _value(name: str, value, is_function: bool) -> np.ndarray | Spline | Grid:
+    """A value that was checked: numbers, or a function with data."""
+    if not is_function:
+        return arrays.numbers(name, value)
+    if not isinstance(value, (Spline, Grid)):
+        raise TypeError(f"`{name}` must be a function: a `Spline` or a `Grid`, found a value of type {type(value).__name__}")
+    return value
+
+
+def _flat(values: dict) -> list[tuple[str, float | np.ndarray | Function]]:
+    """Numbers, arrays row after row, and functions."""
+
+    def flat(value):
+        if isinstance(value, (Spline, Grid)):
+            return value._own
+        return float(value) if value.ndim == 0 else value.ravel()
+
+    return [(name, flat(value)) for name, value in values.items()]
 
 
 class System:
@@ -96,7 +114,7 @@ class System:
     """The variables in which the definition is written: ``coordinates``, ``momenta``, ``velocities`` and ``shape``. They
     are those of the system, unless the definition has ``coordinates …`` or ``dt = …``: see `from_declared`."""
 
-    def __init__(self, definition: Definition, own: _System, text: str, source: str, values: dict[str, np.ndarray]):
+    def __init__(self, definition: Definition, own: _System, text: str, source: str, values: dict):
         self._definition, self._own, self._values = definition, own, values
         self.text, self.source = text, source
         self._variables, self.declared = Variables(own.groups), Variables(own.declared_groups)
@@ -341,7 +359,7 @@ class System:
         known = [own for own, _ in self._own.observables]
         return f"{self.name} declares no {name!r}; it has: {', '.join(known) or 'none'}"
 
-    def _flat(self) -> list[tuple[str, float | np.ndarray]]:
+    def _flat(self) -> list[tuple[str, float | np.ndarray | Function]]:
         return _flat(self._values)
 
     def __repr__(self) -> str:

@@ -146,7 +146,7 @@ fn run_in_order<T: Real>(
         masks: Map::default(),
         variables: Map::default(),
         outputs: point.outputs.clone(),
-        is_in_place: matches!(function.purpose, Purpose::Piece(_)),
+        is_in_place: matches!(function.purpose, Purpose::Piece(_) | Purpose::Push),
         reversed: false,
         has_trees: true,
         is_inside: false,
@@ -168,7 +168,8 @@ fn run_in_order<T: Real>(
     machine.steps(&program.prepare);
     machine.steps(&function.coefficient);
     machine.reversed = reversed;
-    machine.has_trees = !machine.is_in_place;
+    // A flow that reads one side and moves the other is emitted as one that is apart.
+    machine.has_trees = !machine.is_in_place || program.one_way(function).is_some();
     machine.steps(&function.evaluation);
     let results = function
         .results

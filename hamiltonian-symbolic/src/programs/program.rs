@@ -6,9 +6,7 @@
 //! depends on parameters alone in [`Program::prepare`], on parameters and the step coefficient in
 //! [`Function::coefficient`], the rest in [`Function::evaluation`].
 
-#[cfg(doc)]
-use crate::dag::Side;
-use crate::dag::{Array, Column, Parameter, Partial, Relation, StandIn};
+use crate::dag::{Array, Column, Parameter, Partial, Relation, Side, StandIn};
 use crate::hoist::Hoisted;
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::Op;
@@ -287,5 +285,48 @@ impl Program {
     #[must_use]
     pub fn function(&self, purpose: Purpose) -> Option<&Function> {
         self.functions.iter().find(|f| f.purpose == purpose)
+    }
+
+    /// The side that a kick, a drift or the flow of a piece reads, if it writes the other one alone. Its loops need not see
+    /// their own stores, so it need not be computed in place.
+    #[must_use]
+    pub fn one_way(&self, function: &Function) -> Option<Side> {
+        match function.purpose {
+            Purpose::Kick => return Some(Side::Q),
+            Purpose::Drift => return Some(Side::P),
+            _ => {}
+        }
+        let mut touched = Touched::default();
+        touched.steps(self, &function.evaluation);
+        match (touched.reads, touched.writes) {
+            ([_, false], [false, true]) => Some(Side::Q),
+            ([false, _], [true, false]) => Some(Side::P),
+            _ => None,
+        }
+    }
+}
+
+/// The sides of phase space, coordinates and momenta, that steps read and write.
+#[derive(Default)]
+struct Touched {
+    reads: [bool; 2],
+    writes: [bool; 2],
+}
+
+impl Touched {
+    fn steps(&mut self, program: &Program, steps: &[Step]) {
+        let place = |side: Side| usize::from(side == Side::P);
+        for step in steps {
+            match step {
+                Step::Let(value) => {
+                    if let Instruction::Load(Array::Phase(at), ..) = program.instruction(*value) {
+                        self.reads[place(at.side)] = true;
+                    }
+                }
+                Step::Store(Target::Phase(at), ..) => self.writes[place(at.side)] = true,
+                Step::Loop(inner) => self.steps(program, &inner.body),
+                Step::Store(..) | Step::Accumulate(..) => {}
+            }
+        }
     }
 }

@@ -7,8 +7,6 @@ use super::dynamics::{Emission, apart, declared, loops, with_self};
 use super::markers;
 use crate::emit::functions::holder::Holder;
 use crate::emit::names::context::Access;
-use crate::emit::names::layout::Slice;
-use crate::emit::steps::scan::scan;
 use hamiltonian_language::analyse::structure::{Nystrom, Reason};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::model::ExactFlow;
@@ -54,7 +52,7 @@ impl Emission<'_> {
         let function = (self.context.program).function(Purpose::Piece(number as u16));
         self.emitted(&match (self.rows(number), function) {
             (Some(rows), _) => format!("__h::Matrices<{kind}, {rows}>"),
-            (None, Some(function)) if self.one_way(function).is_some() => {
+            (None, Some(function)) if self.context.program.one_way(function).is_some() => {
                 format!("__h::Shifts<{kind}>")
             }
             _ => format!("__h::Moves<{kind}>"),
@@ -141,7 +139,7 @@ impl Emission<'_> {
             Purpose::Piece(number) => self.rows(usize::from(number)),
             _ => None,
         };
-        if let (Some(from), None) = (self.one_way(function), rows) {
+        if let (Some(from), None) = (self.context.program.one_way(function), rows) {
             let kicks = from == Side::Q;
             if !kicks {
                 constants.push_str("const KICKS: __h::bool = false;\n");
@@ -204,29 +202,5 @@ impl Emission<'_> {
             self,
             "#[inline(always)]\nfn {method}(_self: &Self::Held, {list}) {{\n{text}}}"
         );
-    }
-
-    /// The side that is read, where nothing of it is written and all that is written is of the
-    /// other: a kick or a drift, whose loops need not see their own stores.
-    fn one_way(&self, function: &Function) -> Option<Side> {
-        match function.purpose {
-            Purpose::Kick => return Some(Side::Q),
-            Purpose::Drift => return Some(Side::P),
-            _ => {}
-        }
-        let slices = scan(self.context, &function.evaluation, &function.results).slices;
-        let touched = |side: Side| {
-            let of_side = |slice: &&Slice| slice.part().is_some_and(|(_, of)| of.side == side);
-            let own = || slices.iter().filter(of_side);
-            (
-                own().any(|slice| !slice.is_written()),
-                own().any(|slice| slice.is_written()),
-            )
-        };
-        match (touched(Side::Q), touched(Side::P)) {
-            ((_, false), (false, true)) => Some(Side::Q),
-            ((false, true), (_, false)) => Some(Side::P),
-            _ => None,
-        }
     }
 }

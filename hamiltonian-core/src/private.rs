@@ -34,8 +34,8 @@ pub use crate::__record as record;
 pub use crate::errors::Error;
 pub use crate::flows::emitted::{
     Adds, Damped, Drift, Emitted, FieldBody, FieldOf, FlowBody, Halves, Kick, Linear, Matrices,
-    Moves, Numbered, OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
-    WithData, gradient_by_field, slopes_by_kick, velocities_by_drift,
+    Moves, Numbered, OfGradient, Origin, Push, Pushed, Rates, SharedCode, Shift, Shifts, Stepped,
+    Whole, WithData, add_field, gradient_by_field, slopes_by_kick, velocities_by_drift,
 };
 pub use crate::flows::exponential::Exponential;
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
@@ -384,7 +384,7 @@ macro_rules! __computed_as_chosen {
         ) {
             let _held = $crate::private::FieldBody::<$field, $scalar>::fold(self, _c);
             let _data = $crate::private::WithData::data(self);
-            <Self as $crate::private::FieldBody<$field, $scalar>>::add(&_held, _data, _t, _q, _p, _into_q, _into_p);
+            $crate::private::add_field::<$field, $scalar, Self>(&_held, _data, _t, [_q, _p], [_into_q, _into_p]);
         }
         #[inline(always)]
         fn arithmetic(&self) -> $crate::private::Arithmetic {

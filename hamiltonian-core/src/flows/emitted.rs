@@ -16,6 +16,30 @@ use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 
+/// The scalars over which a program has one copy of a body for all of its uses: a function of its own. Over others the
+/// body is written out at each use.
+#[derive(Debug, Clone, Copy)]
+pub enum SharedCode {
+    /// No scalar.
+    None,
+    /// Packs: a long line of instructions over several registers takes most of the time of a build. In a run of numbers
+    /// a call would take time.
+    InPacks,
+    /// All: a call is short beside nested loops.
+    All,
+}
+
+impl SharedCode {
+    /// Returns true if the code over `T` is shared.
+    const fn over<T: Real>(self) -> bool {
+        match self {
+            SharedCode::None => false,
+            SharedCode::InPacks => T::LANES > 1,
+            SharedCode::All => true,
+        }
+    }
+}
+
 /// A prepared system with the data that its bodies read beside held values.
 pub trait WithData<T: Real>: Dynamics<T> {
     /// The arithmetic of loops, the sizes set at run time, the functions and the arrays. A flow or a field has a copy.
@@ -32,6 +56,8 @@ pub trait Shift<K, T: Real>: WithData<T> {
     const KICKS: bool = true;
     /// See [`Flow::MERGES`].
     const MERGES: bool = true;
+    /// The scalars over which all uses of the body share its code.
+    const SHARED: SharedCode = SharedCode::None;
     /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
     /// Computes these values.
@@ -52,6 +78,8 @@ pub trait FlowBody<K, T: Real>: WithData<T> {
     const NAME: &'static str;
     /// See [`Flow::MERGES`].
     const MERGES: bool = true;
+    /// The scalars over which all uses of the body share its code.
+    const SHARED: SharedCode = SharedCode::None;
     /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
     /// Computes these values.
@@ -85,6 +113,8 @@ pub trait Origin<T: Real>: Dynamics<T> {
 
 /// A body that adds the values of a vector field at a point.
 pub trait FieldBody<K, T: Real>: WithData<T> {
+    /// The scalars over which all uses of the body share its code.
+    const SHARED: SharedCode = SharedCode::None;
     /// The values that depend on the prepared system and the coefficient alone.
     type Held: Clone + Debug;
     /// Computes these values.
@@ -99,6 +129,60 @@ pub trait FieldBody<K, T: Real>: WithData<T> {
         into_q: &mut Self::Vector,
         into_p: &mut Self::Vector,
     );
+}
+
+/// A call of a body, in a function of its own if its code is shared.
+macro_rules! call {
+    ($body:ident::$method:ident($($argument:expr),*)) => {
+        if const { $body::SHARED.over::<T>() } {
+            T::out_of_line(
+                #[inline(always)]
+                || $body::$method($($argument),*),
+            );
+        } else {
+            $body::$method($($argument),*);
+        }
+    };
+}
+
+/// [`Shift::add`], at each use.
+#[inline(always)]
+fn shift<K, T: Real, D: Shift<K, T>>(
+    held: &D::Held,
+    data: &D::Data,
+    t: T,
+    from: &D::Vector,
+    into: &mut D::Vector,
+) {
+    call!(D::add(held, data, t, from, into));
+}
+
+/// [`FlowBody::apply`] or [`FlowBody::apply_reversed`], at each use.
+#[inline(always)]
+fn flow<K, T: Real, D: FlowBody<K, T>, const REVERSED: bool>(
+    held: &D::Held,
+    data: &D::Data,
+    t: T,
+    q: &mut D::Vector,
+    p: &mut D::Vector,
+) {
+    if REVERSED {
+        call!(D::apply_reversed(held, data, t, q, p));
+    } else {
+        call!(D::apply(held, data, t, q, p));
+    }
+}
+
+/// [`FieldBody::add`], at each use.
+#[inline(always)]
+pub fn add_field<K, T: Real, D: FieldBody<K, T>>(
+    held: &D::Held,
+    data: &D::Data,
+    t: T,
+    [q, p]: [&D::Vector; 2],
+    [into_q, into_p]: [&mut D::Vector; 2],
+) {
+    call!(D::add(held, data, t, q, p, into_q, into_p));
 }
 
 impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
@@ -120,8 +204,8 @@ impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
         into_q: &mut Self::Vector,
         into_p: &mut Self::Vector,
     ) {
-        <D as Shift<Kick, T>>::add(kick, data, t, q, into_p);
-        <D as Shift<Drift, T>>::add(drift, data, t, p, into_q);
+        shift::<Kick, T, D>(kick, data, t, q, into_p);
+        shift::<Drift, T, D>(drift, data, t, p, into_q);
     }
 }
 
@@ -157,7 +241,7 @@ pub fn slopes_by_kick<T: Real, D: Shift<Kick, T>>(
     out: &mut D::Vector,
 ) {
     out.set_zero();
-    D::add(&prepared.fold(-T::one()), prepared.data(), t, q, out);
+    shift::<Kick, T, D>(&prepared.fold(-T::one()), prepared.data(), t, q, out);
 }
 
 /// ∂T/∂p of a separable H, by its drift.
@@ -169,7 +253,7 @@ pub fn velocities_by_drift<T: Real, D: Shift<Drift, T>>(
     out: &mut D::Vector,
 ) {
     out.set_zero();
-    D::add(&prepared.fold(T::one()), prepared.data(), t, p, out);
+    shift::<Drift, T, D>(&prepared.fold(T::one()), prepared.data(), t, p, out);
 }
 
 /// ∂H/∂q and ∂H/∂p of an H without a force, by its field.
@@ -182,15 +266,8 @@ pub fn gradient_by_field<T: Real, D: FieldBody<Whole, T>>(
 ) {
     by_q.set_zero();
     by_p.set_zero();
-    D::add(
-        &prepared.fold(-T::one()),
-        prepared.data(),
-        t,
-        q,
-        p,
-        by_p,
-        by_q,
-    );
+    let held = prepared.fold(-T::one());
+    add_field::<Whole, T, D>(&held, prepared.data(), t, [q, p], [&mut *by_p, by_q]);
     for k in 0..D::Vector::PARTS {
         for place in by_p.part_mut(k) {
             *place = -*place;
@@ -308,9 +385,9 @@ where
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
         let (held, data) = &self.held;
         if D::KICKS {
-            D::add(held, data, t, &x.q, &mut x.p);
+            shift::<K, V::Scalar, D>(held, data, t, &x.q, &mut x.p);
         } else {
-            D::add(held, data, t, &x.p, &mut x.q);
+            shift::<K, V::Scalar, D>(held, data, t, &x.p, &mut x.q);
         }
     }
 }
@@ -327,11 +404,13 @@ where
     type Work = ();
     #[inline(always)]
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
-        D::apply(&self.held.0, &self.held.1, t, &mut x.q, &mut x.p);
+        let (held, data) = &self.held;
+        flow::<K, V::Scalar, D, false>(held, data, t, &mut x.q, &mut x.p);
     }
     #[inline(always)]
     fn apply_reversed(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
-        D::apply_reversed(&self.held.0, &self.held.1, t, &mut x.q, &mut x.p);
+        let (held, data) = &self.held;
+        flow::<K, V::Scalar, D, true>(held, data, t, &mut x.q, &mut x.p);
     }
 }
 
@@ -344,7 +423,8 @@ where
 {
     #[inline(always)]
     fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
-        D::add(&self.held.0, &self.held.1, t, q, p, into_q, into_p);
+        let (held, data) = &self.held;
+        add_field::<K, V::Scalar, D>(held, data, t, [q, p], [into_q, into_p]);
     }
 }
 

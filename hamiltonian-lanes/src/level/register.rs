@@ -102,6 +102,14 @@ pub trait Register: Copy + Send + Sync + 'static {
     }
 }
 
+/// Aligns the stack of the function that it is inlined into for registers of type `R`: LLVM stores registers that it runs
+/// out of there, and aligns them only if a local variable is aligned so. A 512-bit register that is not crosses a cache
+/// line.
+#[inline(always)]
+pub(super) fn align_stack<R>() {
+    core::hint::black_box(&mut core::mem::MaybeUninit::<R>::uninit());
+}
+
 /// [`Register::out_of_line`] with these features.
 macro_rules! out_of_line {
     ($($features:literal)?) => {
@@ -109,19 +117,20 @@ macro_rules! out_of_line {
         fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
             // As in `Level::enter`: `inline(never)` holds for functions without features alone.
             #[inline(never)]
-            fn entry<A>(f: impl FnOnce() -> A) -> A {
+            fn entry<R, A>(f: impl FnOnce() -> A) -> A {
                 $(#[target_feature(enable = $features)])?
-                fn inside<A>(f: impl FnOnce() -> A) -> A {
+                fn inside<R, A>(f: impl FnOnce() -> A) -> A {
+                    crate::level::register::align_stack::<R>();
                     f()
                 }
                 // SAFETY: `inside` asks for features of the level that names the register, and that
                 // level is entered only on a CPU that has them (see the module).
                 #[allow(unused_unsafe)]
                 unsafe {
-                    inside(f)
+                    inside::<R, A>(f)
                 }
             }
-            entry(f)
+            entry::<Self, A>(f)
         }
         #[inline(always)]
         fn rare<F, W, const N: usize, const M: usize, const K: usize>(

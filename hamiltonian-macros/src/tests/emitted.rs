@@ -139,3 +139,27 @@ fn emission_is_deterministic() {
         assert_eq!(first, second);
     }
 }
+
+#[test]
+fn long_bodies_have_one_copy_in_a_program() {
+    let shared = |definition, over: &str| {
+        let code = emitted(definition).to_string();
+        let name = format!("const SHARED : __h :: SharedCode = __h :: SharedCode :: {over} ;");
+        code.matches(&name).count()
+    };
+    // A chain of twenty numbers; the field is the kick and the drift.
+    let [q, p] = ["q", "p"].map(|x| (0..20).map(|k| format!("{x}{k}")).collect::<Vec<_>>());
+    let terms: Vec<String> = (q.windows(2).map(|pair| format!("exp({})", pair.join("-"))))
+        .chain(p.iter().map(|p| format!("{p}^2/2")))
+        .collect();
+    let chain = format!(
+        "pub struct Chain {{}} H({}; {}) = {}",
+        q.join(", "),
+        p.join(", "),
+        terms.join(" + ")
+    );
+    for (definition, in_packs, all) in [(PENDULUM, 0, 0), (&chain, 1, 0), (GRAVITY, 0, 1)] {
+        assert_eq!(shared(definition, "InPacks"), in_packs, "{definition}");
+        assert_eq!(shared(definition, "All"), all, "{definition}");
+    }
+}

@@ -29,6 +29,20 @@ pub(crate) fn stumpff<T: Real>(psi: T) -> (T, T) {
     if is_small.all() {
         return (two, three);
     }
+    let (far_two, far_three) = T::out_of_line(
+        #[inline(always)]
+        move || stumpff_far(psi),
+    );
+    (
+        T::select(is_small, two, far_two),
+        T::select(is_small, three, far_three),
+    )
+}
+
+/// The same outside of −1 < ψ < 1, elsewhere any number.
+#[inline(always)]
+fn stumpff_far<T: Real>(psi: T) -> (T, T) {
+    let one = T::one();
     let half = T::constant(0.5, 0.0);
     // A lane whose value is not used computes the function of a harmless number.
     let turns = one.le(psi);
@@ -53,10 +67,7 @@ pub(crate) fn stumpff<T: Real>(psi: T) -> (T, T) {
             far_three,
         );
     }
-    (
-        T::select(is_small, two, far_two),
-        T::select(is_small, three, far_three),
-    )
+    (far_two, far_three)
 }
 
 /// Σ (−ψ)ʲ·cⱼ for |ψ| ≤ 1, to the precision of this scalar: even and odd powers in parallel.
@@ -99,6 +110,16 @@ pub(crate) fn remainder<T: Real>(b: T, c: T) -> T {
     if !returns.any() {
         return one;
     }
+    T::out_of_line(
+        #[inline(always)]
+        move || remainder_where(returns, around, c),
+    )
+}
+
+/// The same where the motion returns, elsewhere 1.
+#[inline(always)]
+fn remainder_where<T: Real>(returns: T::Mask, around: T, c: T) -> T {
+    let one = T::one();
     let c = T::select(returns, c, one);
     let turns = c * c.sqrt() / T::select(returns, around, one);
     let left = (turns - turns.round()) / turns;

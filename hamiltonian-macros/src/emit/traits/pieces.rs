@@ -3,14 +3,14 @@
 //! Input: a model with pieces. Output: text of the bodies, one a piece, and of the traits that name the pieces.
 //! Invariant: a flow reads and writes one point; outside of its domain all it moves becomes NaN, by the program.
 
-use super::dynamics::{Emission, apart, declared, loops, with_self};
+use super::dynamics::{Emission, declared, loops, with_self};
 use super::markers;
 use crate::emit::functions::holder::Holder;
 use crate::emit::names::context::Access;
 use hamiltonian_language::analyse::structure::{Nystrom, Reason};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::model::ExactFlow;
-use hamiltonian_symbolic::program::{Function, Purpose};
+use hamiltonian_symbolic::program::{Function, Program, Purpose};
 use std::fmt::Write;
 
 /// The value of a piece.
@@ -170,10 +170,18 @@ impl Emission<'_> {
         constants: &str,
     ) {
         let made = with_self(&self.made(function, holder));
+        // The loop over a chain may take less time than some calls.
+        let shared = match loops(&function.evaluation) {
+            2.. => Some("All"),
+            _ => is_long(self.context.program, function).then_some("InPacks"),
+        };
+        let shared =
+            shared.map(|of| format!("const SHARED: __h::SharedCode = __h::SharedCode::{of};\n"));
+        let shared = shared.unwrap_or_default();
         line!(
             self,
             "#[automatically_derived]\nimpl{} __h::{name}<{kind}, T> for {} {{\n\
-             {constants}type Held = {};\n#[inline(always)]\nfn fold(&self, _c: T) -> Self::Held {{\n{made}\n}}",
+             {constants}{shared}type Held = {};\n#[inline(always)]\nfn fold(&self, _c: T) -> Self::Held {{\n{made}\n}}",
             self.context.generics.holder_declaration(),
             self.prepared.ty(self.context),
             holder.held(),
@@ -192,15 +200,20 @@ impl Emission<'_> {
         let data = format!("&{}", self.context.generics.holder_type("__D"));
         let mut arguments = vec![("_d", data)];
         arguments.extend(self.arguments(vectors));
-        let (mut text, _) = self.evaluation(&name, Some(holder), &arguments, function);
-        // The loop over a chain may take less time than some calls.
-        if loops(&function.evaluation) > 1 {
-            text = apart(&text);
-        }
+        let (text, _) = self.evaluation(&name, Some(holder), &arguments, function);
         let list = declared(&arguments);
         line!(
             self,
             "#[inline(always)]\nfn {method}(_self: &Self::Held, {list}) {{\n{text}}}"
         );
     }
+}
+
+/// Returns true if the code of a function is so long that a call is short beside it.
+fn is_long(program: &Program, function: &Function) -> bool {
+    const LONG: usize = 500;
+    // The instructions of an elementary function, about.
+    const FUNCTION: usize = 30;
+    let operations = program.operations(function);
+    operations.total() + (FUNCTION - 1) * operations.functions >= LONG
 }

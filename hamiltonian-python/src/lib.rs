@@ -26,6 +26,7 @@ fn _hamiltonian(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(chaos::derivative, module)?)?;
     module.add_function(wrap_pyfunction!(chaos::indicators, module)?)?;
     module.add_function(wrap_pyfunction!(schemes, module)?)?;
+    module.add_function(wrap_pyfunction!(command, module)?)?;
     Ok(())
 }
 
@@ -42,4 +43,10 @@ fn schemes() -> Vec<(String, u32, &'static str, bool)> {
         )
     })
     .collect()
+}
+
+/// Runs the command `hamiltonian-run` with these arguments; returns its error.
+#[pyfunction]
+fn command(py: Python<'_>, arguments: Vec<String>) -> Option<String> {
+    py.detach(|| hamiltonian_runtime::command(&arguments).err())
 }

@@ -40,3 +40,17 @@ def test_every_public_name_is_documented():
         own = [] if not isinstance(public, type) else [member for member in vars(public).items() if member[0][0] != "_"]
         for member, value in own:
             assert not (callable(value) or isinstance(value, property)) or value.__doc__, f"{name}.{member}"
+
+
+def test_the_command_runs_a_file(tmp_path):
+    text = "H(x; p) = p^2/2 + x^2/2\n---\nstart x = 1, p = 0\nrun t = 0..1, every = 0.5, tolerance = 1e-10\n"
+    (tmp_path / "spring.ham").write_text(text, encoding="utf-8")
+
+    def run(*arguments):
+        command = [sys.executable, "-m", "hamiltonian", *arguments]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+
+    done = run("spring.ham")
+    assert done.returncode == 0 and done.stdout.splitlines()[0] == "t,x,p,H" and len(done.stdout.splitlines()) == 4
+    failed = run("missing.ham")
+    assert failed.returncode == 1 and failed.stderr.startswith("error: missing.ham: ")

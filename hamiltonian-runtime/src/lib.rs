@@ -50,6 +50,7 @@ mod readme {}
 mod allocate;
 mod by_table;
 mod code;
+mod command;
 mod cycle;
 mod definition;
 mod diagnostics;
@@ -76,6 +77,7 @@ mod values;
 mod variables;
 mod watching;
 
+pub use command::command;
 pub use definition::Definition;
 pub use diagnostics::{Diagnostic, Diagnostics, Place};
 pub use error::{RunError, SystemError};

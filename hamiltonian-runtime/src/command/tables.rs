@@ -3,11 +3,11 @@
 //! Input: tables, names of files. Output: the files, by the ends of their names. Invariant: a name that no file can have is
 //! refused before the run.
 
-use crate::calculate::Tables;
-use crate::places::Word;
-use crate::study::Study;
+use super::calculate::Tables;
+use super::places::Word;
+use super::study::Study;
+use crate::Diagnostic;
 use hamiltonian_core::Table;
-use hamiltonian_runtime::Diagnostic;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 
@@ -31,7 +31,7 @@ fn form(file: &Word) -> Result<FileForm, Box<Diagnostic>> {
 }
 
 /// Checks the names of all files.
-pub fn check(study: &Study) -> Result<(), Box<Diagnostic>> {
+pub(super) fn check(study: &Study) -> Result<(), Box<Diagnostic>> {
     let mut files = study.write.iter().chain(&study.events);
     files.try_for_each(|file| form(file).map(|_| ()))
 }
@@ -54,7 +54,7 @@ fn one(table: &Table, file: &Word) -> Result<(), Box<Diagnostic>> {
 }
 
 /// Writes all files; without one, the table of the orbit as CSV to the standard output.
-pub fn write(study: &Study, tables: &Tables) -> Result<(), String> {
+pub(super) fn write(study: &Study, tables: &Tables) -> Result<(), String> {
     if study.write.is_empty() {
         let out = io::stdout().lock();
         tables

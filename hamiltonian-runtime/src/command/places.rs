@@ -2,11 +2,11 @@
 //!
 //! Input: a line. Output: its words, and errors at them.
 
-use hamiltonian_runtime::{Diagnostic, Place};
+use crate::{Diagnostic, Place};
 
 /// A part of a line.
 #[derive(Debug, Clone, Copy)]
-pub struct Word<'a> {
+pub(super) struct Word<'a> {
     pub text: &'a str,
     /// The line it stands in, its number from 1 on, and the place of its first byte there.
     line: &'a str,

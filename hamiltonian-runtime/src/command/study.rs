@@ -3,20 +3,20 @@
 //! Input: the text. Output: [`Study`]. Invariant: every word is known and every value a number, a list or a name; whether they
 //! fit the definition is asked later.
 
-use crate::places::Word;
-use hamiltonian_runtime::Diagnostic;
+use super::places::Word;
+use crate::Diagnostic;
 use std::ops::Range;
 
 /// A number, or a list of values.
 #[derive(Debug, Clone)]
-pub enum Number {
+pub(super) enum Number {
     One(f64),
     List(Vec<Number>),
 }
 
 /// A name with its value.
 #[derive(Debug, Clone)]
-pub struct Assignment<'a> {
+pub(super) struct Assignment<'a> {
     pub name: Word<'a>,
     pub word: Word<'a>,
     pub value: Number,
@@ -24,14 +24,14 @@ pub struct Assignment<'a> {
 
 /// How steps are made.
 #[derive(Debug, Clone)]
-pub enum Stepping<'a> {
+pub(super) enum Stepping<'a> {
     Tolerance(f64),
     Scheme(Word<'a>, f64),
 }
 
 /// A file.
 #[derive(Debug)]
-pub struct Study<'a> {
+pub(super) struct Study<'a> {
     pub file: &'a str,
     pub definition: &'a str,
     /// `with`: parameters and sizes.
@@ -64,7 +64,7 @@ struct Lines<'a> {
 }
 
 /// Reads a file.
-pub fn read<'a>(text: &'a str, file: &'a str) -> Result<Study<'a>, Box<Diagnostic>> {
+pub(super) fn read<'a>(text: &'a str, file: &'a str) -> Result<Study<'a>, Box<Diagnostic>> {
     let mut lines = Lines::default();
     let mut definition = None;
     let mut from = 0;

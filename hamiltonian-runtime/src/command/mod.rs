@@ -1,16 +1,15 @@
-//! `hamiltonian-run FILE`: a definition with its run in one text file, to tables.
+//! A definition with its run in one text file, to tables: the command `hamiltonian-run FILE`.
 //!
 //! Input: a file, of which the chapter "From a file" of the guide has the form. Output: the files that it names, or CSV on the
 //! standard output. Invariant: an error has its place in the file and a remedy; states before a failed step are written.
-#![forbid(unsafe_code)]
 
 mod calculate;
 mod places;
 mod study;
 mod tables;
 
+use crate::schemes::{NamedScheme, schemes};
 use std::io::Write;
-use std::process::ExitCode;
 
 const HELP: &str = "\
 usage: hamiltonian-run FILE
@@ -31,33 +30,37 @@ Instead of `tolerance`, `scheme = GaussNystrom8, step = 0.1`. Without `write`, t
 
     hamiltonian-run --schemes    the names of all schemes";
 
-fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
-    let done = match (arguments.next().as_deref(), arguments.next()) {
-        (Some("--help" | "-h"), None) => {
+/// Runs the command `hamiltonian-run` with its arguments, without the name of the program: a file, `--schemes` or `--help`.
+///
+/// # Errors
+/// The text for the standard error: the usage, an error of the file with its place, a failed step.
+///
+/// ```
+/// let error = hamiltonian_runtime::command(["missing.ham"]).unwrap_err();
+/// assert!(error.starts_with("error: missing.ham: "));
+/// assert!(hamiltonian_runtime::command([""; 0]).unwrap_err().starts_with("usage: hamiltonian-run FILE"));
+/// ```
+pub fn command<A: AsRef<str>>(arguments: impl IntoIterator<Item = A>) -> Result<(), String> {
+    let arguments: Vec<A> = arguments.into_iter().collect();
+    let arguments: Vec<&str> = arguments.iter().map(AsRef::as_ref).collect();
+    match arguments.as_slice() {
+        ["--help" | "-h"] => {
             println!("{HELP}");
             Ok(())
         }
-        (Some("--schemes"), None) => {
-            let line = |scheme: hamiltonian_runtime::NamedScheme| {
+        ["--schemes"] => {
+            let line = |scheme: NamedScheme| {
                 let entry = scheme.entry;
                 let (name, order, needs) = (scheme.name, entry.order, entry.needs.to_string());
                 format!("{name:44} order {order:2}, needs {needs}\n")
             };
-            let all: String = hamiltonian_runtime::schemes().map(line).collect();
+            let all: String = schemes().map(line).collect();
             // Whoever reads them may have read enough.
             let _ = std::io::stdout().write_all(all.as_bytes());
             Ok(())
         }
-        (Some(file), None) if !file.starts_with('-') => run(file),
+        [file] if !file.starts_with('-') => run(file),
         _ => Err(HELP.to_owned()),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::FAILURE
-        }
     }
 }
 

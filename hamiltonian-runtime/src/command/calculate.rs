@@ -3,17 +3,17 @@
 //! Input: a [`Study`]. Output: [`Tables`], and the error that ended the run early. Invariant: rows are at t₀ + k·every, never
 //! a running sum.
 
-use crate::places::Word;
-use crate::study::{Assignment, Number, Stepping, Study};
+use super::places::Word;
+use super::study::{Assignment, Number, Stepping, Study};
+use crate::{
+    Coordinates, Definition, Diagnostic, FlatState, Run, RunError, RuntimeSystem, Value, Values,
+};
 use hamiltonian_core::private::declared_energy_at;
 use hamiltonian_core::schemes::author::Dynamics;
 use hamiltonian_core::{System, Table};
-use hamiltonian_runtime::{
-    Coordinates, Definition, Diagnostic, FlatState, Run, RunError, RuntimeSystem, Value, Values,
-};
 
 /// The results.
-pub struct Tables {
+pub(super) struct Tables {
     /// t, coordinates, momenta, H, monitors, invariants and events, at the times of rows.
     pub orbit: Table,
     /// The number of each event that is crossed, 1 if its function increases, and the state.
@@ -210,7 +210,7 @@ fn begin(study: &Study, system: &RuntimeSystem, start: FlatState) -> Result<Run,
 }
 
 /// Runs a file: the tables up to an error of a step, and that error.
-pub fn calculate(study: &Study) -> Result<(Tables, Result<(), String>), String> {
+pub(super) fn calculate(study: &Study) -> Result<(Tables, Result<(), String>), String> {
     let system = system(study)?;
     let description = system.description();
     let told = |error: Box<Diagnostic>| error.to_string();

@@ -291,6 +291,35 @@ fn constant_steps_keep_the_energy() {
     assert!(kept[9] < 4.0 * walk, "{kept:?} beside {walk:e}");
 }
 
+hamiltonian! {
+    /// Atoms on a line between walls, which repel each other.
+    pub struct Gas {}
+    H(q[3]; p[3]) = (p[0]^2 + p[1]^2 + p[2]^2)/2 + (q[0]^2 + q[1]^2 + q[2]^2)/2 + 1/(q[1] - q[0])^6 + 1/(q[2] - q[1])^6
+}
+
+/// Steps that became short in a collision grow again, and the number of pilots that lengthen them is that of doublings.
+#[test]
+fn steps_grow_again_after_a_collision() {
+    // Two atoms overlap.
+    let start = || State::new([-1.0, -0.97, 3.0], [0.0; 3]);
+    let new = || Integrator::to_tolerance(&Gas {}, start(), 1e-9).unwrap();
+    let mut run = new();
+    let first = run.step();
+    run.advance(500).unwrap();
+    let before = run.state().t;
+    run.advance(100).unwrap();
+    let later = (run.state().t - before) / 100.0;
+    println!("{first:e}, {later:e}, {run:?}");
+    assert!(later > 20.0 * first, "{later:e} after {first:e}");
+    // The same bits for all parts of a run, and with stages one by one.
+    let mut parts = new().with_lanes(false);
+    for n in [1, 30, 2, 7, 60, 500] {
+        parts.advance(n).unwrap();
+    }
+    assert_eq!(parts.state(), run.state());
+    assert_eq!(parts.refused_steps(), run.refused_steps());
+}
+
 #[test]
 fn the_structure_names_the_scheme() {
     fn of<S: ToTolerance>(_: &S) -> String {

@@ -23,7 +23,7 @@ use std::sync::OnceLock;
 type Vector = hamiltonian::nalgebra::DVector<f64>;
 
 /// The size that each name has.
-const SIZE: usize = 5;
+pub const SIZE: usize = 5;
 
 fn extent(form: &Affine, size: usize) -> usize {
     let value = form.value(&|_| unreachable!("extents have no loops"), &|_: Size| {
@@ -33,7 +33,7 @@ fn extent(form: &Affine, size: usize) -> usize {
 }
 
 /// The system for the engine's interpreter.
-fn analysed(text: &str) -> Option<analyse::System> {
+pub fn analysed(text: &str) -> Option<analyse::System> {
     let mut report = Report::default();
     let checked = read(text.parse().expect("it lexes"), &mut report).1?;
     analyse(&checked, &mut report).map(|analysis| analysis.whole)
@@ -96,7 +96,7 @@ fn system_of(definition: &Definition, mut values: Values) -> Result<RuntimeSyste
 }
 
 /// Numbers for all parameters.
-fn values(system: &analyse::System, size: usize) -> Values {
+pub fn values(system: &analyse::System, size: usize) -> Values {
     let mut next = numbers(7);
     let mut values = Values::new();
     for name in &system.model.sizes {

@@ -9,4 +9,5 @@ mod diagnostics;
 mod named;
 mod refusals;
 mod runs;
+mod tolerance;
 mod variables;

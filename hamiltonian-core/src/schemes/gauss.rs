@@ -162,7 +162,7 @@ impl<S: System, const STAGES: usize> Scheme<S> for Gauss<STAGES> {
             momenta: integrals,
             modes: None,
             matrices: of_fixed_point(&self.coefficients, step, &weights, [integrals; 2]),
-            limit: self.max_iterations,
+            limits: [self.max_iterations; 2],
         }
     }
     fn start<T: Real>(

@@ -165,13 +165,14 @@ impl<C: Carried, const N: usize> Carried for Pace<C, N> {
         let limit = self.numbers.get(5);
         limit.is_some_and(|limit| C::Scalar::zero().lt(*limit).all())
     }
-    /// Constant steps become shorter where one is refused, never longer.
+    /// Constant steps become shorter where one is refused, and longer or varying by a pilot alone.
     fn steps_within(&self, interval: C::Scalar, time: C::Scalar) -> u64 {
-        match self.is_constant() {
-            // A conversion of NaN is 0.
-            true => ((time / interval * self.numbers[0]).to_f64() as u64).max(1),
-            false => 1,
+        if !self.is_constant() {
+            return 1;
         }
+        // A conversion of NaN is 0.
+        let steps = ((time / interval * self.numbers[0]).to_f64() as u64).max(1);
+        steps.min(self.steps_to_pilot().map_or(SOON, |left| left.min(SOON)))
     }
     fn rescale(&mut self, by: C::Scalar) {
         // All but G, the times and the count are densities of steps.
@@ -190,6 +191,17 @@ impl<C: Carried, const N: usize> Carried for Pace<C, N> {
         self.numbers
             .get(3)
             .map_or(0, |refused| refused.to_f64() as u64)
+    }
+}
+
+/// The number of steps from the start, or a refused step, until a pilot may choose anew.
+pub(super) const SOON: u64 = 32;
+
+impl<C: Vector, const N: usize> Pace<C, N> {
+    /// The number of steps until a pilot may choose anew, if one will.
+    pub(super) fn steps_to_pilot(&self) -> Option<u64> {
+        let left = self.numbers.get(9)?.to_f64();
+        (left > 0.0).then_some(left as u64)
     }
 }
 

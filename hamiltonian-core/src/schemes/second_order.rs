@@ -396,6 +396,11 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         to.drifts[1] = self.drifts[1] * by;
     }
 
+    /// Lets the fixed point fail after so many iterations.
+    pub(super) fn restrict(&mut self, limit: u32) {
+        self.limit = self.limit.min(limit);
+    }
+
     fn tableau(&self) -> NystromTableau<'_, T, S> {
         NystromTableau {
             times: &self.times,

@@ -123,8 +123,8 @@ pub struct Collocated<T: Real, P: Dynamics<T>, const S: usize> {
     pub(super) modes: Option<Modes<T, S>>,
     /// [`of_fixed_point`].
     pub(super) matrices: [[[[T; S]; S]; 2]; 2],
-    /// The most iterations of each method.
-    pub(super) limit: u32,
+    /// The most iterations of the fixed point, and of Newton's method.
+    pub(super) limits: [u32; 2],
 }
 
 /// The scratch of [`Collocated`].
@@ -299,6 +299,11 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         }
     }
 
+    /// Lets the fixed point fail after so many iterations, without Newton's method.
+    pub(super) fn restrict(&mut self, limit: u32) {
+        self.limits = [self.limits[0].min(limit), 0];
+    }
+
     /// Δq and Δp of the unknowns.
     #[inline(always)]
     fn increments(
@@ -354,7 +359,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
             slopes,
             linear: &mut work.linear,
         };
-        let outcome = iterate(self.limit, &mut newton, unknowns, &mut work.next);
+        let outcome = iterate(self.limits[1], &mut newton, unknowns, &mut work.next);
         self.increments(unknowns, newton.slopes.increments);
         look(&mut newton.slopes, unknowns);
         outcome
@@ -385,7 +390,8 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
                 y: low,
             },
         } = z;
-        if !outcome.solved.all() && self.modes.is_none() && work.linear.fits() {
+        let has_newton = self.limits[1] > 0 && self.modes.is_none() && work.linear.fits();
+        if has_newton && !outcome.solved.all() {
             T::out_of_line(
                 #[inline(always)]
                 || self.newton(t, &mut outcome, point, unknowns, work),
@@ -437,7 +443,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
             },
             linear: &mut work.linear,
         };
-        *outcome = iterate(self.limit, &mut newton, &mut work.guess, &mut work.next);
+        *outcome = iterate(self.limits[1], &mut newton, &mut work.guess, &mut work.next);
         // The result of a lane does not depend on other lanes: those that the fixed point solved keep its values.
         slopes.copy_where(!fixed, &work.guess);
         outcome.solved = outcome.solved | fixed;
@@ -495,7 +501,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
             self.solve_between(t, point, None, unknowns, work, |_, _| {})
         } else {
             fixed_point::<T, Apart, _, _, _, S>(
-                self.limit,
+                self.limits[0],
                 &self.tableau(),
                 &self.field,
                 t,
@@ -530,7 +536,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
         };
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         let (solved, outcome) = steps::<T, Apart, _, _, _, _, S>(
-            self.limit,
+            self.limits[0],
             &self.tableau(),
             &self.field,
             (clock, made, n),

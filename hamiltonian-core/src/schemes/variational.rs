@@ -342,7 +342,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
             momenta: zero,
             modes: Some(Modes { values, velocities }),
             matrices: [[zero; 2]; 2],
-            limit: self.max_iterations,
+            limits: [self.max_iterations; 2],
         }
     }
 

@@ -161,8 +161,9 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
             missed = (reached - t).magnitude();
             if missed <= rounding {
                 let point = carried.point();
+                // A carried time that was reached up to rounding is the time.
                 let state = State {
-                    t: reached,
+                    t,
                     q: point.q.clone(),
                     p: point.p.clone(),
                 };

@@ -8,7 +8,7 @@ mod pilot;
 mod timescale;
 mod tolerance;
 
-use super::paced::{Pace, PaceShape};
+use super::paced::{Pace, PaceShape, SOON};
 use crate::errors::Error;
 use crate::flows::map::{Cause, Clock, Map, Step};
 use crate::schemes::scheme::{CarriedBy, Entry, Form, Listed, OneStep, Scheme};
@@ -57,8 +57,7 @@ pub trait ToTolerance: System + Sized {
 ///
 /// - *Constant*, if the smallest of the pilot's sizes takes at most five times as many steps as varying sizes do, each of
 ///   which takes longer. The steps are then those of the scheme, and symplectic: exactly if the size is the step parameter
-///   of the run, to rounding otherwise. After a refused step all steps are smaller; where they are less than 0.4 times the
-///   first, a pilot chooses anew.
+///   of the run, to rounding otherwise. After a refused step all steps are smaller.
 /// - *Varying* otherwise. The density of steps ρ follows the time scale of the orbit as in [`Paced`](super::Paced), with
 ///   G = d ln Q/dt of
 ///
@@ -69,10 +68,17 @@ pub trait ToTolerance: System + Sized {
 ///   which is ω⁴ for an oscillator and r⁻⁶ for Kepler's problem, up to a factor. These steps are reversible: the error of
 ///   H does not drift.
 ///
+/// Steps that became short, for example in a collision, grow again. Constant steps are looked at after 32, 96, 224, … steps:
+/// if they could be four times as long, a pilot chooses anew. A refused step that makes them less than 0.4 times as long as a
+/// pilot chose them begins the series again, with 32·(k + 1) in place of 32 after k pilots. Where refused steps have made
+/// varying ones less than half as long, a pilot chooses anew after as many steps. Steps whose equations take more than 40
+/// iterations over `f64` are refused too: shorter ones take less time.
+///
 /// A step is at most three times as long as the density before it says, and the density is set anew where it has left
-/// Q by a factor of four. This and a refused size, from which on the density is larger, end reversibility there.
-/// [`Integrator::refused_steps`](crate::Integrator::refused_steps) counts all three. A few near the start mean nothing; a
-/// number that grows through a long run means that Q does not describe the motion, and that H may drift.
+/// Q by a factor of four. This, a refused size, from which on the density is larger, and a pilot that changes the size end
+/// reversibility there. [`Integrator::refused_steps`](crate::Integrator::refused_steps) counts all four. A few near the
+/// start mean nothing. In n steps there are at most √n/4 pilots, and log₂(n/32 + 1) if no step is refused. A number that
+/// grows in proportion to n means that the chosen steps do not suit the motion, and that H may drift.
 ///
 /// Nothing is known of H between the stages of a step. A start in a place without forces has no Q: the first step
 /// may then jump over a narrow barrier. Start such a run with a scheme and a step.
@@ -127,8 +133,9 @@ impl<M: OneStep> Listed for Adaptive<M> {
 
 /// The numbers that [`Adaptive`] carries beside the scheme's: ρ, G, t; the number of refused steps; ρ in the last step; for
 /// constant steps the largest ρ, 0 for others; the low word of t; ρ/Q as it is due, and as it was found first, 0 before
-/// there is a Q.
-const NUMBERS: usize = 9;
+/// there is a Q; the number of steps until a pilot may choose anew, 0 if none will, and that from the time before to it; the
+/// number of pilots that did.
+const NUMBERS: usize = 12;
 
 /// The value that [`Adaptive`] carries.
 type Follows<C> = Pace<C, NUMBERS>;
@@ -191,6 +198,9 @@ where
                 zero,
                 one,
                 T::constant(ALONE, 0.0),
+                zero,
+                zero,
+                zero,
                 zero,
                 zero,
                 zero,
@@ -265,10 +275,26 @@ const AIM: f64 = 0.25;
 const APART: f64 = 0.25;
 /// The factor of ρ/Q after a refused step, and the most after all of them.
 const HIGHER: [f64; 2] = [1.125, 8.0];
+/// The factor of ρ/Q after which a pilot chooses anew.
+const SHORT: f64 = 2.0;
+/// The largest density with constant steps, in units of the first; a pilot may soon choose anew after denser ones.
+const DENSEST: f64 = 2.5;
 /// The most by which a step is longer than the density at its beginning says.
 const LONGER: f64 = 3.0;
 /// The most attempts at a step.
 const ATTEMPTS: u32 = 60;
+
+impl<C: Carried> Follows<C> {
+    /// Lets a pilot choose anew where steps were refused too often, later after each pilot.
+    #[inline(always)]
+    fn wait(&mut self, lanes: <C::Scalar as Real>::Mask) {
+        let soon = C::Scalar::constant(SOON as f64, 0.0);
+        let soon = soon * (self.numbers[11] + C::Scalar::one());
+        for k in [9, 10] {
+            self.numbers[k] = C::Scalar::select(lanes, soon, self.numbers[k]);
+        }
+    }
+}
 
 impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     /// The map for steps of `by`·parameter.
@@ -323,7 +349,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         let half = self.parameter * T::constant(0.5, 0.0);
         let is_constant = T::zero().lt(limit).all();
         let (density, n) = match is_constant {
-            true => (before, n),
+            true => (before, z.steps_to_pilot().map_or(n, |left| n.min(left))),
             false => (before + half * rate, 1),
         };
         let jumps = !(before * T::constant(LONGER.recip(), 0.0)).le(density);
@@ -339,6 +365,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         if made > 0 {
             [z.numbers[2], z.numbers[6]] = time;
             self.follow(density, T::Mask::splat(false), z, work);
+            self.count(made, z, work);
         }
         made
     }
@@ -363,6 +390,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             low,
             mut unit,
             mut first,
+            ..,
         ] = z.numbers;
         let half = self.parameter * T::constant(0.5, 0.0);
         let is_constant = zero.lt(limit);
@@ -381,6 +409,8 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             let highest = first * T::constant(HIGHER[1], 0.0);
             let higher = T::select(higher.lt(highest), higher, highest);
             unit = T::select(is_known & changed, higher, unit);
+            let is_short = is_known & changed & (first * T::constant(SHORT, 0.0)).lt(unit);
+            z.wait(is_short);
             let due = unit * dense;
             let apart = T::constant(APART, 0.0);
             let astray = is_known & !((due * apart).le(here) & (here * apart).le(due));
@@ -389,7 +419,23 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             let less = here * T::constant(0.5, 0.0);
             density = T::select(astray, larger(due, less), here);
         }
-        z.numbers = [density, rate, end, refused, made, limit, low, unit, first];
+        let now = [density, rate, end, refused, made, limit, low, unit, first];
+        z.numbers[..now.len()].copy_from_slice(&now);
+    }
+
+    /// Counts `made` steps, and looks whether a pilot must choose anew after the number of steps at which it may.
+    #[inline(always)]
+    fn count(&self, made: u64, z: &mut Follows<CarriedBy<M, S, T>>, work: &mut WorkOf<T, S, M>) {
+        let (zero, left) = (T::zero(), z.numbers[9]);
+        let counts = zero.lt(left);
+        if counts.any() {
+            let next = left - T::constant(made as f64, 0.0);
+            z.numbers[9] = T::select(counts, next, left);
+            let due = counts & next.le(zero);
+            if due.any() {
+                pilot::again(self, due, z, work);
+            }
+        }
     }
 
     /// Q⁴ and G, with differences over 1/32 of a step.
@@ -428,6 +474,12 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
     fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
         let [zero, one] = [T::zero(), T::one()];
         let [before, rate, t, mut refused, _, limit, low, ..] = z.numbers;
+        if T::constant(ALONE, 0.0).le(limit).any() {
+            self.map
+                .step(t, t + self.parameter, &mut z.of, &mut work.inner);
+            [z.numbers[2], z.numbers[6]] = later([t, low], self.parameter);
+            return;
+        }
         let half = self.parameter * T::constant(0.5, 0.0);
         let is_constant = T::zero().lt(limit);
         // A step is at most so many times longer than the density says: an estimate is worth nothing far beyond.
@@ -443,9 +495,8 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
         loop {
             let h = self.attempt(fixed(density.recip()), t, &mut z.of, work);
             attempts += 1;
-            let alone = T::constant(ALONE, 0.0).le(limit);
             let from = work.before.point();
-            let met = alone | M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
+            let met = M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
             if attempts == 1 && met.all() {
                 break;
             }
@@ -467,7 +518,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
                 z.of.poison(refuses);
                 break;
             }
-            let smaller = density / shrink(error);
+            let smaller = density / shrink(error, attempts);
             density = T::select(refuses, fixed(smaller), density);
             refused += T::select(refuses, one, zero);
             z.of.copy_from(&work.before);
@@ -486,8 +537,11 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
         self.follow(density, changed, z, work);
         let lost = changed & is_constant & limit.lt(density);
         if lost.any() {
-            pilot::again(self, lost, z);
+            let denser = density * T::constant(DENSEST, 0.0);
+            z.numbers[5] = T::select(lost, denser, limit);
+            z.wait(lost);
         }
+        self.count(1, z, work);
     }
 
     /// A step whose end is not finite was refused at every size that moves the time; a single step was that of the scheme.
@@ -505,11 +559,12 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
     }
 }
 
-/// The factor of the size after a step with this error was refused.
+/// The factor of the size after a step with this error was refused. A step whose equations were not solved may be a little
+/// too long for them, or far too long.
 #[inline(always)]
-fn shrink<T: Real>(error: T) -> T {
+fn shrink<T: Real>(error: T, attempts: u32) -> T {
     let [least, most] = [T::constant(0.1, 0.0), T::constant(0.9, 0.0)];
-    let unknown = T::constant(0.25, 0.0);
+    let unknown = T::constant(if attempts == 1 { 0.7 } else { 0.25 }, 0.0);
     let factor = root(T::constant(AIM, 0.0) / error);
     let factor = T::select(factor.lt(most), larger(factor, least), most);
     T::select(error.finite(), factor, unknown)

@@ -3,9 +3,11 @@
 //! Input: a start. Output: the numbers with which a run begins. Invariant: the pilot depends on the start alone, and
 //! makes at most 32 steps.
 
-use super::{AIM, APART, Derivatives, Following, Follows, NUMBERS, WorkOf, fixed, larger, root};
+use super::{
+    AIM, APART, DENSEST, Derivatives, Following, Follows, NUMBERS, WorkOf, fixed, larger, root,
+};
 use crate::schemes::adaptive::Estimates;
-use crate::schemes::paced::Pace;
+use crate::schemes::paced::{Pace, SOON};
 use crate::schemes::scheme::CarriedBy;
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, Point};
@@ -28,8 +30,6 @@ const LEAP: f64 = 100.0;
 /// Constant steps may be so many times as many as varying ones, which take three to four times as long each and more
 /// iterations.
 const WORTH: f64 = 5.0;
-/// The largest density with constant steps, in units of the first.
-const DENSEST: f64 = 2.5;
 
 #[inline(always)]
 fn number<T: Real>(x: f64) -> T {
@@ -79,29 +79,67 @@ fn scale_at<T: Real, S: System, M: Estimates<S>>(
     )
 }
 
-/// Chooses anew for the lanes in which constant steps were refused too often.
+/// The least factor by which a pilot may make constant steps longer.
+const GAIN: f64 = 1.25;
+/// The factor by which constant steps could be longer where a pilot chooses anew.
+const SLACK: f64 = 4.0;
+
+/// The lanes in which the last step, were it longer by [`SLACK`], would meet the tolerance and the time scale of the orbit.
+fn is_slack<T: Real, S: System, M: Estimates<S>>(
+    map: &Following<T, S, M>,
+    z: &Follows<CarriedBy<M, S, T>>,
+    work: &mut WorkOf<T, S, M>,
+) -> T::Mask {
+    let [_, _, t, _, last, ..] = z.numbers;
+    let h = map.parameter * fixed(last.recip());
+    let error = T::out_of_line(
+        #[inline(always)]
+        || map.error(h, &z.of, work),
+    );
+    let [scale, _] = scale_at(map, h, t, z.of.point(), &mut work.derivatives);
+    let longer = h.abs() * number(SLACK);
+    let longest = fixed(scale.sqrt().sqrt().recip()) * number(LARGEST[1]);
+    number::<T>(SLACK).le(factor(error, FARTHEST)) & longer.le(longest)
+}
+
+/// Chooses anew, in these lanes, where varying steps were refused too often some steps ago, or constant ones are shorter
+/// than they need to be.
 #[cold]
 #[inline(never)]
 pub(super) fn again<T: Real, S: System, M: Estimates<S>>(
     map: &Following<T, S, M>,
     lanes: T::Mask,
     z: &mut Follows<CarriedBy<M, S, T>>,
+    work: &mut WorkOf<T, S, M>,
 ) {
-    let [density, _, t, ..] = z.numbers;
-    let [next, rate, _, _, _, limit, _, unit, first] = start(map, t, z.of.clone()).numbers;
-    // Sizes do not grow: a larger one was refused.
-    let grown = next.lt(density);
-    let by = T::select(grown, density / next, T::one());
-    // The time, its low word, the count and the last step go on.
-    let now = &mut z.numbers;
-    for (k, fresh) in [
-        (0, T::select(grown, density, next)),
-        (1, rate),
-        (5, limit * by),
-        (7, unit * by),
-        (8, first * by),
-    ] {
-        now[k] = T::select(lanes, fresh, now[k]);
+    let [zero, one] = [T::zero(), T::one()];
+    let [density, _, t, refused, _, was_limit, ..] = z.numbers;
+    let was_constant = zero.lt(was_limit);
+    let mut chosen = lanes & !was_constant;
+    if (lanes & was_constant).any() {
+        chosen = chosen | (lanes & is_slack(map, z, work));
+    }
+    if chosen.any() {
+        let [next, rate, _, _, _, limit, _, unit, first, ..] = start(map, t, z.of.clone()).numbers;
+        let gains = (next * number(GAIN)).lt(density);
+        chosen = chosen & !(was_constant & zero.lt(limit) & !gains);
+        // The time, its low word and the last step go on.
+        for (k, fresh) in [
+            (0, next),
+            (1, rate),
+            (3, refused + one),
+            (5, limit),
+            (7, unit),
+            (8, first),
+            (11, z.numbers[11] + one),
+        ] {
+            z.numbers[k] = T::select(chosen, fresh, z.numbers[k]);
+        }
+    }
+    let is_constant = zero.lt(z.numbers[5]);
+    let wait = T::select(is_constant, z.numbers[10] * number(2.0), zero);
+    for k in [9, 10] {
+        z.numbers[k] = T::select(lanes, wait, z.numbers[k]);
     }
 }
 
@@ -219,6 +257,7 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     let is_parameter = (density - one).abs().lt(number(1e-6));
     let density = T::select(is_parameter, one, density);
     let due = T::select(due.lt(number(f64::MAX)), due, zero);
+    let wait = T::select(is_constant, number(SOON as f64), zero);
     carried.numbers = [
         density,
         T::select(is_constant, zero, begin),
@@ -229,6 +268,9 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
         zero,
         due,
         due,
+        wait,
+        wait,
+        zero,
     ];
     carried
 }

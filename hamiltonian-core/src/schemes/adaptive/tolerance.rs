@@ -78,7 +78,7 @@ impl From<f64> for Tolerance {
 pub trait Estimates<S: System>: OneStep + Scheme<S> {
     /// The estimate of errors with this tolerance.
     fn estimate<T: Real>(&self, tolerance: Tolerance) -> Estimate<T>;
-    /// Copies a map.
+    /// Copies a map. The equations of the copy fail where they converge slowly.
     fn copy<T: Real>(of: &Self::Map<T>) -> Self::Map<T>;
     /// Makes `to`, a copy of `from`, the map for a step `by` times that of `from`.
     fn resize<T: Real>(from: &Self::Map<T>, by: T, to: &mut Self::Map<T>);
@@ -139,6 +139,14 @@ const FACTOR: f64 = 0.5;
 /// The largest tolerance of a step, in units of the largest coordinate or momentum: steps with larger errors take so many
 /// iterations that a run takes no less time.
 const LOOSEST: f64 = 1e-8;
+
+/// The most iterations of a step over `f64`. Shorter steps take less time than steps with more of them.
+const ITERATIONS: f64 = 40.0;
+
+/// The most iterations of a step: each gives as many digits as the one before.
+fn most_iterations<T: Real>() -> u32 {
+    (ITERATIONS * Real::ln(T::epsilon()) / Real::ln(f64::EPSILON)) as u32
+}
 
 /// The tolerated errors of a group, coordinates or momenta.
 struct Tolerated<T> {
@@ -349,7 +357,9 @@ macro_rules! estimates {
                 Estimate::new(&self.coefficients, tolerance)
             }
             fn copy<T: Real>(of: &Self::Map<T>) -> Self::Map<T> {
-                of.clone()
+                let mut map = of.clone();
+                map.restrict(most_iterations::<T>());
+                map
             }
             #[inline(always)]
             fn resize<T: Real>(from: &Self::Map<T>, by: T, to: &mut Self::Map<T>) {

@@ -291,7 +291,7 @@ where
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut here.slopes.0);
         let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, _, S>(
-            map.limit,
+            map.limits[0],
             &tableau,
             &field,
             (clock, made, n),

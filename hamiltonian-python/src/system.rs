@@ -179,7 +179,7 @@ impl System {
     }
 
     /// The states of the system from states in the declared variables, with momenta or with velocities.
-    fn from_declared<'py>(
+    fn of_declared<'py>(
         &self,
         py: Python<'py>,
         q: Rows<'_>,

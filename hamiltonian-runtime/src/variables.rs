@@ -13,10 +13,10 @@ use hamiltonian_symbolic::model::{Group, Shape};
 /// ```
 /// use hamiltonian_runtime::{Definition, Values};
 ///
-/// let bodies = Definition::parse("struct Bodies {} H(t, q[2][3]; e, p[2][3]) = norm_squared(p)/2 + e + t", "bodies.txt")?;
-/// let system = bodies.system(Values::new())?;
-/// let [t, q] = system.coordinates() else { panic!() };
-/// assert_eq!((t.name(), t.momentum(), t.extents()), ("t", "e", &[][..]));
+/// let text = "struct Bodies {} H(x, q[2][3]; e, p[2][3]) = e^2 + x^2 + sum(i in 0..2) { norm_squared(p[i])/2 }";
+/// let system = Definition::parse(text, "bodies.txt")?.system(Values::new())?;
+/// let [x, q] = system.coordinates() else { panic!("there are two") };
+/// assert_eq!((x.name(), x.momentum(), x.extents()), ("x", "e", &[][..]));
 /// assert_eq!((q.name(), q.momentum(), q.extents()), ("q", "p", &[2, 3][..]));
 /// // q[0][0], q[0][1], q[0][2], q[1][0], …
 /// assert_eq!(q.places().collect::<Vec<_>>(), [1, 3, 5, 2, 4, 6]);

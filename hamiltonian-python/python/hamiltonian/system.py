@@ -275,7 +275,7 @@ class System:
 
     def _of_declared(self, q, p, t, velocities: bool) -> State:
         leading, points = self.declared.points(q, p, t)
-        return self._states(leading, self.shape, self._own.from_declared(*points, velocities))
+        return self._states(leading, self.shape, self._own.of_declared(*points, velocities))
 
     def _states(self, leading: tuple[int, ...], shape: tuple[int, ...], rows) -> State:
         """States of one row each, in this shape behind the leading axes."""

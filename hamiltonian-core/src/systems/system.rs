@@ -519,7 +519,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     }
 }
 
-/// The declared H at a state: for a time-transformed system, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
+/// [`declared_energy_at`] a state.
 #[inline(always)]
 pub(crate) fn declared_energy<T: Real, S: System>(
     prepared: &S::Prepared<T>,
@@ -528,7 +528,8 @@ pub(crate) fn declared_energy<T: Real, S: System>(
     declared_energy_at::<T, S>(prepared, state.t, &state.q, &state.p)
 }
 
-/// See [`declared_energy`].
+/// The declared H at a time, coordinates and momenta: for a time-transformed system, where H = g·(h + p_t), it is h, with
+/// g = ∂H/∂p_t.
 #[inline(always)]
 pub fn declared_energy_at<T: Real, S: System>(
     prepared: &S::Prepared<T>,

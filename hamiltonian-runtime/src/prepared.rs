@@ -170,6 +170,14 @@ impl<T: Real> Prepared<T> {
         Prepared::whole(first.code.clone(), held, data, functions, first.arithmetic)
     }
 
+    /// The same with registers of its own.
+    pub(crate) fn with_registers(&self) -> Self {
+        Prepared {
+            pool: Pool::new(),
+            ..self.clone()
+        }
+    }
+
     pub(crate) fn fits(&self, other: &Self) -> bool {
         let is_same = Arc::ptr_eq(&self.code, &other.code) || self.code == other.code;
         is_same && self.functions == other.functions

@@ -15,8 +15,9 @@ use hamiltonian_core::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
 };
 use hamiltonian_lanes::{Pack, Real};
+use std::any::{Any, TypeId};
 use std::fmt::Write;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A system that was defined at run time.
 ///
@@ -47,6 +48,8 @@ pub struct RuntimeSystem {
     parameters: Arc<Vec<Vec<f64>>>,
     /// The functions with data.
     functions: Arc<Vec<Tabulated>>,
+    /// What it prepares over `f64`, which the members of an ensemble share.
+    prepared: Arc<OnceLock<Prepared<f64>>>,
 }
 
 impl RuntimeSystem {
@@ -60,6 +63,7 @@ impl RuntimeSystem {
             code,
             parameters,
             functions,
+            prepared: Arc::default(),
         }
     }
 
@@ -131,6 +135,13 @@ impl System for RuntimeSystem {
     }
 
     fn prepare<T: Real>(&self) -> Prepared<T> {
+        if TypeId::of::<T>() == TypeId::of::<f64>() {
+            let make = || Prepared::new(&self.code, &self.parameters, &self.functions);
+            let kept: &dyn Any = self.prepared.get_or_init(make);
+            if let Some(kept) = kept.downcast_ref::<Prepared<T>>() {
+                return kept.with_registers();
+            }
+        }
         Prepared::new(&self.code, &self.parameters, &self.functions)
     }
 

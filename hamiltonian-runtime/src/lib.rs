@@ -61,6 +61,7 @@ mod flow;
 mod folded;
 mod interleave;
 mod machine;
+mod nests;
 mod op;
 mod prepared;
 mod pushing;

@@ -3,7 +3,8 @@
 //! Input: a loop over at least 4096 rows. Output: loops over rows of tiles, tiles, rows and columns. Invariant: the order of
 //! the engine's interpreter and of compiled code on one thread, so that the bits are the same.
 
-use crate::flatten::{Bounds, Builder, Kind};
+use crate::flatten::{Builder, Kind};
+use crate::nests::Bounds;
 use crate::op::Form;
 use hamiltonian_symbolic::index::Domain;
 use hamiltonian_symbolic::pairs::{self, Pairs, TILE, Triangle};

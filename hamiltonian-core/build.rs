@@ -1,4 +1,5 @@
-//! Sets `unoptimised` where this crate is compiled without optimisation: operations of packs are functions then.
+//! Sets `unoptimised` where this crate is compiled without optimisation: operations of packs are functions then, and
+//! nothing of this crate is inlined, so that rustc compiles each function once.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

@@ -362,7 +362,7 @@ pub(crate) fn volume<T: Real>(matrix: &mut [T], columns: usize) -> T {
 /// Normalises columns. If `orthogonal`, first makes each orthogonal to those before it, twice, to
 /// remove rounding errors. `lengths` become their lengths before the last division. The matrix
 /// stands column after column, and `with` receives every change of a column.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn gram_schmidt<T: Real>(
     matrix: &mut [T],
     lengths: &mut [T],
@@ -394,7 +394,7 @@ pub(crate) fn gram_schmidt<T: Real>(
 }
 
 /// The scalar product of two columns.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sum = T::zero();
     for (a, b) in a.iter().zip(b) {

@@ -22,7 +22,7 @@ pub(crate) struct LaneClock<U> {
 }
 
 impl<U: Real> map::Times<U> for LaneClock<U> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn at(&self, k: u64) -> U {
         LaneClock::at(self, k)
     }
@@ -32,7 +32,7 @@ impl<U: Real> LaneClock<U> {
     /// Returns the times `k` steps after the count began. As for
     /// [`Clock::at`](crate::schemes::author::Clock::at), the compiler removes the call if the system does not
     /// depend on time.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn at(&self, k: u64) -> U {
         let made = U::constant(k as i64 as f64, 0.0) + self.ahead;
         self.interval.fma(made, self.start)
@@ -61,7 +61,7 @@ pub(crate) struct LaneSchedule<U> {
 
 impl<U: Real> LaneSchedule<U> {
     /// Returns the lanes whose observers receive a state after `n` more steps.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn due(&mut self, n: u64) -> U::Mask {
         let left = self.left - U::constant(n as i64 as f64, 0.0);
         let due = left.equals(U::zero());
@@ -94,7 +94,7 @@ pub(crate) struct Followed<'a, U: Real, S: System> {
 
 impl<U: Real, S: System> Followed<'_, U, S> {
     /// Returns true if signs are followed in this block.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn has_sections(&self) -> bool {
         !self.sections.is_empty() && self.attach.is_none()
     }
@@ -102,7 +102,7 @@ impl<U: Real, S: System> Followed<'_, U, S> {
     /// Evaluates the followed quantities after step `k`, at the time `t`. If signs are followed, `marks` has the
     /// carried value of this step. `shown` is closed if [`closes`](Followed::closes). Returns true if the block
     /// should end.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn evaluate<L: Level, C: Carried<Vector = VectorOf<S, U>, Scalar = U>>(
         &mut self,
         (k, t): (u64, U),
@@ -149,7 +149,7 @@ impl<U: Real, S: System> Followed<'_, U, S> {
     /// Makes the steps from number `k` to number `end`, of which the piece before the first body has been made, and
     /// evaluates the functions whose sign is followed after each. They must not depend on what the closing piece
     /// changes. Returns the number of the last step, since a block ends if too many steps are marked.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn go_on_with_sections<
         L: Level,
         R: Map<Carried: Carried<Vector = VectorOf<S, U>, Scalar = U>>,
@@ -182,7 +182,7 @@ impl<U: Real, S: System> Followed<'_, U, S> {
 }
 
 /// Gives a section its value after a step. Returns true if any lane will be marked.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn follow_sign<L: Level, C: Vector, U: Real>(
     section: &mut LaneSection<U>,
     value: U,
@@ -211,7 +211,7 @@ impl<C: Vector, U: Real> Kernel for FindMarks<'_, C, U> {
     /// True if any lane will be marked.
     type Output = bool;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> bool {
         let lanes = self.section.lanes_to_mark(self.value) & *self.section_lanes;
         let is_any = lanes.any();
@@ -232,7 +232,7 @@ impl<C: Vector, M: Mask> Kernel for Mark<'_, C, M> {
     /// True if the block should end.
     type Output = bool;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> bool {
         self.marks.mark(self.step)
     }
@@ -266,7 +266,7 @@ where
     /// requires it.
     type Output = (U::Mask, u64);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
         let Block {
             map,

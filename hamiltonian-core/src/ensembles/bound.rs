@@ -52,7 +52,7 @@ trait MemberWork<T: Real, S: System> {
 struct DriveMembers<'a, T: Real, S: System>(&'a mut dyn Host<T, S>);
 
 impl<T: Real, S: System> MemberWork<T, S> for DriveMembers<'_, T, S> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn at<L: Level, P: Pack, M: Scheme<S>>(self, scheme: &M) {
         drive::drive::<L, T, S, P, M>(scheme, self.0);
     }
@@ -62,7 +62,7 @@ impl<T: Real, S: System> MemberWork<T, S> for DriveMembers<'_, T, S> {
 struct DeviateMembers<'a, 'r, T: Real, S: System>(&'a mut Deviations<'r, T, S>);
 
 impl<T: Real, S: System> MemberWork<T, S> for DeviateMembers<'_, '_, T, S> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn at<L: Level, P: Pack, M: Scheme<S>>(self, scheme: &M) {
         deviations::advance::<L, T, S, P, M>(scheme, self.0);
     }
@@ -94,7 +94,7 @@ where
     W: MemberWork<T, S>,
 {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) {
         // The widths differ only in speed: more registers in lock-step hide more of the latency of a step, until its
         // numbers do not stay in registers. Two lanes gain too little for a copy of this code: such a CPU has one
@@ -122,7 +122,7 @@ where
     W: MemberWork<T, S>,
 {
     /// Does the work in the pack of the rounding. Levels without fused products have only one.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn at<L: Level, Fused: Pack, Unfused: Pack>(self) {
         if const { A::FUSES || !L::FUSES } {
             self.work.at::<L, Compiled<Fused>, M>(self.scheme);

@@ -32,7 +32,7 @@ where
     /// True if the duration of a step is carried; and the lanes in which the state is finite.
     type Output = (bool, <T::Over<P> as Real>::Mask);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
         let t = self.times.at(self.made);
         self.shown.copy_from(self.carried);
@@ -64,7 +64,7 @@ pub(crate) struct WriteRows<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pac
 
 impl<C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> WriteRows<'_, C, T, P> {
     /// Returns true if the duration of a step is carried.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn write(self) -> bool {
         let lanes = P::LANES as usize;
         let Point { q, p } = self.shown.point();
@@ -93,7 +93,7 @@ where
     /// True if the duration of a step is carried.
     type Output = bool;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> bool {
         self.write()
     }

@@ -38,7 +38,7 @@ pub(super) type CarriedIn<T, S, P, M> = CarriedBy<M, S, <T as Real>::Over<P>>;
 type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;
 
 /// Drives all members of the host to their ends, inside the level `L` of the pack.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn drive<L: Level, T: Real, S: System, P: Pack, M: Scheme<S>>(
     scheme: &M,
     host: &mut dyn Host<T, S>,
@@ -190,7 +190,7 @@ where
     M: Scheme<S>,
 {
     /// Allocates lanes in the shape of the first occupants, which are loaded afterwards.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn new<L: Level>(scheme: &M, occupants: &Occupants<T, S>) -> Self {
         let runs = occupants.runs();
         let steps = number_of_each(&runs, |run| run.step);
@@ -237,7 +237,7 @@ where
     }
 
     /// Loads occupants that have changed into the lanes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn load_lanes<L: Level>(&mut self, scheme: &M, occupants: &mut Occupants<T, S>) {
         let Some(changed) = occupants.changed() else {
             return;
@@ -297,7 +297,7 @@ where
     }
 
     /// Returns true if any followed quantity depends on what the closing piece of a step changes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn closes(&self) -> bool {
         let closing = self.map.closing();
         let system = self.prepared.description();
@@ -308,7 +308,7 @@ where
     }
 
     /// Loads the drifts of the members into lanes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn load_drifts<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
         // The first followed member determines the quantities; members that differ receive states at their stops.
         let first = runs.iter().find(|run| !run.followed.drifts.is_empty());
@@ -352,7 +352,7 @@ where
     }
 
     /// Writes drifts back into the runs of some lanes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn write_drifts<L: Level>(drifts: &[LaneDrift<T::Over<P>>], occupants: &mut Occupants<T, S>) {
         let mut lanes = [(); 4].map(|()| vec![T::zero(); P::LANES as usize]);
         for (k, lane_drift) in drifts.iter().enumerate() {
@@ -366,7 +366,7 @@ where
 
     /// Returns the lanes whose members are inside the domain of H after a block of steps, and were so at each state at
     /// which the block evaluated H.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn inside<L: Level>(&mut self, made: u64, occupants: &Occupants<T, S>) -> MaskIn<T, P> {
         L::enter(WriteRows::<'_, _, T, P> {
             times: &self.times,
@@ -441,7 +441,7 @@ where
     }
 
     /// Passes members at their stops to the host, which takes back those that leave.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn pass_due<L: Level>(
         &mut self,
         scheme: &M,

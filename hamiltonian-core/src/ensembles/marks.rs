@@ -41,7 +41,7 @@ pub(crate) struct Marks<C, M> {
 }
 
 impl<C: Vector, M: Mask> Marks<C, M> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn new(ring: LastThree<C>) -> Self {
         Marks {
             ring,
@@ -53,26 +53,26 @@ impl<C: Vector, M: Mask> Marks<C, M> {
     }
 
     /// Replaces the last carried value after a refill of lanes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn replace(&mut self, carried: &C) {
         self.ring[self.newest].copy_from(carried);
     }
 
     /// Adds the carried value after a step.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn add(&mut self, carried: &C) {
         self.newest = if self.newest == 2 { 0 } else { self.newest + 1 };
         self.ring[self.newest].copy_from(carried);
     }
 
     /// Returns the carried value that was added last.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn newest(&self) -> &C {
         &self.ring[self.newest]
     }
 
     /// Copies the last three carried values, in order.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn copy_last(&self, to: &mut LastThree<C>) {
         for (ahead, to) in (1..).zip(to) {
             to.copy_from(&self.ring[(self.newest + ahead) % 3]);
@@ -80,7 +80,7 @@ impl<C: Vector, M: Mask> Marks<C, M> {
     }
 
     /// Marks the last step for the lanes in `to_mark`. Returns true if the block should end.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn mark(&mut self, step: u64) -> bool {
         let lanes = core::mem::replace(&mut self.to_mark, M::splat(false));
         let mark = self.steps.len();
@@ -95,7 +95,7 @@ impl<C: Vector, M: Mask> Marks<C, M> {
     }
 
     /// Returns the carried values at a mark.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn states(&self, mark: usize) -> &LastThree<C> {
         &self.states[mark]
     }

@@ -347,7 +347,7 @@ impl<T: Real, S: System> Occupants<T, S> {
     }
 
     /// Writes a number of each lane into the states of the members at their stops.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn write_states(
         &mut self,
         numbers: &[T],

@@ -93,7 +93,7 @@ pub trait FlowBody<K, T: Real>: WithData<T> {
         p: &mut Self::Vector,
     );
     /// The same with the terms of loops in the opposite order.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply_reversed(
         held: &Self::Held,
         data: &Self::Data,
@@ -136,7 +136,7 @@ macro_rules! call {
     ($body:ident::$method:ident($($argument:expr),*)) => {
         if const { $body::SHARED.over::<T>() } {
             T::out_of_line(
-                #[inline(always)]
+                #[cfg_attr(not(unoptimised), inline(always))]
                 || $body::$method($($argument),*),
             );
         } else {
@@ -146,7 +146,7 @@ macro_rules! call {
 }
 
 /// [`Shift::add`], at each use.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn shift<K, T: Real, D: Shift<K, T>>(
     held: &D::Held,
     data: &D::Data,
@@ -158,7 +158,7 @@ fn shift<K, T: Real, D: Shift<K, T>>(
 }
 
 /// [`FlowBody::apply`] or [`FlowBody::apply_reversed`], at each use.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn flow<K, T: Real, D: FlowBody<K, T>, const REVERSED: bool>(
     held: &D::Held,
     data: &D::Data,
@@ -174,7 +174,7 @@ fn flow<K, T: Real, D: FlowBody<K, T>, const REVERSED: bool>(
 }
 
 /// [`FieldBody::add`], at each use.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn add_field<K, T: Real, D: FieldBody<K, T>>(
     held: &D::Held,
     data: &D::Data,
@@ -187,14 +187,14 @@ pub fn add_field<K, T: Real, D: FieldBody<K, T>>(
 
 impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
     type Held = (<D as Shift<Kick, T>>::Held, <D as Shift<Drift, T>>::Held);
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn fold(&self, c: T) -> Self::Held {
         (
             Shift::<Kick, T>::fold(self, c),
             Shift::<Drift, T>::fold(self, c),
         )
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add(
         (kick, drift): &Self::Held,
         data: &Self::Data,
@@ -211,11 +211,11 @@ impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
 
 impl<T: Real, D: WithData<T>> FieldBody<OfGradient, T> for D {
     type Held = (D, T);
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn fold(&self, c: T) -> Self::Held {
         (self.clone(), c)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add(
         (prepared, c): &Self::Held,
         _: &Self::Data,
@@ -233,7 +233,7 @@ impl<T: Real, D: WithData<T>> FieldBody<OfGradient, T> for D {
 }
 
 /// ∂V/∂q of a separable H without a force, by its kick.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn slopes_by_kick<T: Real, D: Shift<Kick, T>>(
     prepared: &D,
     t: T,
@@ -245,7 +245,7 @@ pub fn slopes_by_kick<T: Real, D: Shift<Kick, T>>(
 }
 
 /// ∂T/∂p of a separable H, by its drift.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn velocities_by_drift<T: Real, D: Shift<Drift, T>>(
     prepared: &D,
     t: T,
@@ -257,7 +257,7 @@ pub fn velocities_by_drift<T: Real, D: Shift<Drift, T>>(
 }
 
 /// ∂H/∂q and ∂H/∂p of an H without a force, by its field.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn gradient_by_field<T: Real, D: FieldBody<Whole, T>>(
     prepared: &D,
     t: T,
@@ -338,7 +338,7 @@ impl<D, K> Emitted<D, K> {
 }
 
 impl<D, K, H> Emitted<D, K, H> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     const fn holding(held: H) -> Self {
         let of = PhantomData;
         Emitted { held, of }
@@ -346,7 +346,7 @@ impl<D, K, H> Emitted<D, K, H> {
 }
 
 impl<D, K, H: Clone> Clone for Emitted<D, K, H> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn clone(&self) -> Self {
         Emitted::holding(self.held.clone())
     }
@@ -381,7 +381,7 @@ where
     const MERGES: bool = D::MERGES;
     const MOVES: [bool; 2] = [!D::KICKS, D::KICKS];
     type Work = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
         let (held, data) = &self.held;
         if D::KICKS {
@@ -402,12 +402,12 @@ where
     const NAME: &'static str = D::NAME;
     const MERGES: bool = D::MERGES;
     type Work = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
         let (held, data) = &self.held;
         flow::<K, V::Scalar, D, false>(held, data, t, &mut x.q, &mut x.p);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply_reversed(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
         let (held, data) = &self.held;
         flow::<K, V::Scalar, D, true>(held, data, t, &mut x.q, &mut x.p);
@@ -421,7 +421,7 @@ where
     H: Clone + Debug,
     A: Clone + Debug,
 {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
         let (held, data) = &self.held;
         add_field::<K, V::Scalar, D>(held, data, t, [q, p], [into_q, into_p]);
@@ -430,7 +430,7 @@ where
 
 impl<D, K, H, A: Clone> Emitted<D, Adds<K>, (H, A)> {
     /// The field for the coefficient `c`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn fold<T: Real>(prepared: &D, c: T) -> Self
     where
         D: FieldBody<K, T, Held = H, Data = A>,
@@ -448,7 +448,7 @@ macro_rules! piece {
         {
             type Point = Point<D::Vector>;
             type Flow = $flow;
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn flow(&self, $prepared: &D, $c: T) -> Self::Flow {
                 $body
             }

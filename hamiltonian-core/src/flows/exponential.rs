@@ -47,7 +47,7 @@ type Square<T, const N: usize> = [[T; N]; N];
 impl<F, T: Real, const N: usize> Exponential<F, T, N> {
     /// The coefficient of the rates, given that of the step.
     #[must_use]
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn raised(c: T) -> T {
         c * T::constant(RAISED, 0.0)
     }
@@ -169,7 +169,7 @@ fn product<T: Real, const N: usize>(a: &Square<T, N>, b: &Square<T, N>) -> Squar
     out
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn image<T: Real, const N: usize>(matrix: &Square<T, N>, z: &[T; N]) -> [T; N] {
     let mut out = [T::zero(); N];
     for (row, sum) in matrix.iter().zip(&mut out) {
@@ -183,7 +183,7 @@ fn image<T: Real, const N: usize>(matrix: &Square<T, N>, z: &[T; N]) -> [T; N] {
 impl<V: Vector, F: Flow<Point<V>>, const N: usize> Flow<Point<V>> for Exponential<F, V::Scalar, N> {
     const NAME: &'static str = F::NAME;
     type Work = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, _: V::Scalar, x: &mut Point<V>, (): &mut ()) {
         let mut z = [V::Scalar::zero(); N];
         for (i, into) in z.iter_mut().enumerate() {

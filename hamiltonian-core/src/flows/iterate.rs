@@ -53,7 +53,7 @@ const ROUNDING: f64 = 1024.0;
 
 /// Iterates `x ← g(x)` until the change is 0, or rounding and not shrinking any more; at most
 /// `limit` times.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn iterate<V: Vector, G: Contraction<V>>(
     limit: u32,
     g: &mut G,

@@ -28,7 +28,7 @@ pub trait Map {
     type Work: Scratch<Self::Carried>;
 
     /// Applies the piece before the body of the first step.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn open(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
     /// Makes the step from `t` to `end`, without its opening and closing pieces.
     fn body(
@@ -39,16 +39,16 @@ pub trait Map {
         work: &mut Self::Work,
     );
     /// Applies the piece after the body, at the end of a step.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn close(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
     /// Returns whether [`close`](Map::close) changes coordinates, and whether it changes momenta. An observer that
     /// reads only unchanged ones needs no closed copy.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn closing(&self) -> [bool; 2] {
         [true; 2]
     }
     /// Applies `close` of the previous step, then `open`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join(&self, t: ScalarOf<Self>, z: &mut Self::Carried, work: &mut Self::Work) {
         self.close(t, z, work);
         self.open(t, z, work);
@@ -70,7 +70,7 @@ pub trait Map {
     /// Applies [`join`](Map::join), and, if `closes`, [`close`](Map::close) to a copy. Both begin at the same point, so
     /// common expressions are computed once.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join_and_close(
         &self,
         t: ScalarOf<Self>,
@@ -87,7 +87,7 @@ pub trait Map {
 
     /// Makes the steps after the first `made`, up to number `end`. The piece before the first body has been applied.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn go_on<C: Times<ScalarOf<Self>>>(
         &self,
         times: &C,
@@ -111,7 +111,7 @@ pub trait Map {
     }
 
     /// Makes `n` steps after the first `made`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run(
         &self,
         clock: Clock<ScalarOf<Self>>,
@@ -135,7 +135,7 @@ pub trait Map {
     }
 
     /// Makes one whole step from `t` to `end`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn step(
         &self,
         t: ScalarOf<Self>,
@@ -208,7 +208,7 @@ pub trait Times<T> {
 }
 
 impl<T: Real> Times<T> for Clock<T> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn at(&self, made: u64) -> T {
         Clock::at(self, made)
     }
@@ -216,13 +216,13 @@ impl<T: Real> Times<T> for Clock<T> {
 
 impl<T: Real> Clock<T> {
     /// Creates the clock of one step.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn between(start: T, end: T) -> Self {
         Clock::new(start, end - start)
     }
 
     /// Creates a clock that shows `start` at step 0.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn new(start: T, interval: T) -> Self {
         Clock {
             start,
@@ -235,7 +235,7 @@ impl<T: Real> Clock<T> {
     ///
     /// The function is pure, so that the compiler removes it if the system does not depend on time. The number of steps
     /// is exact up to 2⁵³.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn at(&self, made: u64) -> T {
         // Conversion of signed integers takes one instruction, of unsigned integers several.
         let made = self.first.wrapping_add(made) as i64 as f64;
@@ -267,26 +267,26 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     /// The scratch of the first map, and of the second.
     type Work = (A::Work, B::Work);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn open(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
         either!(self.open(t, z; work));
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: ScalarOf<A>, end: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
         either!(self.body(t, end, z; work));
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn close(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
         either!(self.close(t, z; work));
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn closing(&self) -> [bool; 2] {
         match self {
             Either::First(map) => map.closing(),
             Either::Second(map) => map.closing(),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
         either!(self.join(t, z; work));
     }
@@ -301,7 +301,7 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     ) -> Cause {
         either!(self.explain(t, end, first, z; work))
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run(
         &self,
         clock: Clock<ScalarOf<A>>,
@@ -312,7 +312,7 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     ) {
         either!(self.run(clock, made, n, z; work));
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join_and_close(
         &self,
         t: ScalarOf<A>,
@@ -323,7 +323,7 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     ) {
         either!(self.join_and_close(t, z, copy, closes; work));
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn go_on<C: Times<ScalarOf<A>>>(
         &self,
         times: &C,

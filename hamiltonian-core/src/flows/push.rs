@@ -18,7 +18,7 @@ impl<X: Vector, A: Flow<X>, B: Flow<X>> Flow<X> for Both<A, B> {
     const NAME: &'static str = A::NAME;
     const MOVES: [bool; 2] = [A::MOVES[0] || B::MOVES[0], A::MOVES[1] || B::MOVES[1]];
     type Work = (A::Work, B::Work);
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: X::Scalar, x: &mut X, (first, second): &mut Self::Work) {
         self.0.apply(t, x, first);
         self.1.apply(t, x, second);
@@ -67,7 +67,7 @@ const PARTS: u32 = 10_000;
 impl<V: Vector, F: VectorField<V>, L: VectorField<V>> Flow<Point<V>> for Coupled<F, L> {
     const NAME: &'static str = "force";
     type Work = Momenta<V>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, Momenta(work): &mut Momenta<V>) {
         type Size<V> = <<V as Vector>::Scalar as Real>::Size;
         let [term, next, sum, drift] = work;
@@ -146,7 +146,7 @@ struct MomentumEquation<'a, V: Vector, F> {
 }
 
 impl<V: Vector, F: VectorField<V>> Contraction<V> for MomentumEquation<'_, V, F> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn map(&mut self, change: &V, next: &mut V) {
         self.middle.copy_from(&self.point.p);
         self.middle
@@ -154,7 +154,7 @@ impl<V: Vector, F: VectorField<V>> Contraction<V> for MomentumEquation<'_, V, F>
         next.set_zero();
         (self.field).add(self.t, &self.point.q, self.middle, self.drift, next);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self, change: &V) -> <V::Scalar as Real>::Size {
         self.point.p.size() + change.size()
     }
@@ -164,7 +164,7 @@ impl<V: Vector, F: VectorField<V>> Flow<Point<V>> for SubStep<F> {
     const NAME: &'static str = "force";
     const MERGES: bool = false;
     type Work = Momenta<V>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: V::Scalar, x: &mut Point<V>, Momenta(work): &mut Momenta<V>) {
         let [change, next, middle, drift] = work;
         change.set_zero();

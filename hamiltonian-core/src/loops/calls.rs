@@ -32,11 +32,11 @@ macro_rules! calls {
             impl Call for $name {
                 type Value<T: Real> = T;
                 const LEAST: usize = $least;
-                #[inline(always)]
+                #[cfg_attr(not(unoptimised), inline(always))]
                 fn of<T: Real>(x: T) -> T {
                     x.$method()
                 }
-                #[inline(always)]
+                #[cfg_attr(not(unoptimised), inline(always))]
                 fn lanes<T: Real, P: Pack>(values: T::Over<P>) -> [T; MAX_CALLS] {
                     scattered::<T, P>(values)
                 }
@@ -54,11 +54,11 @@ pub struct SinCos;
 impl Call for SinCos {
     type Value<T: Real> = (T, T);
     const LEAST: usize = 4;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn of<T: Real>(x: T) -> (T, T) {
         x.sin_cos()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn lanes<T: Real, P: Pack>((sines, cosines): (T::Over<P>, T::Over<P>)) -> [(T, T); MAX_CALLS] {
         let (sines, cosines) = (scattered::<T, P>(sines), scattered::<T, P>(cosines));
         let mut out = [(sines[0], cosines[0]); MAX_CALLS];
@@ -71,7 +71,7 @@ impl Call for SinCos {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn scattered<T: Real, P: Pack>(from: T::Over<P>) -> [T; MAX_CALLS] {
     let mut out = [T::default(); MAX_CALLS];
     T::scatter::<P>(from, &mut out[..P::LANES as usize]);
@@ -80,7 +80,7 @@ fn scattered<T: Real, P: Pack>(from: T::Over<P>) -> [T; MAX_CALLS] {
 
 /// Returns true if so many calls over `T` are computed together.
 #[must_use]
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub const fn are_together<T: Real, C: Call>(count: usize) -> bool {
     // Plain code for two lanes gains nothing.
     let has_registers = !matches!(AtHand::CPU, Cpu::Portable);
@@ -89,7 +89,7 @@ pub const fn are_together<T: Real, C: Call>(count: usize) -> bool {
 
 /// The values of a function at `N` points. Written out where it is called, a function in four registers takes rustc a
 /// tenth of a second each time, and a run some nanoseconds less.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 #[must_use]
 pub fn together<T: Real, C: Call, const N: usize, const WRITTEN_OUT: bool>(
     x: [T; N],
@@ -114,7 +114,7 @@ pub fn together<T: Real, C: Call, const N: usize, const WRITTEN_OUT: bool>(
     out
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn in_pack<T: Real, C: Call, P: Pack, const WRITTEN_OUT: bool>(
     x: &[T; MAX_CALLS],
 ) -> [C::Value<T>; MAX_CALLS] {

@@ -41,7 +41,7 @@ pub struct TileRow<'a, T, const C: usize> {
 }
 
 /// Calls `work` with the rows of a triangle, tile by tile.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn pairs<T: Real, const C: usize>(
     count: usize,
     triangle: Triangle,
@@ -66,7 +66,7 @@ type RowBody<'a, T, const C: usize> = dyn Fn(TileRow<'_, T, C>) + Sync + 'a;
 type Parts<'a, T, const C: usize> = [&'a mut [T]; C];
 
 /// The elements before and after a place.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn split<T, const C: usize>(mut parts: Parts<'_, T, C>, at: usize) -> [Parts<'_, T, C>; 2] {
     let mut after = parts.each_mut().map(|_| &mut [][..]);
     let mut c = 0;
@@ -78,7 +78,7 @@ fn split<T, const C: usize>(mut parts: Parts<'_, T, C>, at: usize) -> [Parts<'_,
 }
 
 /// The elements from a place on.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn after<T, const C: usize>(parts: Parts<'_, T, C>, at: usize) -> Parts<'_, T, C> {
     let [_, after] = split(parts, at);
     after
@@ -94,13 +94,13 @@ struct Tiles {
 
 impl Tiles {
     /// The number of blocks of rows.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn blocks(self) -> usize {
         self.count.div_ceil(TILE)
     }
 
     /// The rows of a block.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn rows(self, block: usize) -> Range<usize> {
         block * TILE..((block + 1) * TILE).min(self.count)
     }
@@ -127,7 +127,7 @@ impl Tiles {
     }
 
     /// Takes rows of tiles in order.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn one_by_one<T: Real, const C: usize, W: Fn(TileRow<'_, T, C>) + ?Sized>(
         self,
         mut arrays: Parts<'_, T, C>,
@@ -218,7 +218,7 @@ impl Tiles {
     }
 
     /// Takes the tile of two blocks; on the diagonal `highs` has the elements of both.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn tile<T: Real, const C: usize, W: Fn(TileRow<'_, T, C>) + ?Sized>(
         self,
         [low, high]: [usize; 2],

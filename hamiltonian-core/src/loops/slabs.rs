@@ -24,7 +24,7 @@ pub(crate) fn on_two_threads(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() 
 
 /// The number of slabs of so many elements: some for each thread, which takes the next one when it is done with
 /// one. Outside of the threads of a run there is one.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn slabs(arithmetic: Arithmetic, elements: usize) -> usize {
     match arithmetic.threads > 1 && arithmetic.lanes && elements >= 2 * SLAB {
         true => several(arithmetic.threads, elements),
@@ -44,7 +44,7 @@ fn several(threads: usize, elements: usize) -> usize {
 
 /// The iterations of an outer loop in slabs. Iteration `i` changes elements `i·k..(i + 1)·k` of a column that
 /// comes with `k`, and no others. `work` is given a range of iterations and the elements that are theirs.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn rows<T: Real, const C: usize>(
     count: usize,
     arithmetic: Arithmetic,

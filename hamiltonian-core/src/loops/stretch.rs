@@ -150,14 +150,14 @@ pub struct Stretch<
 }
 
 /// The sum of partial sums, as a tree: ((0+4)+(2+6)) + ((1+5)+(3+7)).
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 #[must_use]
 pub fn total<T: Real>(s: &[T; STRIDE]) -> T {
     ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]))
 }
 
 /// `i % n`; most indices are below n and are not divided.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 #[must_use]
 pub fn wrapped(i: usize, n: usize) -> usize {
     if i < n { i } else { i % n }
@@ -167,7 +167,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     Stretch<'_, T, G, R, C, S, A>
 {
     /// Runs the iterations of a loop of at least [`LONG`] ones.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn run<B: Body<G, R, W>, const W: usize>(self, _: B) {
         let length = self.length;
         if !T::WIDENS {
@@ -204,7 +204,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
 
     /// The number of iterations before the first pack: up to one that adds to the first partial sum, and all
     /// if those after it fill no pack.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn before<B: Body<G, R, W>, const W: usize>(&self) -> usize {
         let before = match B::SUMS.is_empty() {
             true => 0,
@@ -217,7 +217,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     }
 
     /// Leaves the first iterations out.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn skip(&mut self, count: usize) {
         self.length -= count;
         self.first += count;
@@ -350,7 +350,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     }
 
     /// The same stretch, for a part of its iterations.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn reborrow(&mut self) -> Stretch<'_, T, G, R, C, S, A> {
         Stretch {
             columns: reborrowed(&mut self.columns),
@@ -366,7 +366,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     }
 
     /// The first iterations one by one.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn one_by_one<B: Body<G, R, W>, const W: usize>(self, count: usize) {
         let Stretch {
             first,
@@ -402,7 +402,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
 }
 
 /// Element `k` of each column.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn elements<T: Real, const R: usize>(columns: &[&[T]; R], k: usize) -> [T; R] {
     let mut all = [T::zero(); R];
     let mut r = 0;
@@ -424,7 +424,7 @@ fn reborrowed<'a, T, const C: usize>(columns: &'a mut [&mut [T]; C]) -> [&'a mut
 }
 
 /// An element after a store.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn changed<T: Real>(change: Change, place: T, [a, b]: [T; 2]) -> T {
     match change {
         Change::Set => a,
@@ -465,11 +465,11 @@ impl<
 {
     type Output = ();
     const BEST: Cpu = compiled::BEST;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn best(&self) -> Cpu {
         compiled::best(self.stretch.arithmetic.fused)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) {
         if const { has_lanes(L::CPU) } {
             rounded::<L, L::Eight, _>(self.stretch.arithmetic.fused, self);
@@ -491,7 +491,7 @@ impl<
     const W: usize,
 > Rounded for StretchKernel<'_, T, B, G, R, C, S, A, W>
 {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<P: Pack>(self) {
         packs::<T, B, P, G, R, C, S, A, W>(self.stretch, self.is_followed);
     }

@@ -451,7 +451,7 @@ tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 /// run.advance(1)?;
 /// # Ok::<(), Error>(())
 /// ```
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn one_trajectory<T: Real>() {
     const {
         assert!(

@@ -67,27 +67,27 @@ impl<T: Real> StageLayout<T> for Apart {
     type Bundle = T;
     type Few = [T; 1];
     const WIDTH: usize = 1;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather(values: &[T]) -> T {
         values[0]
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn splat(value: T) -> T {
         value
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn split(bundle: T) -> [T; 1] {
         [bundle]
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn any(mask: T::Mask) -> T::Mask {
         mask
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn largest(size: T::Size) -> T::Size {
         size
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_unless<X: Vector<Scalar = T>>(mask: T::Mask, from: &X, to: &mut X) {
         if T::LANES == 1 {
             // Nothing is copied after all is solved.
@@ -105,26 +105,26 @@ impl<T: Real, P: Pack, const WIDTH: usize> StageLayout<T> for Beside<P, WIDTH> {
     type Bundle = T::Over<P>;
     type Few = [T; WIDTH];
     const WIDTH: usize = WIDTH;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather(values: &[T]) -> Self::Bundle {
         const { assert!(P::LANES as usize == WIDTH && WIDTH <= MAX_STAGES) }
         T::gather::<P>(values)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn splat(value: T) -> Self::Bundle {
         value.spread::<P>()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn split(bundle: Self::Bundle) -> [T; WIDTH] {
         let mut few = [T::default(); WIDTH];
         T::scatter::<P>(bundle, &mut few);
         few
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn any(mask: <Self::Bundle as Real>::Mask) -> T::Mask {
         T::Mask::splat(mask.any())
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn largest(size: <Self::Bundle as Real>::Size) -> T::Size {
         let mut few = [0.0; WIDTH];
         for (lane, number) in (0..).zip(&mut few) {
@@ -139,20 +139,20 @@ impl<T: Real, P: Pack, const WIDTH: usize> StageLayout<T> for Beside<P, WIDTH> {
         }
         T::Size::constant(few[0], 0.0)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_unless<X: Vector<Scalar = Self::Bundle>>(_: T::Mask, from: &X, to: &mut X) {
         to.copy_from(from);
     }
 }
 
 /// The number of bundles of `S` stages.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) const fn bundles<T: Real, L: StageLayout<T>, const S: usize>() -> usize {
     S.div_ceil(L::WIDTH)
 }
 
 /// A number of each stage, in bundles; those after the last bundle are 0.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
     values: &[T; S],
 ) -> [L::Bundle; S] {
@@ -164,7 +164,7 @@ pub(super) fn in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
 }
 
 /// Lays a matrix with a row for each stage into bundles, `[bundle][j]`; those after the last bundle stay.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn lay_in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
     matrix: &[[T; S]; S],
     to: &mut [[L::Bundle; S]; S],
@@ -182,13 +182,13 @@ pub(super) fn lay_in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
 }
 
 /// The number of stage `j`.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn number<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
     few[j / L::WIDTH].as_ref()[j % L::WIDTH]
 }
 
 /// The sum of four partial sums, or of as many as there are stages.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn joined<R: Real, const S: usize>(sums: [R; 4]) -> R {
     match S {
         1 => sums[0],
@@ -199,7 +199,7 @@ fn joined<R: Real, const S: usize>(sums: [R; 4]) -> R {
 }
 
 /// `Σ matrix[j]·few[j]` for a bundle: partial sums of the stages with the same remainder modulo 4, joined.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn product<T: Real, L: StageLayout<T>, const S: usize>(
     matrix: &[L::Bundle; S],
     few: &[L::Few; S],
@@ -226,7 +226,7 @@ pub(super) fn product<T: Real, L: StageLayout<T>, const S: usize>(
 }
 
 /// `Σ few[j]` in the same order.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn sum<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S]) -> T {
     let mut sums = [T::zero(); 4];
     for j in 0..S {
@@ -238,7 +238,7 @@ pub(super) fn sum<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S])
 
 /// A matrix of a method times `guess`, the matrix that takes the unknowns of the step before to a guess for
 /// those of this one. Both are matrices of numbers that the weights have multiplied.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn of_the_guess<T: Real, const S: usize>(
     matrix: &[[T; S]; S],
     weights: &[T; S],
@@ -262,7 +262,7 @@ pub(super) fn of_the_guess<T: Real, const S: usize>(
 }
 
 /// Number `i` of part `k` of all stages, times `N` factors of each, one after the other.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn spread<T, L, Y, const N: usize, const S: usize>(
     factors: [&[L::Bundle; S]; N],
     unknowns: &[Y; S],
@@ -286,7 +286,7 @@ where
 }
 
 /// Copies the unknowns of all bundles.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn copy<T, L, X, const S: usize>(from: &[X; S], to: &mut [X; S])
 where
     T: Real,
@@ -299,7 +299,7 @@ where
 }
 
 /// Lays the unknowns of each stage into bundles.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn load<T, L, Y, X, const S: usize>(from: &[Y; S], to: &mut [X; S])
 where
     T: Real,
@@ -321,7 +321,7 @@ where
 }
 
 /// Takes them out again.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn store<T, L, X, Y, const S: usize>(from: &[X; S], to: &mut [Y; S])
 where
     T: Real,
@@ -374,7 +374,7 @@ const REST: f64 = 1.0 / 16.0;
 /// A maximum is the same in any order, so that a step ends after as many iterations in every layout. The guess
 /// itself is not computed, so the first change is that of the second iteration; one stage begins with its
 /// unknown of the step before. A lane of `T` that is solved is not touched any more.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: usize>(
     limit: u32,
     equations: &mut E,
@@ -439,13 +439,13 @@ pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: 
 }
 
 /// The larger of two numbers.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn larger<R: Real>(a: R, b: R) -> R {
     R::select(a.lt(b), b, a)
 }
 
 /// The largest of the stages' sizes; infinity if one of them is not a number.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn largest<T: Real, L: StageLayout<T>, const S: usize>(
     sizes: &[<L::Bundle as Real>::Size; S],
 ) -> T::Size {
@@ -464,7 +464,7 @@ fn largest<T: Real, L: StageLayout<T>, const S: usize>(
 }
 
 /// The largest size of the unknowns of a stage.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn largest_size<T: Real, L: StageLayout<T>, Y: Vector<Scalar = L::Bundle>, const S: usize>(
     unknowns: &[Y; S],
 ) -> T::Size {

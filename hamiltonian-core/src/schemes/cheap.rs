@@ -108,7 +108,7 @@ where
         P,
         Mean<ZigzagOf<T, S, S::Pieces<T>, R>, ZigzagOf<T, S, S::Pieces<T>, Negated<R>>>,
     >;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (pieces, whole) = (&S::pieces::<T>(), Step::of(step.h));
         let mean = Mean {
@@ -147,7 +147,7 @@ where
     /// The images of the point under ρ(h) and ρ(−h).
     type Work = (X, X);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn post_process(&self, t: X::Scalar, z: &mut X, work: &mut ((O::Work, I::Work), (X, X))) {
         let (flows, (ahead, behind)) = work;
         ahead.copy_from(z);

@@ -217,7 +217,7 @@ impl<const S: usize> Collocation<S> {
     /// With this rounding, the method is symplectic in the arithmetic of the scalar too: M.
     /// Antoñana, J. Makazaga, A. Murua, Numer. Algorithms 76, 861 (2017), section 3,
     /// doi:10.1007/s11075-017-0287-z.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn symplectic<T: Real>(&self) -> [[T; S]; S] {
         let mut mu = [[T::constant(0.5, 0.0); S]; S];
         for (i, row) in mu.iter_mut().enumerate() {
@@ -246,7 +246,7 @@ impl<const S: usize> Collocation<S> {
     /// of p and their parts 1 − c in q is symplectic in the arithmetic of the scalar too: E.
     /// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), theorem IV.2.3,
     /// doi:10.1007/3-540-30666-8.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn symplectic_double<T: Real>(&self, h: T) -> ([T; S], [[T; S]; S]) {
         let mut times = [T::zero(); S];
         for (to, c) in times.iter_mut().zip(&self.nodes) {
@@ -293,13 +293,13 @@ fn number(value: f64) -> DoubleDouble {
 }
 
 /// Converts a number to another scalar.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn constant<T: Real>(x: DoubleDouble) -> T {
     T::constant(x.hi(), x.lo())
 }
 
 /// `numbers`·h.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn multiples<T: Real, const S: usize>(numbers: &[DoubleDouble; S], h: T) -> [T; S] {
     let mut all = [T::zero(); S];
     for (to, number) in all.iter_mut().zip(numbers) {

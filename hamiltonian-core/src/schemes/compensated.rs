@@ -73,7 +73,7 @@ symmetric!(Compensated<M>, M: Splitting + Symmetric);
 type Words<V> = Pair<Point<V>, Point<V>>;
 
 /// `z + low` as a new z and its rounding error, for |low| ≤ |z|, which holds after a few steps.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn carry<V: Vector>(z: &mut V, low: &mut V) {
     for k in 0..V::PARTS {
         for (z, low) in z.part_mut(k).iter_mut().zip(low.part_mut(k)) {
@@ -104,7 +104,7 @@ impl<V: Vector, W: Scratch<Point<V>>> Scratch<Words<V>> for OfPoint<W> {
 impl<V: Vector, F: Flow<Point<V>>, const KICK: bool> Flow<Words<V>> for Carrying<F, KICK> {
     const NAME: &'static str = F::NAME;
     type Work = OfPoint<F::Work>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: V::Scalar, z: &mut Words<V>, OfPoint(work): &mut Self::Work) {
         let Pair { x: point, y: low } = z;
         let (moved, low) = if KICK {
@@ -129,7 +129,7 @@ where
 {
     type Point = Words<V>;
     type Flow = Carrying<A::Flow, KICK>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn flow(&self, prepared: &P, c: T) -> Self::Flow {
         Carrying(self.0.flow(prepared, c))
     }
@@ -149,7 +149,7 @@ impl<S: Separable + Unforced, M: Splitting> Scheme<S> for Compensated<M> {
         <KickAndDrift<T, S> as Pieces<T, S::Prepared<T>>>::Inner,
         M,
     >;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let halves = (Carrying(S::kick::<T>()), Carrying(S::drift::<T>()));
         Zigzag::exact(&self.0, &halves, prepared, step)

@@ -180,7 +180,7 @@ where
     ) -> Result<(), Error> {
         self.stages[0].0.check(prepared, state)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (last, weight) = &self.stages[STAGES - 1];
         let mut previous = last;
@@ -237,7 +237,7 @@ pub struct Composed<M: Map, const S: usize, const JOINED: bool> {
 
 impl<M: Map, const S: usize, const JOINED: bool> Composed<M, S, JOINED> {
     /// The time at the end of stage `i` of the step from `t` to `end`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn end_of(&self, i: usize, t: ScalarOf<M>, end: ScalarOf<M>) -> ScalarOf<M> {
         match self.stages.get(i + 1) {
             Some(next) => t + next.at,
@@ -246,7 +246,7 @@ impl<M: Map, const S: usize, const JOINED: bool> Composed<M, S, JOINED> {
     }
 
     /// The closing piece of the stage before, then the opening one of stage `i`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join_stage(&self, i: usize, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
         let stage = &self.stages[i];
         if JOINED || stage.joins {
@@ -263,12 +263,12 @@ impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> 
     type Carried = M::Carried;
     type Work = M::Work;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn open(&self, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
         self.stages[0].map.open(t, z, work);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: ScalarOf<M>, end: ScalarOf<M>, z: &mut M::Carried, work: &mut Self::Work) {
         for (i, stage) in self.stages.iter().enumerate() {
             let begin = t + stage.at;
@@ -279,17 +279,17 @@ impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> 
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn close(&self, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
         self.stages[S - 1].map.close(t, z, work);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn closing(&self) -> [bool; 2] {
         self.stages[S - 1].map.closing()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join(&self, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
         self.join_stage(0, t, z, work);
     }
@@ -410,7 +410,7 @@ struct Inversion<'a, M: Map> {
 }
 
 impl<M: Map> Contraction<M::Carried> for Inversion<'_, M> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn map(&mut self, x: &M::Carried, next: &mut M::Carried) {
         self.image.copy_from(x);
         self.map.back.step(self.end, self.t, self.image, self.work);
@@ -418,14 +418,14 @@ impl<M: Map> Contraction<M::Carried> for Inversion<'_, M> {
         next.accumulate(ScalarOf::<M>::one(), self.target);
         next.accumulate(-ScalarOf::<M>::one(), self.image);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self, x: &M::Carried) -> <ScalarOf<M> as Real>::Size {
         x.size()
     }
 }
 
 impl<M: Map> Inverted<M> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn solve(
         &self,
         t: ScalarOf<M>,
@@ -474,7 +474,7 @@ impl<M: Map> Map for Inverted<M> {
     type Carried = M::Carried;
     type Work = InvertedWork<M>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: ScalarOf<M>, end: ScalarOf<M>, z: &mut M::Carried, work: &mut Self::Work) {
         self.solve(t, end, z, work);
     }

@@ -120,7 +120,7 @@ struct DiscreteGradientEquation<'a, T: Real, P: Dynamics<T>> {
 }
 
 impl<T: Real, P: Dynamics<T>> Contraction<Point<P::Vector>> for DiscreteGradientEquation<'_, T, P> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn map(&mut self, slope: &Point<P::Vector>, next: &mut Point<P::Vector>) {
         let EnergyKeeping {
             dynamics, h, half, ..
@@ -148,7 +148,7 @@ impl<T: Real, P: Dynamics<T>> Contraction<Point<P::Vector>> for DiscreteGradient
         next.p.copy_from(&self.gradient.q);
         next.p.scale(-T::one());
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self, slope: &Point<P::Vector>) -> T::Size {
         // The rounding of H enters divided by |Δ|.
         let step = self.map.h.size();
@@ -165,7 +165,7 @@ pub struct EnergyWork<V: Vector> {
 }
 
 impl<T: Real, P: Dynamics<T>> EnergyKeeping<T, P> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn solve(
         &self,
         t: T,
@@ -210,7 +210,7 @@ impl<T: Real, P: Dynamics<T>> Map for EnergyKeeping<T, P> {
     type Carried = Pair<Point<P::Vector>, Point<P::Vector>>;
     type Work = EnergyWork<P::Vector>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
         self.solve(t, z, work);
     }

@@ -96,7 +96,7 @@ pub struct Crossed<F, const FIRST: bool>(F);
 impl<V: Vector, F: VectorField<V>, const FIRST: bool> Flow<Copies<V>> for Crossed<F, FIRST> {
     const NAME: &'static str = if FIRST { "H(q, p̃)" } else { "H(q̃, p)" };
     type Work = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
         let Pair { x, y } = z;
         if FIRST {
@@ -110,7 +110,7 @@ impl<V: Vector, F: VectorField<V>, const FIRST: bool> Flow<Copies<V>> for Crosse
 impl<T: Real, P: Dynamics<T>, const FIRST: bool> Piece<T, P> for Cross<FIRST> {
     type Point = Copies<P::Vector>;
     type Flow = Crossed<P::Field, FIRST>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn flow(&self, prepared: &P, c: T) -> Self::Flow {
         Crossed(prepared.field(c))
     }
@@ -130,7 +130,7 @@ impl<S: System + Unforced> Scheme<S> for Pihajoki {
         Doubled<T, S, Cross<false>, Cross<true>, Strang>,
         Doubled<T, S, Cross<true>, Cross<false>, Strang>,
     >;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (first, second) = (Cross::<true>, Cross::<false>);
         match self {

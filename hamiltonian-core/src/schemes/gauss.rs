@@ -146,7 +146,7 @@ impl<S: System, const STAGES: usize> Scheme<S> for Gauss<STAGES> {
     fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         self.coefficients.ends()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let integrals = self.coefficients.symplectic();
         let weights = multiples(&self.coefficients.weights, step.h);

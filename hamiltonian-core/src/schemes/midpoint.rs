@@ -83,7 +83,7 @@ impl<S: System> Scheme<S> for ImplicitMidpoint {
     fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         [0.5; 2]
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Midpoint {
             field: prepared.field(T::one()),
@@ -92,7 +92,7 @@ impl<S: System> Scheme<S> for ImplicitMidpoint {
             limit: self.max_iterations,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start<T: Real>(
         &self,
         _: &S::Prepared<T>,
@@ -124,7 +124,7 @@ struct MidpointEquation<'a, V: Vector, F> {
 }
 
 impl<V: Vector, F: VectorField<V>> Contraction<Point<V>> for MidpointEquation<'_, V, F> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn map(&mut self, slope: &Point<V>, next: &mut Point<V>) {
         self.middle.copy_from(self.point);
         self.middle.accumulate(self.map.half, slope);
@@ -132,7 +132,7 @@ impl<V: Vector, F: VectorField<V>> Contraction<Point<V>> for MidpointEquation<'_
         let Point { q, p } = next;
         (self.map.field).add(self.t, &self.middle.q, &self.middle.p, q, p);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self, slope: &Point<V>) -> <V::Scalar as Real>::Size {
         // The slope counts too, because a point at the origin has size 0.
         self.point.size() / self.map.h.size() + slope.size()
@@ -147,7 +147,7 @@ pub struct MidpointWork<V: Vector> {
 }
 
 impl<V: Vector, F: VectorField<V>> Midpoint<V, F> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn solve(
         &self,
         t: V::Scalar,
@@ -185,7 +185,7 @@ impl<V: Vector, F: VectorField<V>> Map for Midpoint<V, F> {
     type Carried = Pair<Point<V>, Point<V>>;
     type Work = MidpointWork<V>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Self::Carried, work: &mut Self::Work) {
         self.solve(t, z, work);
     }

@@ -106,7 +106,7 @@ impl<C: Vector, const N: usize> Vector for Pace<C, N> {
         }
     }
     const PARTS: usize = C::PARTS + 1;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part(&self, k: usize) -> &[C::Scalar] {
         if k < C::PARTS {
             self.of.part(k)
@@ -114,7 +114,7 @@ impl<C: Vector, const N: usize> Vector for Pace<C, N> {
             &self.numbers
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part_mut(&mut self, k: usize) -> &mut [C::Scalar] {
         if k < C::PARTS {
             self.of.part_mut(k)
@@ -128,14 +128,14 @@ impl<C: Vector, const N: usize> Vector for Pace<C, N> {
             numbers: [C::Scalar::zero(); N],
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         Pace {
             of: self.of.take(),
             numbers: self.numbers,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_from(&mut self, other: &Self) {
         self.of.copy_from(&other.of);
         self.numbers = other.numbers;
@@ -144,11 +144,11 @@ impl<C: Vector, const N: usize> Vector for Pace<C, N> {
 
 impl<C: Carried, const N: usize> Carried for Pace<C, N> {
     type Vector = C::Vector;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn point(&self) -> &Point<C::Vector> {
         self.of.point()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn time(&self, _: C::Scalar) -> C::Scalar {
         self.numbers[2]
     }
@@ -206,7 +206,7 @@ impl<C: Vector, const N: usize> Pace<C, N> {
 }
 
 /// G at a point.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn rate<T: Real, S: System, G: Density<S>>(
     density: &G,
     field: &<S::Prepared<T> as Dynamics<T>>::Field,
@@ -238,7 +238,7 @@ where
     ) -> Result<(), Error> {
         self.scheme.check(prepared, state)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Pacing {
             prepared: prepared.clone(),
@@ -249,7 +249,7 @@ where
             half: step.h * T::constant(0.5, 0.0),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -302,7 +302,7 @@ where
     type Carried = Pace<Point<VectorOf<S, T>>>;
     type Work = PacingWork<VectorOf<S, T>, <M::Map<T> as Map>::Work>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
         let [density, rate_here, t] = &mut z.numbers;
         *density += self.half * *rate_here;

@@ -109,14 +109,14 @@ where
         P,
         ZigzagOf<T, S, S::Pieces<T>, P>,
     >;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let whole = Step::of(step.h);
         let post_processor = Zigzag::new(&self.processor, &S::pieces::<T>(), prepared, whole);
         ProcessedMap::new(self, post_processor, &S::pieces::<T>(), prepared, step)
     }
     /// Processors of different steps do not cancel.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare_after<T: Real>(
         &self,
         before: &Self,
@@ -155,7 +155,7 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, P: Splitting> PostProcessor<X, (O::Work
 {
     type Work = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn post_process(&self, t: X::Scalar, z: &mut X, (work, ()): &mut ((O::Work, I::Work), ())) {
         self.step(t, t, z, work);
     }
@@ -179,7 +179,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting, C>
     ProcessedMap<X, O, I, K, P, C>
 {
     /// Folds the tables into the flows.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn new<D, Q>(
         scheme: &Processed<K, P>,
         post_processor: C,
@@ -203,11 +203,11 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting, C>
 ///
 /// It is long and rare, so it is compiled once, apart from the loop over steps. Its point is moved
 /// there and back, so that the point of the loop stays in registers.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn apart<X: Carried>(z: &mut X, processor: impl FnOnce(&mut X)) {
     let mut moved = z.take();
     X::Scalar::out_of_line(
-        #[inline(always)]
+        #[cfg_attr(not(unoptimised), inline(always))]
         || processor(&mut moved),
     );
     *z = moved;
@@ -226,32 +226,32 @@ where
     /// The scratch of the kernel, which the processors share, and more of the post-processor.
     type Work = ((O::Work, I::Work), C::Work);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn open(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         apart(
             z,
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             |moved| self.unprocessor.step(t, t, moved, &mut work.0),
         );
         self.kernel.open(t, z, &mut work.0);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: X::Scalar, end: X::Scalar, z: &mut X, work: &mut Self::Work) {
         self.kernel.body(t, end, z, &mut work.0);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn close(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         self.kernel.close(t, z, &mut work.0);
         apart(
             z,
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             |moved| self.post_processor.post_process(t, moved, work),
         );
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         self.kernel.join(t, z, &mut work.0);
     }
@@ -304,11 +304,11 @@ macro_rules! weights {
 
         impl Splitting for $name {
             type Of<U> = [U; $stages];
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn stages(&self) -> [Durations; $stages] {
                 $table.$part
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn filled<U: Clone>(&self, value: U) -> [U; $stages] {
                 core::array::from_fn(|_| value.clone())
             }

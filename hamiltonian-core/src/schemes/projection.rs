@@ -92,7 +92,7 @@ impl<M: Splitting + Symmetric> OneStep for MidpointProjected<M> {
 impl<S: System + Unforced, M: Splitting> Scheme<S> for MidpointProjected<M> {
     type Carried = Copies<S::Shape>;
     type Map<T: Real> = Averaged<Inner<T, S, M>>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Averaged(inner::<T, S, M>(&self.0, prepared, step.h))
     }
@@ -117,7 +117,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Averaged<M> {
     type Carried = Copies<V>;
     type Work = M::Work;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, work: &mut M::Work) {
         z.y.copy_from(&z.x);
         self.0.step(t, end, z, work);
@@ -227,7 +227,7 @@ impl<M: Splitting> Listed for Mixed<M> {
 impl<S: System + Unforced, M: Splitting> Scheme<S> for Mixed<M> {
     type Carried = Copies<S::Shape>;
     type Map<T: Real> = Mixing<Inner<T, S, M>, T>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Mixing {
             inner: inner::<T, S, M>(&self.table, prepared, step.h),
@@ -260,7 +260,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Mixing<M, V::Scalar> {
     type Carried = Copies<V>;
     type Work = M::Work;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, work: &mut M::Work) {
         self.inner.step(t, end, z, work);
         mix(self.coordinates, &mut z.x.q, &mut z.y.q);
@@ -281,7 +281,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Mixing<M, V::Scalar> {
 }
 
 /// `a ← c·a + (1 − c)·b`, `b ← (1 − c)·a + c·b`.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn mix<V: Vector>(c: V::Scalar, a: &mut V, b: &mut V) {
     let rest = V::Scalar::one() - c;
     for k in 0..V::PARTS {

@@ -60,7 +60,7 @@ impl OneStep for RungeKutta4 {
 impl<S: System> Scheme<S> for RungeKutta4 {
     type Carried = Point<S::Shape>;
     type Map<T: Real> = Classical<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Classical {
             field: prepared.field(step.h),
@@ -72,7 +72,7 @@ impl<S: System> Scheme<S> for RungeKutta4 {
             ),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start<T: Real>(
         &self,
         _: &S::Prepared<T>,
@@ -101,7 +101,7 @@ pub struct ClassicalWork<V: Vector> {
 
 impl<V: Vector, F: VectorField<V>> Classical<V, F> {
     /// `increment = h·J∇H(stage)`, added to the sum by its weight.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn evaluate(&self, t: V::Scalar, weight: V::Scalar, work: &mut ClassicalWork<V>) {
         work.increment.set_zero();
         let Point { q, p } = &mut work.increment;
@@ -110,7 +110,7 @@ impl<V: Vector, F: VectorField<V>> Classical<V, F> {
     }
 
     /// `stage = z + c·increment`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn place(&self, c: V::Scalar, z: &Point<V>, work: &mut ClassicalWork<V>) {
         work.stage.copy_from(z);
         work.stage.accumulate(c, &work.increment);
@@ -131,7 +131,7 @@ impl<V: Vector, F: VectorField<V>> Map for Classical<V, F> {
     type Carried = Point<V>;
     type Work = ClassicalWork<V>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Point<V>, work: &mut Self::Work) {
         let half = V::Scalar::constant(0.5, 0.0);
         let middle = t + self.h * half;

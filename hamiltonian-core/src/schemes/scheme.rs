@@ -205,12 +205,12 @@ pub type CarriedBy<M, S, T = f64> =
 /// impl<S: System> Scheme<S> for Runge {
 ///     type Carried = Point<S::Shape>;
 ///     type Map<T: Real> = Midpoint<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
-///     #[inline(always)]
+///     #[cfg_attr(not(unoptimised), inline(always))]
 ///     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
 ///         let half = step.h * T::constant(0.5, 0.0);
 ///         Midpoint { half: prepared.field(half), whole: prepared.field(step.h), vector: PhantomData }
 ///     }
-///     #[inline(always)]
+///     #[cfg_attr(not(unoptimised), inline(always))]
 ///     fn start<T: Real>(&self, _: &S::Prepared<T>, state: &StateOf<S, T>, _: T) -> Point<VectorOf<S, T>> {
 ///         state.point()
 ///     }
@@ -226,7 +226,7 @@ pub type CarriedBy<M, S, T = f64> =
 /// impl<V: Vector, F: VectorField<V>> Map for Midpoint<V, F> {
 ///     type Carried = Point<V>;
 ///     type Work = Point<V>;
-///     #[inline(always)]
+///     #[cfg_attr(not(unoptimised), inline(always))]
 ///     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Point<V>, middle: &mut Point<V>) {
 ///         middle.copy_from(z);
 ///         self.half.add(t, &z.q, &z.p, &mut middle.q, &mut middle.p);
@@ -240,7 +240,7 @@ pub type CarriedBy<M, S, T = f64> =
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// Mark the methods of `Scheme` and `Map` `#[inline(always)]`: the members of an ensemble lie in the lanes of packs, and
+/// Mark the methods of `Scheme` and `Map` `#[cfg_attr(not(unoptimised), inline(always))]`: the members of an ensemble lie in the lanes of packs, and
 /// the compiler uses vector instructions only in functions that it inlines. Otherwise results are the same, and ensembles
 /// many times slower.
 pub trait Scheme<S: System>: Listed {
@@ -263,7 +263,7 @@ pub trait Scheme<S: System>: Listed {
     /// flow where it applies it, by [`Zigzag::once`](crate::schemes::author::Zigzag::once), which stores no stages.
     ///
     /// [`Paced`]: crate::schemes::Paced
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn step<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -298,7 +298,7 @@ pub trait Scheme<S: System>: Listed {
     /// Makes the map of a step that follows a step of `before`, the same scheme with other settings, in a
     /// [`Composition`](crate::schemes::Composition). Its [`Map::join`] applies the closing piece of `before`. `None` if
     /// the two cannot be joined; each step then is a whole one. The provided method joins equal schemes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare_after<T: Real>(
         &self,
         before: &Self,

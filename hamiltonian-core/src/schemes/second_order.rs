@@ -141,7 +141,7 @@ where
     fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         self.coefficients.ends()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let h = step.h;
         let (times, double) = self.coefficients.symplectic_double(h);
@@ -223,7 +223,7 @@ impl<X: Vector, const S: usize> BundleScratch<X, S> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         BundleScratch {
             points: self.points.take(),
@@ -273,7 +273,7 @@ where
     X: Vector<Scalar = L::Bundle>,
 {
     type Unknowns = X;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn points(&self, matrix: usize, gradients: &[X; S], points: &mut [X; S]) {
         let matrix = &self.tableau.double[matrix];
         for k in 0..X::PARTS {
@@ -285,7 +285,7 @@ where
             }
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn evaluate(&mut self, bundle: usize, impulse: &mut X, next: &mut X) {
         let t = self.t + self.tableau.times[bundle];
         let free = &self.free[bundle];
@@ -293,7 +293,7 @@ where
         self.moved.accumulate(L::Bundle::one(), free);
         self.dynamics.gradient_q(t, self.moved, impulse, next);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self) -> T::Size {
         let h = self.h.size();
         (self.point.q.size() / h + self.point.p.size()) / h
@@ -303,7 +303,7 @@ where
 impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     /// Solves for ∂V/∂q at the stages of the step from `t`, from those of the step before.
     #[allow(clippy::too_many_arguments)]
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn fixed_point<L, D>(
         &self,
         tableau: &NystromTableau<'_, L::Bundle, S>,
@@ -348,7 +348,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     }
 
     /// Moves the point and its low words.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn finish<L, X>(
         &self,
         tableau: &NystromTableau<'_, L::Bundle, S>,
@@ -380,7 +380,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     }
 
     /// Makes `to` the map for steps `by` times as long, to rounding.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn resize(&self, by: T, to: &mut Self) {
         to.h = self.h * by;
         for i in 0..S {
@@ -411,7 +411,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     }
 
     /// The rest of a step: the new point.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn complete(
         &self,
         t: T,
@@ -434,7 +434,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
 }
 
 impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, S> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
         &self,
         (clock, made, n): (Clock<T>, u64, u64),
@@ -457,7 +457,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
         in_lanes(&self.dynamics, &mut work.kept, steps)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn complete_unsolved(
         &self,
         t: T,
@@ -467,7 +467,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
         self.complete(t, Outcome::unsolved(), z, &mut work.sums);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn solve(
         &self,
         t: T,
@@ -508,14 +508,14 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
     type Carried = CarriesForces<P::Vector, S>;
     type Work = EliminatedWork<P::Vector, S>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
         T::out_of_line(
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             || self.steps(Clock::between(t, end), 0, 1, z, work),
         );
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run(
         &self,
         clock: Clock<T>,

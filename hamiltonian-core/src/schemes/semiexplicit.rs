@@ -106,7 +106,7 @@ symmetric!(Semiexplicit<M>, M: Splitting + Symmetric);
 impl<S: System + Unforced, M: Splitting> Scheme<S> for Semiexplicit<M> {
     type Carried = Pair<Point<S::Shape>, Stages<Point<S::Shape>, 2>>;
     type Map<T: Real> = Projected<Inner<T, S, M>>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Projected {
             inner: inner::<T, S, M>(&self.table, prepared, step.h),
@@ -156,7 +156,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Projected<M> {
     /// (C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, section 7.3,
     /// doi:10.1137/1.9781611970944). It starts as ¼, the one for h = 0. A lane that is solved is not
     /// touched any more.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn solve(
         &self,
         t: V::Scalar,
@@ -290,7 +290,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Projected<M> {
     type Carried = Pair<Point<V>, Stages<Point<V>, 2>>;
     type Work = ProjectedWork<V, M::Work>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Self::Carried, work: &mut Self::Work) {
         self.solve(t, end, z, work);
     }

@@ -79,7 +79,7 @@ impl Listed for StormerVerlet {
 
 impl StormerVerlet {
     /// The order on a system: a piece that jumps in time is not first.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn on(self, system: &Description) -> Self {
         match system.jumps {
             [true, false] => StormerVerlet::DriftKickDrift,
@@ -102,7 +102,7 @@ impl<S: Separable> Scheme<S> for StormerVerlet {
             StormerVerlet::DriftKickDrift => Strang.times_on([drift, kick]),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         match self.on(prepared.description()) {
             StormerVerlet::KickDriftKick => Either::First(Zigzag::new(
@@ -195,7 +195,7 @@ impl OneStep for SymplecticEuler {
 /// adjoint begins, and both are one flow.
 impl Splitting for SymplecticEuler {
     type Of<U> = [U; 1];
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn stages(&self) -> [Durations; 1] {
         const NONE: Weight = Weight(0.0, 0.0);
         const WHOLE: Weight = Weight(1.0, 0.0);
@@ -204,7 +204,7 @@ impl Splitting for SymplecticEuler {
             SymplecticEuler::DriftKick => [(WHOLE, NONE)],
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn filled<U: Clone>(&self, value: U) -> [U; 1] {
         [value]
     }
@@ -217,11 +217,11 @@ impl<S: Separable> Scheme<S> for SymplecticEuler {
         let [kick, drift] = of.jumps;
         self.times_on([drift, kick])
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Zigzag::new(self, &(S::drift::<T>(), S::kick::<T>()), prepared, step)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare_after<T: Real>(
         &self,
         before: &Self,

@@ -13,7 +13,7 @@ pub struct Weight(pub f64, pub f64);
 
 impl Weight {
     /// Returns the weight as any scalar.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn to<T: Real>(self) -> T {
         T::constant(self.0, self.1)
     }
@@ -84,7 +84,7 @@ pub(super) struct Clocks<T> {
 }
 
 impl<T: Real> Clocks<T> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn new(weights: &[Durations]) -> Self {
         Clocks {
             outer: weights.first().map_or(T::zero(), |(down, _)| down.to()),
@@ -93,7 +93,7 @@ impl<T: Real> Clocks<T> {
     }
 
     /// The times of the inner flows of stage `i` and of the flow after it.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn next(&mut self, weights: &[Durations], i: usize, h: T) -> [T; 2] {
         let zero = T::zero();
         let (down, up) = weights
@@ -130,7 +130,7 @@ impl<W: Splitting> Splitting for Reversed<W> {
         }
         stages
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn filled<U: Clone>(&self, value: U) -> W::Of<U> {
         self.0.filled(value)
     }
@@ -168,7 +168,7 @@ impl<W: Splitting> Splitting for Negated<W> {
         }
         stages
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn filled<U: Clone>(&self, value: U) -> W::Of<U> {
         self.0.filled(value)
     }

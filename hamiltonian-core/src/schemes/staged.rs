@@ -34,13 +34,13 @@ pub(super) struct Uninspected;
 
 impl<T: Real, V: Vector<Scalar = T>, const S: usize> Inspect<T, V, S> for Uninspected {
     const LOOKS: bool = false;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn begins(&self, clock: Clock<T>, k: u64) -> T {
         clock.at(k)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn keep(&mut self, _: &Point<V>, _: &Point<V>) {}
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn accepts<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
         &mut self,
         _: &Point<V>,
@@ -48,7 +48,7 @@ impl<T: Real, V: Vector<Scalar = T>, const S: usize> Inspect<T, V, S> for Uninsp
     ) -> bool {
         true
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn undo(&self, _: &mut Point<V>, _: &mut Point<V>) {}
 }
 
@@ -72,7 +72,7 @@ pub(super) trait StagedMap<const S: usize>: Map {
         Abreast<WIDTH>: Width;
 
     /// [`steps_beside`](StagedMap::steps_beside) of the width for `S` stages, of `(clock, made, n)`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_in_lanes<W: Inspect<ScalarOf<Self>, SeenBy<Self>, S>>(
         &self,
         clock: (Clock<ScalarOf<Self>>, u64, u64),
@@ -95,7 +95,7 @@ pub(super) trait StagedMap<const S: usize>: Map {
 
     /// Makes at least one and up to `n` steps after the first `made`, stage by stage. Returns the number of steps
     /// made.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_apart(
         &self,
         clock: Clock<ScalarOf<Self>>,
@@ -109,7 +109,7 @@ pub(super) trait StagedMap<const S: usize>: Map {
     }
 
     /// Makes `n` steps after the first `from`, the stages beside each other where there are lanes for them.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn steps(
         &self,
         clock: Clock<ScalarOf<Self>>,

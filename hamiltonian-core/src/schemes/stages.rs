@@ -46,28 +46,28 @@ impl<X: Vector, const S: usize> Vector for Stages<X, S> {
         Stages(core::array::from_fn(|i| self.0[i].zeros_over()))
     }
     const PARTS: usize = S * X::PARTS;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part(&self, k: usize) -> &[X::Scalar] {
         self.0[k / X::PARTS].part(k % X::PARTS)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part_mut(&mut self, k: usize) -> &mut [X::Scalar] {
         self.0[k / X::PARTS].part_mut(k % X::PARTS)
     }
     fn zeros_like(&self) -> Self {
         Stages(core::array::from_fn(|i| self.0[i].zeros_like()))
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         Stages(core::array::from_fn(|i| self.0[i].take()))
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_from(&mut self, other: &Self) {
         for (to, from) in self.0.iter_mut().zip(&other.0) {
             to.copy_from(from);
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn is_finite(&self) -> bool {
         let mut finite = true;
         for stage in &self.0 {
@@ -164,7 +164,7 @@ pub(super) struct Slopes<'a, T: Real, P: Dynamics<T>, const S: usize> {
 
 impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
     /// The point at stage `i`, from the increments and the unknowns they were made of.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn stage(&mut self, i: usize, unknowns: &Stages<Point<P::Vector>, S>) {
         // The small numbers first.
         self.stage.set_zero();
@@ -186,7 +186,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
     }
 
     /// `into −=` dq/dt of the polynomial at stage `i`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn less_velocity(
         &self,
         i: usize,
@@ -207,7 +207,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
     }
 
     /// J∇H at all stages.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn at_stages(
         &mut self,
         unknowns: &Stages<Point<P::Vector>, S>,
@@ -235,18 +235,18 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
     for Newton<'_, '_, T, P, S>
 {
     // In one function of the level, since it is long and called twice.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn map(
         &mut self,
         unknowns: &Stages<Point<P::Vector>, S>,
         next: &mut Stages<Point<P::Vector>, S>,
     ) {
         T::out_of_line(
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             || self.map_here(unknowns, next),
         );
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self, unknowns: &Stages<Point<P::Vector>, S>) -> T::Size {
         let Slopes { map, point, .. } = &self.slopes;
         // The unknowns count too: a point at the origin has no size of its own.
@@ -257,7 +257,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
 
 impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
     /// One iteration, for [`map`](Contraction::map).
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn map_here(
         &mut self,
         unknowns: &Stages<Point<P::Vector>, S>,
@@ -278,7 +278,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
                 self.slopes.stage,
                 i,
                 S,
-                #[inline(always)]
+                #[cfg_attr(not(unoptimised), inline(always))]
                 |j| map.entries(i, j),
             );
         }
@@ -289,7 +289,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
 
 impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     /// Makes `to` the map for steps `by` times as long, to rounding.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn resize(&self, by: T, to: &mut Self) {
         to.h = self.h * by;
         for i in 0..S {
@@ -305,7 +305,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     }
 
     /// Δq and Δp of the unknowns.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn increments(
         &self,
         unknowns: &Stages<Point<P::Vector>, S>,
@@ -319,7 +319,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     }
 
     /// The dependence of the point at stage `i`, and of dq/dt there, on the unknowns of stage `j`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn entries(&self, i: usize, j: usize) -> Entries<T> {
         let (zero, one) = (T::zero(), T::one());
         let (across, velocity) = match &self.modes {
@@ -337,7 +337,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
 
     /// Solves for the unknowns by Newton's method alone, from where they are, and leaves their
     /// increments in the scratch. `look` is shown the equations, solved.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn solve_between(
         &self,
         t: T,
@@ -375,7 +375,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     }
 
     /// The rest of a step: Newton's method in lanes where the fixed point failed, and the new point.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn complete(
         &self,
         t: T,
@@ -393,7 +393,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         let has_newton = self.limits[1] > 0 && self.modes.is_none() && work.linear.fits();
         if has_newton && !outcome.solved.all() {
             T::out_of_line(
-                #[inline(always)]
+                #[cfg_attr(not(unoptimised), inline(always))]
                 || self.newton(t, &mut outcome, point, unknowns, work),
             );
         }
@@ -420,7 +420,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     }
 
     /// Newton's method for the lanes that the fixed point has not solved.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn newton(
         &self,
         t: T,
@@ -451,12 +451,12 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
 }
 
 impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, S> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn has_bundles(&self) -> bool {
         self.modes.is_none()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
         &self,
         (clock, made, n): (Clock<T>, u64, u64),
@@ -478,7 +478,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
         in_lanes(&self.dynamics, &mut work.kept, steps)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn complete_unsolved(
         &self,
         t: T,
@@ -488,7 +488,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
         self.complete(t, Outcome::unsolved(), z, work);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn solve(
         &self,
         t: T,
@@ -514,7 +514,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
         self.complete(t, outcome, z, work)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_apart(
         &self,
         clock: Clock<T>,
@@ -565,14 +565,14 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
     type Carried = Carries<P::Vector, S>;
     type Work = CollocatedWork<P::Vector, S>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
         T::out_of_line(
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             || self.steps(Clock::between(t, end), 0, 1, z, work),
         );
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run(
         &self,
         clock: Clock<T>,

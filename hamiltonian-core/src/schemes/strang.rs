@@ -52,11 +52,11 @@ impl Listed for Strang {
 
 impl Splitting for Strang {
     type Of<U> = [U; 1];
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn stages(&self) -> [Durations; 1] {
         [(Weight(0.5, 0.0), Weight(0.5, 0.0))]
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn filled<U: Clone>(&self, value: U) -> [U; 1] {
         [value]
     }
@@ -70,7 +70,7 @@ impl<S: Split> Scheme<S> for Strang {
     fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
         self.times_on(of.jumping_pieces())
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Zigzag::new(self, &S::pieces::<T>(), prepared, step)
     }

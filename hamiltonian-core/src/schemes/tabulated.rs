@@ -45,11 +45,11 @@ macro_rules! tabulated {
 
         impl Splitting for $name {
             type Of<U> = [U; $stages];
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn stages(&self) -> [Durations; $stages] {
                 $table.stages
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn filled<U: Clone>(&self, value: U) -> [U; $stages] {
                 core::array::from_fn(|_| value.clone())
             }
@@ -76,11 +76,11 @@ macro_rules! on_pieces {
         fn times_of_jumps(&self, $of: &Description) -> [f64; 2] {
             self.times_on($jumping)
         }
-        #[inline(always)]
+        #[cfg_attr(not(unoptimised), inline(always))]
         fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
             Zigzag::new(self, &$pieces, prepared, step)
         }
-        #[inline(always)]
+        #[cfg_attr(not(unoptimised), inline(always))]
         fn step<T: Real>(
             &self,
             prepared: &S::Prepared<T>,

@@ -98,7 +98,7 @@ pub struct Turned<T> {
 impl<V: Vector> Flow<Copies<V>> for Turned<V::Scalar> {
     const NAME: &'static str = "binding";
     type Work = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, _: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
         let half = V::Scalar::constant(0.5, 0.0);
         let Pair { x, y } = z;
@@ -122,7 +122,7 @@ impl<V: Vector> Flow<Copies<V>> for Turned<V::Scalar> {
 impl<T: Real, P: Dynamics<T>> Piece<T, P> for Bind {
     type Point = Copies<P::Vector>;
     type Flow = Turned<T>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn flow(&self, _: &P, c: T) -> Turned<T> {
         let (sin, cos) = (T::constant(2.0 * self.omega, 0.0) * c).sin_cos();
         Turned { cos, sin }
@@ -140,7 +140,7 @@ impl<S: System + Unforced> Scheme<S> for Tao {
         <Bound as Pieces<T, S::Prepared<T>>>::Inner,
         Strang,
     >;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let bind = Bind { omega: self.omega };
         Zigzag::new(&Strang, &(Cross, Cross, bind), prepared, step)

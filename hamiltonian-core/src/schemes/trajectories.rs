@@ -45,7 +45,7 @@ impl SecondPoint {
     }
 
     /// The start, and the point `back` before it.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn pair<T, D, V>(self, prepared: &D, start: &State<V>, back: T) -> Points<V>
     where
         T: Real,
@@ -59,7 +59,7 @@ impl SecondPoint {
     }
 
     /// The point `back` before the start.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn before<T, D, V>(self, prepared: &D, start: &State<V>, back: T) -> Point<V>
     where
         T: Real,
@@ -246,14 +246,14 @@ type Points<V> = Pair<Point<V>, Point<V>>;
 impl<S: System + Unforced> Scheme<S> for TwoStepMidpoint {
     type Carried = Points<S::Shape>;
     type Map<T: Real> = TwoStep<<S::Prepared<T> as Dynamics<T>>::Field, VectorOf<S, T>>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         TwoStep {
             leap: prepared.field(step.h + step.h),
             vector: PhantomData,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -262,7 +262,7 @@ impl<S: System + Unforced> Scheme<S> for TwoStepMidpoint {
     ) -> Points<VectorOf<S, T>> {
         self.start.pair(prepared, state, h)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start_alone<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -282,7 +282,7 @@ pub struct TwoStep<F, V> {
 
 impl<V: Vector, F: VectorField<V>> TwoStep<F, V> {
     /// `to += 2h·J∇H(by)`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn leap(&self, t: V::Scalar, by: &Point<V>, to: &mut Point<V>) {
         self.leap.add(t, &by.q, &by.p, &mut to.q, &mut to.p);
     }
@@ -292,7 +292,7 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
     type Carried = Points<V>;
     type Work = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Points<V>, _: &mut ()) {
         let Pair { x, y } = z;
         self.leap(t, x, y);
@@ -300,7 +300,7 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
     }
 
     /// Steps are made in pairs, after which the points are in their places again.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run(&self, clock: Clock<V::Scalar>, made: u64, n: u64, z: &mut Points<V>, _: &mut ()) {
         let (mut k, end) = (made, made + n);
         let Pair { mut x, mut y } = z.take();
@@ -319,11 +319,11 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
 impl<S: System + Unforced> Scheme<S> for ConsecutiveSubTrajectories {
     type Carried = Points<S::Shape>;
     type Map<T: Real> = Interleaved<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Interleaved::new(prepared, step.h + step.h)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -332,7 +332,7 @@ impl<S: System + Unforced> Scheme<S> for ConsecutiveSubTrajectories {
     ) -> Points<VectorOf<S, T>> {
         self.start.pair(prepared, state, h)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start_alone<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -346,11 +346,11 @@ impl<S: System + Unforced> Scheme<S> for ConsecutiveSubTrajectories {
 impl<S: System + Unforced> Scheme<S> for IntersectingSubTrajectories {
     type Carried = Points<S::Shape>;
     type Map<T: Real> = Interleaved<VectorOf<S, T>, <S::Prepared<T> as Dynamics<T>>::Field>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Interleaved::new(prepared, step.h)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -359,7 +359,7 @@ impl<S: System + Unforced> Scheme<S> for IntersectingSubTrajectories {
     ) -> Points<VectorOf<S, T>> {
         self.start.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start_alone<T: Real>(
         &self,
         prepared: &S::Prepared<T>,
@@ -394,7 +394,7 @@ impl<V: Vector, F: VectorField<V>> Map for Interleaved<V, F> {
     type Carried = Points<V>;
     type Work = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Points<V>, _: &mut ()) {
         let Pair { x, y } = z;
         self.leap.add(t, &x.q, &x.p, &mut y.q, &mut y.p);

@@ -128,7 +128,7 @@ where
         }
         Ok(())
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(
         &self,
         prepared: &InNewTime<S::Prepared<T>, G::Prepared<T>>,
@@ -141,7 +141,7 @@ where
             limit: self.max_iterations,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn start<T: Real>(
         &self,
         _: &InNewTime<S::Prepared<T>, G::Prepared<T>>,
@@ -202,7 +202,7 @@ struct Scale<'a, T, G, V> {
 
 impl<T: Real, V: Vector<Scalar = T>, G: Dynamics<T, Vector = V>> Scale<'_, T, G, V> {
     /// Q, and g with its derivatives there.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn at(&mut self, scale: T) -> T {
         self.middle.copy_from(self.q);
         self.middle.accumulate(self.half * scale, self.velocity);
@@ -213,14 +213,14 @@ impl<T: Real, V: Vector<Scalar = T>, G: Dynamics<T, Vector = V>> Scale<'_, T, G,
 impl<T: Real, V: Vector<Scalar = T>, G: Dynamics<T, Vector = V>> Contraction<SVector<T, 1>>
     for Scale<'_, T, G, V>
 {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn map(&mut self, scale: &SVector<T, 1>, next: &mut SVector<T, 1>) {
         let scale = scale[0];
         let residual = scale - self.at(scale);
         let slope = T::one() - self.half * dot(self.along, self.velocity);
         next[0] = scale - residual / slope;
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self, scale: &SVector<T, 1>) -> T::Size {
         scale.size()
     }
@@ -233,7 +233,7 @@ where
     P: Dynamics<T, Vector = V>,
     G: Dynamics<T, Vector = V>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn solve(&self, z: &mut Point<WithTime<V>>, work: &mut VerletWork<V>) -> Cause {
         let InNewTime {
             system, monitor, ..
@@ -306,7 +306,7 @@ where
     type Carried = Point<WithTime<V>>;
     type Work = VerletWork<V>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
         self.solve(z, work);
     }

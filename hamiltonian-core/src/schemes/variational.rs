@@ -181,7 +181,7 @@ impl<S: System, const DEGREE: usize, const POINTS: usize> Scheme<S>
 {
     type Carried = Carries<S::Shape, POINTS>;
     type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (nodal, momenta) = self.coefficients.pair(DEGREE);
         let map = Collocated {
@@ -289,7 +289,7 @@ symmetric!(MomentumVariational<S>, const S: usize);
 impl<S: System, const POINTS: usize> Scheme<S> for MomentumVariational<POINTS> {
     type Carried = Carries<S::Shape, POINTS>;
     type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let map: Self::Map<T> = Scheme::<S>::prepare(&self.0, prepared, step);
         Collocated {

@@ -35,7 +35,7 @@ struct Link<F> {
 }
 
 impl<F> Link<F> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn new<T, P, K>(pieces: &K, prepared: &P, up: T, down: T) -> Self
     where
         T: Real,
@@ -55,7 +55,7 @@ impl<F> Link<F> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply<X: Vector>(&self, t: X::Scalar, x: &mut X, work: &mut F::Work)
     where
         F: Flow<X>,
@@ -100,7 +100,7 @@ impl<T: Real> PartialSums<T> {
     }
 
     /// The duration of the next weight.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn next(&mut self, weight: Weight) -> T {
         // The rounding of the last digits of a table.
         const ROUNDING: f64 = 1e-28;
@@ -136,7 +136,7 @@ struct Stage<T, O, I> {
 
 impl<T: Real, O, I> Stage<T, O, I> {
     /// The flows of a stage of the durations `down` and `up`, before one that begins with `next`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn new<P, K>(
         pieces: &K,
         prepared: &P,
@@ -168,7 +168,7 @@ pub struct Zigzag<X: Vector, O, I, W: Splitting> {
 
 impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
     /// Folds the table into the flows of the pieces.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn new<P, K>(table: &W, pieces: &K, prepared: &P, step: Step<X::Scalar>) -> Self
     where
         K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
@@ -178,7 +178,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
 
     /// Folds the table into the flows, for a step after one of the table `before` on the same
     /// pieces.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn after<P, K>(
         before: &W,
         table: &W,
@@ -202,7 +202,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
     }
 
     /// Folds the table into the flows, with durations that add up to the step exactly.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn exact<P, K>(table: &W, pieces: &K, prepared: &P, step: Step<X::Scalar>) -> Self
     where
         K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
@@ -223,7 +223,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
     /// Folds the durations of the weights into the flows.
     ///
     /// No closure makes a flow: one that is not inlined is compiled without the instructions of a level.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn with<P, K>(
         table: &W,
         pieces: &K,
@@ -277,7 +277,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
 
     /// One step of size `h` from `t` to `end`, with the bits of [`Map::step`] of the map that [`Zigzag::new`]
     /// prepares: each flow is made where it is applied.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn once<P, K>(
         table: &W,
         pieces: &K,
@@ -325,7 +325,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
     }
 
     /// The flow with which the step ends.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn last(&self) -> Option<&Link<O>> {
         match self.stages.as_ref().last() {
             Some(stage) if self.closes => Some(&stage.outer),
@@ -339,14 +339,14 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Splitting> Map for Zigzag<X, O, I, W
     /// The scratch of the outermost flow, and that of the inner ones.
     type Work = (O::Work, I::Work);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn open(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         if let Some(opening) = &self.opening {
             opening.apply(t, z, &mut work.0);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: X::Scalar, _: X::Scalar, z: &mut X, (outer, inner): &mut Self::Work) {
         let stages = self.stages.as_ref();
         for (i, stage) in stages.iter().enumerate() {
@@ -357,19 +357,19 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Splitting> Map for Zigzag<X, O, I, W
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn close(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         if let Some(closing) = self.last() {
             closing.apply(t, z, &mut work.0);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn closing(&self) -> [bool; 2] {
         if self.closes { O::MOVES } else { [false; 2] }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn join(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         self.joining.apply(t, z, &mut work.0);
     }

@@ -24,7 +24,7 @@ pub(crate) const BEST: Cpu = match cfg!(unoptimised) {
 };
 
 /// The best level that loops run on.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn best(fused: bool) -> Cpu {
     match cfg!(unoptimised) && !fused {
         true => Cpu::Sse2,
@@ -45,7 +45,7 @@ pub(crate) trait Rounded {
 }
 
 /// Computes work whose level is at most [`best`], in the packs of its rounding.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn rounded<L: Level, P: Base, K: Rounded>(fused: bool, work: K) {
     if const { cfg!(unoptimised) && L::FUSES } {
         work.run::<Compiled<P>>();

@@ -14,7 +14,7 @@ use hamiltonian_lanes::Real;
 const EXPONENT: u64 = 600;
 
 /// Returns true if H is finite at a state of finite numbers.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn is_inside<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     state: &State<VectorOf<S, T>>,
@@ -23,7 +23,7 @@ pub(crate) fn is_inside<T: Real, S: System>(
 }
 
 /// Returns true if the numbers of a state are so small that H is finite there.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn is_moderate<V: Vector>(system: &Description, state: &State<V>) -> bool {
     // Scalars of less than double precision have smaller exponents.
     let growth = match system.growth {

@@ -27,11 +27,11 @@ pub trait Fit<V: Vector>: Vector {
 #[diagnostic::do_not_recommend]
 impl<V: Vector> Fit<V> for V {
     type Outcome<X> = X;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn fit(self, _: &str) -> Result<V, Error> {
         Ok(self)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn set<X>(self, _: &str, set: impl FnOnce(V) -> X) -> X {
         set(self)
     }

@@ -22,7 +22,7 @@ pub trait Scratch<X> {
 }
 
 impl<X> Scratch<X> for () {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn like(_: &X) {}
 }
 
@@ -33,7 +33,7 @@ impl<X: Vector> Scratch<X> for X {
 }
 
 impl<X, A: Scratch<X>, B: Scratch<X>> Scratch<X> for (A, B) {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn like(x: &X) -> Self {
         (A::like(x), B::like(x))
     }
@@ -59,7 +59,7 @@ pub trait Flow<X: Vector>: Clone + Debug {
     /// Moves the point, by the terms of a loop in order.
     fn apply(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work);
     /// Moves the point, by the terms of a loop in reverse order.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply_reversed(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work) {
         self.apply(t, x, work);
     }
@@ -93,7 +93,7 @@ pub trait Piece<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     fn flow(&self, prepared: &P, c: T) -> Self::Flow;
     /// True if flows of this piece merge, [`Flow::MERGES`]. A piece of run time, whose type does not decide it, has its own
     /// answer and flows whose `MERGES` is false.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn merges(&self, _prepared: &P) -> bool {
         <Self::Flow as Flow<Self::Point>>::MERGES
     }
@@ -116,7 +116,7 @@ pub trait Pieces<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     /// The flows of the pieces 2…k for `down` and k…2 for `up`.
     fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner;
     /// True if flows of the first piece merge, [`Piece::merges`].
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn merges(&self, _prepared: &P) -> bool {
         <Self::Outer as Flow<Self::Point>>::MERGES
     }
@@ -129,7 +129,7 @@ pub struct Nothing;
 impl<X: Vector> Flow<X> for Nothing {
     const NAME: &'static str = "";
     type Work = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, _: X::Scalar, _: &mut X, _: &mut ()) {}
 }
 
@@ -141,7 +141,7 @@ pub struct Turn<F> {
 }
 
 impl<F> Turn<F> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn new<T, P, A>(piece: &A, prepared: &P, down: T, up: T) -> Self
     where
         T: Real,
@@ -165,7 +165,7 @@ impl<F> Turn<F> {
 impl<X: Vector, F: Flow<X>> Flow<X> for Turn<F> {
     const NAME: &'static str = F::NAME;
     type Work = F::Work;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: X::Scalar, x: &mut X, work: &mut F::Work) {
         self.down.apply(t, x, work);
         if !F::MERGES
@@ -187,7 +187,7 @@ pub struct Sandwich<F, I> {
 impl<X: Vector, F: Flow<X>, I: Flow<X>> Flow<X> for Sandwich<F, I> {
     const NAME: &'static str = F::NAME;
     type Work = (F::Work, I::Work);
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn apply(&self, t: X::Scalar, x: &mut X, (work, inside): &mut Self::Work) {
         self.down.apply(t, x, work);
         self.inside.apply(t, x, inside);
@@ -210,15 +210,15 @@ impl<T: Real, P, A: Piece<T, P>> Pieces<T, P> for (A,) {
     type Point = A::Point;
     type Outer = A::Flow;
     type Inner = Nothing;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn outer(&self, prepared: &P, c: T) -> A::Flow {
         self.0.flow(prepared, c)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn merges(&self, prepared: &P) -> bool {
         self.0.merges(prepared)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn inner(&self, _: &P, _: T, _: T) -> Nothing {
         Nothing
     }
@@ -236,15 +236,15 @@ macro_rules! pieces {
             type Point = $first::Point;
             type Outer = $first::Flow;
             type Inner = Turn<$second::Flow>;
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn outer(&self, prepared: &P, c: T) -> Self::Outer {
                 self.0.flow(prepared, c)
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn merges(&self, prepared: &P) -> bool {
                 self.0.merges(prepared)
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner {
                 Turn::new(&self.1, prepared, down, up)
             }
@@ -262,15 +262,15 @@ macro_rules! pieces {
             type Outer = $first::Flow;
             type Inner =
                 Sandwich<$second::Flow, <($second, $($rest),+) as Pieces<T, P>>::Inner>;
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn outer(&self, prepared: &P, c: T) -> Self::Outer {
                 self.0.flow(prepared, c)
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn merges(&self, prepared: &P) -> bool {
                 self.0.merges(prepared)
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner {
                 Sandwich {
                     down: self.1.flow(prepared, down),

@@ -109,14 +109,14 @@ impl<T, const R: usize> Lattice<T, R> {
     }
 
     /// The elements in the order of the declaration, the last index fastest.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     #[must_use]
     pub fn as_slice(&self) -> &[T] {
         &self.elements
     }
 
     /// The elements, mutable, in the same order.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.elements
     }
@@ -174,18 +174,18 @@ impl<T: Real, const R: usize> Vector for Lattice<T, R> {
     fn uneven(&self, _: usize) -> Option<&Uneven> {
         self.uneven.as_deref()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part(&self, _: usize) -> &[T] {
         &self.elements
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part_mut(&mut self, _: usize) -> &mut [T] {
         &mut self.elements
     }
     fn zeros_like(&self) -> Self {
         self.zeros_over()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         let none = Lattice {
             extents: [0; R],

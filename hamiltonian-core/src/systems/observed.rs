@@ -103,7 +103,7 @@ impl<S: System> System for Observed<S> {
     fn zeros<T: Real>(&self) -> VectorOf<S, T> {
         self.system.zeros()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather<T: Real, L: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<L>> {
         let plain: Vec<_> = members.iter().map(|one| &one.plain).collect();
         let first: Vec<_> = members.iter().map(|one| &one.first.0).collect();
@@ -153,7 +153,7 @@ where
 }
 
 /// Lifts the components of `from` to constants, in a vector of the shape of `like`.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn lift_constant<V: Vector, W: Vector<Scalar = Dual<V::Scalar>>>(like: &W, from: &V) -> W {
     let mut lifted = like.clone();
     for i in 0..from.len() {
@@ -163,7 +163,7 @@ fn lift_constant<V: Vector, W: Vector<Scalar = Dual<V::Scalar>>>(like: &W, from:
 }
 
 /// Lifts the components of `from` with those of `along` as derivatives, in a vector of the shape of `like`.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn lift_along<V, W>(like: &W, from: &V, along: &V) -> W
 where
     V: Vector,
@@ -185,7 +185,7 @@ where
     G: Dynamics<Dual<Dual<T>>>,
 {
     /// Computes the derivatives by the components of q and of p, if a vector for them is given.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn derivatives(
         &self,
         t: T,
@@ -225,27 +225,27 @@ where
     fn description(&self) -> &Description {
         &self.description
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn energy(&self, t: T, q: &P::Vector, p: &P::Vector) -> T {
         self.plain.observable(self.index, t, q, p)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gradient_q(&self, t: T, q: &P::Vector, p: &P::Vector, out: &mut P::Vector) {
         self.derivatives(t, q, p, Some(out), None);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gradient_p(&self, t: T, q: &P::Vector, p: &P::Vector, out: &mut P::Vector) {
         self.derivatives(t, q, p, None, Some(out));
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gradient(&self, t: T, q: &P::Vector, p: &P::Vector, dq: &mut P::Vector, dp: &mut P::Vector) {
         self.derivatives(t, q, p, Some(dq), Some(dp));
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn time_derivative(&self, _: T, _: &P::Vector, _: &P::Vector) -> T {
         T::zero()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn hessian_vector(
         &self,
         t: T,
@@ -269,7 +269,7 @@ where
             p.component_mut(i).eps = zero;
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn observable(&self, _: usize, t: T, q: &P::Vector, p: &P::Vector) -> T {
         self.energy(t, q, p)
     }
@@ -279,7 +279,7 @@ where
             c,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add_field(
         &self,
         c: T,
@@ -296,7 +296,7 @@ where
             *into_q.component_mut(i) += c * by_p.component(i);
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn in_pack<L: Pack, K: InPack<T, P::Vector, L>>(
         &self,
         kept: &mut Kept,
@@ -324,7 +324,7 @@ where
     K: InPack<T, P::Vector, L>,
 {
     type Output = Option<K::Output>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<D>(self, plain: &D, kept: &mut Kept) -> Self::Output
     where
         D: Dynamics<T::Over<L>, Vector = Over<P::Vector, T::Over<L>>> + 'static,
@@ -358,7 +358,7 @@ where
     K: InPack<T, P::Vector, L>,
 {
     type Output = Option<K::Output>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<E>(self, first: &E, kept: &mut Kept) -> Self::Output
     where
         E: Dynamics<Dual<T::Over<L>>, Vector = Over<F::Vector, Dual<T::Over<L>>>> + 'static,
@@ -399,7 +399,7 @@ where
     K: InPack<T, P::Vector, L>,
 {
     type Output = K::Output;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<C>(self, second: &C, kept: &mut Kept) -> K::Output
     where
         C: Dynamics<Dual<Dual<T::Over<L>>>, Vector = Over<G::Vector, Dual<Dual<T::Over<L>>>>>
@@ -442,7 +442,7 @@ where
     F: Dynamics<Dual<T>>,
     G: Dynamics<Dual<Dual<T>>>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add(
         &self,
         t: T,

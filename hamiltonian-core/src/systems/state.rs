@@ -112,7 +112,7 @@ pub trait IntoStart<V: Vector> {
 
 #[diagnostic::do_not_recommend]
 impl<V: Vector, W: Fit<V, Scalar = V::Scalar>> IntoStart<V> for State<W> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn into_start(self, [q, p]: [&str; 2]) -> Result<State<V>, Error> {
         Ok(State {
             t: self.t,
@@ -178,7 +178,7 @@ impl<H: Shape> Shape for Point<H> {
 impl<V: Vector> Vector for Point<V> {
     type Scalar = V::Scalar;
     type Shape = Point<V::Shape>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn zeros_over<U: Real>(&self) -> Point<Over<V, U>> {
         Point {
             q: self.q.zeros_over(),
@@ -186,7 +186,7 @@ impl<V: Vector> Vector for Point<V> {
         }
     }
     const PARTS: usize = 2 * V::PARTS;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part(&self, k: usize) -> &[V::Scalar] {
         if k < V::PARTS {
             self.q.part(k)
@@ -194,7 +194,7 @@ impl<V: Vector> Vector for Point<V> {
             self.p.part(k - V::PARTS)
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part_mut(&mut self, k: usize) -> &mut [V::Scalar] {
         if k < V::PARTS {
             self.q.part_mut(k)
@@ -208,7 +208,7 @@ impl<V: Vector> Vector for Point<V> {
             p: self.p.zeros_like(),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         Point {
             q: self.q.take(),
@@ -216,12 +216,12 @@ impl<V: Vector> Vector for Point<V> {
         }
     }
     // Field by field: the compiler does not see through the numbers of parts.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_from(&mut self, other: &Self) {
         self.q.copy_from(&other.q);
         self.p.copy_from(&other.p);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn is_finite(&self) -> bool {
         self.q.is_finite() & self.p.is_finite()
     }
@@ -234,7 +234,7 @@ impl<X: Shape, Y: Shape> Shape for Pair<X, Y> {
 impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
     type Scalar = X::Scalar;
     type Shape = Pair<X::Shape, Y::Shape>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn zeros_over<U: Real>(&self) -> Pair<Over<X, U>, Over<Y, U>> {
         Pair {
             x: self.x.zeros_over(),
@@ -242,7 +242,7 @@ impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
         }
     }
     const PARTS: usize = X::PARTS + Y::PARTS;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part(&self, k: usize) -> &[X::Scalar] {
         if k < X::PARTS {
             self.x.part(k)
@@ -250,7 +250,7 @@ impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
             self.y.part(k - X::PARTS)
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part_mut(&mut self, k: usize) -> &mut [X::Scalar] {
         if k < X::PARTS {
             self.x.part_mut(k)
@@ -264,19 +264,19 @@ impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
             y: self.y.zeros_like(),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         Pair {
             x: self.x.take(),
             y: self.y.take(),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_from(&mut self, other: &Self) {
         self.x.copy_from(&other.x);
         self.y.copy_from(&other.y);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn is_finite(&self) -> bool {
         self.x.is_finite() & self.y.is_finite()
     }
@@ -382,7 +382,7 @@ pub trait Carried: Vector {
     fn point(&self) -> &Point<Self::Vector>;
     /// The time of that point where the run's clock stands at `clock`: that time itself, unless the
     /// time is carried.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn time(&self, clock: Self::Scalar) -> Self::Scalar {
         clock
     }
@@ -410,7 +410,7 @@ pub trait Carried: Vector {
 
 impl<V: Vector> Carried for Point<V> {
     type Vector = V;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn point(&self) -> &Point<V> {
         self
     }
@@ -418,7 +418,7 @@ impl<V: Vector> Carried for Point<V> {
 
 impl<V: Vector, Y: Vector<Scalar = V::Scalar>> Carried for Pair<Point<V>, Y> {
     type Vector = V;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn point(&self) -> &Point<V> {
         &self.x
     }

@@ -130,7 +130,7 @@ pub type VectorOf<S, T = f64> = <<S as System>::Shape as Shape>::Vector<T>;
 /// }
 ///
 /// impl<T: Real> VectorField<Coordinates<T>> for Field<T> {
-///     #[inline(always)]
+///     #[cfg_attr(not(unoptimised), inline(always))]
 ///     fn add(
 ///         &self, _t: T, q: &Coordinates<T>, p: &Coordinates<T>,
 ///         into_q: &mut Coordinates<T>, into_p: &mut Coordinates<T>,
@@ -424,7 +424,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// ∂H/∂p into `out`.
     fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector);
     /// ∂H/∂q and ∂H/∂p; emitted code shares all common work, the provided one none.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gradient(
         &self,
         t: T,
@@ -437,7 +437,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
         self.gradient_p(t, q, p, dp);
     }
     /// H, returned, with ∂H/∂q and ∂H/∂p; emitted code shares all common work, the provided one none.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn energy_and_gradient(
         &self,
         t: T,
@@ -481,7 +481,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// Adds what the [`field`](Dynamics::field) with the coefficient `c` adds, for a coefficient that changes with
     /// each evaluation. The provided method makes that field; a system whose field copies more than a few numbers
     /// overrides it.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add_field(
         &self,
         c: T,
@@ -496,7 +496,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
 
     /// How work on this system is computed; a field of emitted systems. The provided method, for systems
     /// written by hand, returns the default.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn arithmetic(&self) -> Arithmetic {
         Arithmetic::default()
     }
@@ -509,7 +509,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// hand, runs nothing and returns `None`: they stay scalar. For the prepared system of an `S: System` it may be
     /// [`gather::in_pack`](crate::schemes::author::gather::in_pack)`::<T, S, P, K>(self, kept, kernel)`. `kept` is memory
     /// of the caller's.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn in_pack<P: Pack, K: InPack<T, Self::Vector, P>>(
         &self,
         _kept: &mut Kept,
@@ -520,7 +520,7 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
 }
 
 /// [`declared_energy_at`] a state.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn declared_energy<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     state: &State<VectorOf<S, T>>,
@@ -530,7 +530,7 @@ pub(crate) fn declared_energy<T: Real, S: System>(
 
 /// The declared H at a time, coordinates and momenta: for a time-transformed system, where H = g·(h + p_t), it is h, with
 /// g = ∂H/∂p_t.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn declared_energy_at<T: Real, S: System>(
     prepared: &S::Prepared<T>,
     t: T,

@@ -201,7 +201,7 @@ where
             y: SVector::from_element(T::zero()),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather<T: Real, L: Pack>(members: &[&Self::Prepared<T>]) -> Self::Prepared<T::Over<L>> {
         let systems: Vec<_> = members.iter().map(|one| &one.system).collect();
         let monitors: Vec<_> = members.iter().map(|one| &one.monitor).collect();
@@ -234,22 +234,22 @@ where
     fn description(&self) -> &Description {
         &self.description
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
         let scale = self.monitor.energy(t, &q.x, &p.x);
         scale * (self.system.energy(t, &q.x, &p.x) + p.y[0])
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gradient_q(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
         let mut other = p.zeros_like();
         self.energy_and_gradient(t, q, p, out, &mut other);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
         let mut other = q.zeros_like();
         self.energy_and_gradient(t, q, p, &mut other, out);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gradient(
         &self,
         t: T,
@@ -260,7 +260,7 @@ where
     ) {
         self.energy_and_gradient(t, q, p, dq, dp);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn energy_and_gradient(
         &self,
         t: T,
@@ -281,11 +281,11 @@ where
         dp.y[0] = scale;
         scale * shell
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn time_derivative(&self, _: T, _: &Self::Vector, _: &Self::Vector) -> T {
         T::zero()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn hessian_vector(
         &self,
         t: T,
@@ -317,7 +317,7 @@ where
         out_q.y[0] = T::zero();
         out_p.y[0] = moved_scale;
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn observable(&self, index: usize, _: T, q: &Self::Vector, p: &Self::Vector) -> T {
         self.system.observable(index, q.y[0], &q.x, &p.x)
     }
@@ -328,7 +328,7 @@ where
         self.system.set_arithmetic(arithmetic);
         self.monitor.set_arithmetic(arithmetic);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn field(&self, c: T) -> Self::Field {
         FieldInNewTime {
             system: self.system.clone(),
@@ -336,7 +336,7 @@ where
             c,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn in_pack<L: Pack, K: InPack<T, Self::Vector, L>>(
         &self,
         kept: &mut Kept,
@@ -366,7 +366,7 @@ where
     K: InPack<T, WithTime<G::Vector>, L>,
 {
     type Output = Option<K::Output>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<D>(self, system: &D, kept: &mut Kept) -> Self::Output
     where
         D: Dynamics<T::Over<L>, Vector = Over<G::Vector, T::Over<L>>> + 'static,
@@ -401,7 +401,7 @@ where
     K: InPack<T, WithTime<V>, L>,
 {
     type Output = K::Output;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<G>(self, monitor: &G, kept: &mut Kept) -> K::Output
     where
         G: Dynamics<T::Over<L>, Vector = Over<V, T::Over<L>>> + 'static,
@@ -429,7 +429,7 @@ where
     P: Dynamics<T>,
     G: Dynamics<T, Vector = P::Vector>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add(
         &self,
         t: T,

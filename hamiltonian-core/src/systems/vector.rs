@@ -60,7 +60,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     fn take(&mut self) -> Self;
 
     /// The number of components.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn len(&self) -> usize {
         let mut len = 0;
         for k in 0..Self::PARTS {
@@ -70,13 +70,13 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// Returns true if there are no components at all.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Returns true if every part has as many components as the same part of `other`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn same_shape(&self, other: &Self) -> bool {
         for k in 0..Self::PARTS {
             if self.part(k).len() != other.part(k).len() {
@@ -90,7 +90,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     ///
     /// # Panics
     /// If `index` is not below [`Vector::len`].
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn component(&self, index: usize) -> Self::Scalar {
         let mut rest = index;
         for k in 0..Self::PARTS {
@@ -107,7 +107,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     ///
     /// # Panics
     /// If `index` is not below [`Vector::len`].
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn component_mut(&mut self, index: usize) -> &mut Self::Scalar {
         let mut rest = index;
         for k in 0..Self::PARTS {
@@ -121,13 +121,13 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// All components in flat order.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn components(&self) -> impl Iterator<Item = Self::Scalar> {
         (0..Self::PARTS).flat_map(|k| self.part(k).iter().copied())
     }
 
     /// `self = other`, for equal shapes; unlike `clone_from` it never allocates.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_from(&mut self, other: &Self) {
         for k in 0..Self::PARTS {
             for (to, from) in self.part_mut(k).iter_mut().zip(other.part(k)) {
@@ -137,7 +137,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// `self += c·v`, fused where the scalar fuses.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn accumulate(&mut self, c: Self::Scalar, v: &Self) {
         for k in 0..Self::PARTS {
             for (to, from) in self.part_mut(k).iter_mut().zip(v.part(k)) {
@@ -147,7 +147,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// `self *= c`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&mut self, c: Self::Scalar) {
         for k in 0..Self::PARTS {
             for to in self.part_mut(k) {
@@ -157,7 +157,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// `self = 0`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn set_zero(&mut self) {
         for k in 0..Self::PARTS {
             for to in self.part_mut(k) {
@@ -167,7 +167,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// The maximum norm over all components, [`Real::magnitude`] of each; NaN if any is NaN.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn magnitude(&self) -> f64 {
         let mut largest = 0.0;
         for k in 0..Self::PARTS {
@@ -179,7 +179,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// The maximum norm of `self − other`; NaN if any difference is NaN.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn distance(&self, other: &Self) -> f64 {
         let mut largest = 0.0;
         for k in 0..Self::PARTS {
@@ -192,7 +192,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
 
     /// The sum norm Σ [`size`](Real::size) of all components, lane by lane; NaN in a lane where any
     /// component is NaN. Norms of iterations are this one: it costs half of a maximum.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn size(&self) -> <Self::Scalar as Real>::Size {
         let mut sum = <<Self::Scalar as Real>::Size as Real>::zero();
         for k in 0..Self::PARTS {
@@ -204,7 +204,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// The sum norm of `self − other`, lane by lane.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn size_of_difference(&self, other: &Self) -> <Self::Scalar as Real>::Size {
         let mut sum = <<Self::Scalar as Real>::Size as Real>::zero();
         for k in 0..Self::PARTS {
@@ -216,7 +216,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// `self = other` in the lanes where the mask is set.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn copy_where(&mut self, mask: <Self::Scalar as Real>::Mask, other: &Self) {
         for k in 0..Self::PARTS {
             for (to, from) in self.part_mut(k).iter_mut().zip(other.part(k)) {
@@ -227,7 +227,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
 
     /// Writes NaN into every component in the lanes where the mask is set, to mark an exact flow
     /// that left its domain or an iteration that did not converge.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn poison(&mut self, mask: <Self::Scalar as Real>::Mask) {
         let nan = Self::Scalar::constant(f64::NAN, 0.0);
         for k in 0..Self::PARTS {
@@ -238,7 +238,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// The lanes in which every component is finite.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn finite(&self) -> <Self::Scalar as Real>::Mask {
         let mut finite = <<Self::Scalar as Real>::Mask as Mask>::splat(true);
         for k in 0..Self::PARTS {
@@ -250,7 +250,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 
     /// Returns true if every component is finite.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn is_finite(&self) -> bool {
         let mut finite = true;
         for k in 0..Self::PARTS {
@@ -273,7 +273,7 @@ pub trait Shape: 'static {
 pub type Over<V, U> = <<V as Vector>::Shape as Shape>::Vector<U>;
 
 /// a·b.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
     let mut sum = V::Scalar::zero();
     for k in 0..V::PARTS {
@@ -285,7 +285,7 @@ pub(crate) fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
 }
 
 /// The larger of two non-negative numbers, NaN if either is NaN (`f64::max` would drop it).
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }
@@ -297,7 +297,7 @@ impl<const R: usize, const C: usize> Shape for SMatrix<(), R, C> {
 impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     type Scalar = T;
     type Shape = SMatrix<(), R, C>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn zeros_over<U: Real>(&self) -> SMatrix<U, R, C> {
         SMatrix::from_element(U::zero())
     }
@@ -305,19 +305,19 @@ impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     fn columns(&self, _: usize) -> usize {
         C
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part(&self, _: usize) -> &[T] {
         self.as_slice()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part_mut(&mut self, _: usize) -> &mut [T] {
         self.as_mut_slice()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn zeros_like(&self) -> Self {
         SMatrix::from_element(T::zero())
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         *self
     }
@@ -337,18 +337,18 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
     fn columns(&self, _: usize) -> usize {
         C
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part(&self, _: usize) -> &[T] {
         self.as_slice()
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn part_mut(&mut self, _: usize) -> &mut [T] {
         self.as_mut_slice()
     }
     fn zeros_like(&self) -> Self {
         OMatrix::from_element_generic(Dyn(self.nrows()), Const, T::zero())
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn take(&mut self) -> Self {
         // A vector of no elements takes no memory.
         let none = Matrix::from_data(VecStorage::new(Dyn(0), Const, Vec::new()));
@@ -374,18 +374,18 @@ macro_rules! wide {
             fn columns(&self, _: usize) -> usize {
                 self.ncols()
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn part(&self, _: usize) -> &[T] {
                 self.as_slice()
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn part_mut(&mut self, _: usize) -> &mut [T] {
                 self.as_mut_slice()
             }
             fn zeros_like(&self) -> Self {
                 self.zeros_over()
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn take(&mut self) -> Self {
                 let (rows, _) = self.shape_generic();
                 let none = VecStorage::new(rows, Dyn(0), Vec::new());
@@ -532,7 +532,7 @@ impl<T: Real, const C: usize> IntoVector<shape::SliceOfRows> for &Vec<[T; C]> {
 
 impl<V: Vector> IntoVector<shape::Same> for V {
     type Vector = V;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn into_vector(self) -> V {
         self
     }

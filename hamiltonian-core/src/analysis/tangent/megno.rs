@@ -17,7 +17,7 @@ pub(crate) struct Megno<T> {
 }
 
 impl<T: Real> Megno<T> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn new() -> Self {
         let zero = T::zero();
         Megno {
@@ -28,7 +28,7 @@ impl<T: Real> Megno<T> {
     }
 
     /// Adds a stretch between two steps, in which ln δ grows by `logarithm`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn add(&mut self, [from, to]: [u64; 2], logarithm: T) {
         let (from, to) = (from as i64 as f64, to as i64 as f64);
         self.growth += T::constant(from + to, 0.0) * logarithm;
@@ -38,7 +38,7 @@ impl<T: Real> Megno<T> {
     }
 
     /// ∫ Y ds, from which [`mean`](Megno::mean) is computed.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn area(&self) -> T {
         self.area
     }

@@ -103,7 +103,7 @@ where
 }
 
 /// Advances all members to their ends, inside the level `L` of the pack.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::ensembles) fn advance<L, T, S, P, M>(scheme: &M, all: &mut Deviations<'_, T, S>)
 where
     L: Level,
@@ -137,7 +137,7 @@ where
     M: Scheme<S>,
 {
     /// Loads members at their starts into lanes. The remaining lanes repeat the last member.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn load_lanes<L: Level>(
         lanes: &mut Option<Self>,
         scheme: &M,
@@ -209,7 +209,7 @@ where
 
     /// Advances the members in the lanes to their ends. Members that are not finite are added to `pending`; in a replay
     /// they have failed.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(
         &mut self,
         scheme: &M,
@@ -368,7 +368,7 @@ where
     }
 
     /// Writes the results of the members.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn write_results<L: Level>(&mut self, all: &mut Deviations<'_, T, S>, reached: &T::Over<P>) {
         let lanes = P::LANES as usize;
         let mut times = vec![T::zero(); lanes];
@@ -434,7 +434,7 @@ where
     /// True if all numbers are finite; and the time of the first deviation.
     type Output = (bool, U);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> (bool, U) {
         let end = self.made + self.n;
         let clock = self.clock.at(end);
@@ -485,7 +485,7 @@ struct CarriedColumns<'a, C>(&'a mut [C]);
 impl<C: Vector> CarriedColumns<'_, C> {
     /// Sets the values of all deviations to those of the first, see
     /// [`Tangent::orthonormalise`](crate::analysis::Tangent::orthonormalise).
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn align(&mut self) {
         let Some((first, others)) = self.0.split_first_mut() else {
             return;
@@ -501,7 +501,7 @@ impl<C: Vector> CarriedColumns<'_, C> {
 }
 
 impl<C: Vector> Columns<C::Scalar> for CarriedColumns<'_, C> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn combine(&mut self, to: usize, scale: C::Scalar, less: Option<(usize, C::Scalar)>) {
         let (before, carried) = self.0.split_at_mut(to);
         for k in 0..C::PARTS {

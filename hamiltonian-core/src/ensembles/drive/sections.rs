@@ -24,7 +24,7 @@ where
     M: Scheme<S>,
 {
     /// Loads the functions whose sign is followed for at least one member into lanes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn load_sections<L: Level>(&mut self, runs: &[&MemberRun<T, S>]) {
         self.sections.clear();
         self.sections_before.clear();
@@ -66,7 +66,7 @@ where
     }
 
     /// Writes the values of the functions back into the runs.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn write_sections<L: Level>(
         &self,
         sections: &[LaneSection<T::Over<P>>],
@@ -94,7 +94,7 @@ where
 
     /// Passes the states of marked steps, in their order, to the observers that follow signs. Observers of members at
     /// their stops also receive the state after the last of the `n` steps.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn pass_marked<L: Level>(
         &mut self,
         scheme: &M,

@@ -16,7 +16,7 @@ use hamiltonian_lanes::{Kernel, Level, Pack, Real};
 
 /// Writes a number of each member to its lane of an existing pack. A returned pack would be copied register by
 /// register at every call.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::ensembles) fn gather<L: Level, T: Real, P: Pack>(
     numbers: &[T],
     into: &mut T::Over<P>,
@@ -32,14 +32,14 @@ struct GatherNumbers<'a, T: Real, P: Pack> {
 
 impl<T: Real, P: Pack> Kernel for GatherNumbers<'_, T, P> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) {
         *self.into = T::gather::<P>(self.numbers);
     }
 }
 
 /// Returns the lane mask of the flags.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::ensembles) fn lanes_of<L: Level, T: Real, P: Pack>(flags: &[bool]) -> MaskIn<T, P> {
     let of = PhantomData::<(T, P)>;
     L::enter(LanesOf { flags, of })
@@ -52,7 +52,7 @@ struct LanesOf<'a, T, P> {
 
 impl<T: Real, P: Pack> Kernel for LanesOf<'_, T, P> {
     type Output = MaskIn<T, P>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> MaskIn<T, P> {
         let number = |flag: &bool| if *flag { T::one() } else { T::zero() };
         let numbers: Vec<T> = self.flags.iter().map(number).collect();
@@ -61,7 +61,7 @@ impl<T: Real, P: Pack> Kernel for LanesOf<'_, T, P> {
 }
 
 /// Writes the number of each lane to a slice.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::ensembles) fn scatter<L: Level, T: Real, P: Pack>(from: &T::Over<P>, into: &mut [T]) {
     L::enter(Scatter::<T, P> { from, into });
 }
@@ -73,14 +73,14 @@ struct Scatter<'a, T: Real, P: Pack> {
 
 impl<T: Real, P: Pack> Kernel for Scatter<'_, T, P> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) {
         T::scatter::<P>(*self.from, self.into);
     }
 }
 
 /// Loads the lanes of a carried value from rows, one per component.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::ensembles) fn load<L, T, P, V>(rows: &[T], to: &mut V)
 where
     L: Level,
@@ -97,7 +97,7 @@ where
 }
 
 /// Stores the lanes of a carried value into rows, one per component.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::ensembles) fn store<L, T, P, V>(from: &V, rows: &mut [T])
 where
     L: Level,
@@ -146,7 +146,7 @@ where
 {
     type Output = (S::Prepared<T::Over<P>>, MapIn<T, S, P, M>);
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
         let prepared = S::gather::<T, P>(self.systems);
         let step = Step::of(T::gather::<P>(self.steps));
@@ -188,7 +188,7 @@ where
 {
     type Output = CarriedIn<T, S, P, M>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
         let State { t, q, p } = self.state;
         let mut start = State {

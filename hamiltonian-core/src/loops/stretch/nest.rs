@@ -43,7 +43,7 @@ pub trait Mode {
 struct OneByOne;
 
 impl Mode for OneByOne {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<
         T: Real,
         B: Body<G, R, W>,
@@ -66,7 +66,7 @@ impl Mode for OneByOne {
 struct In<P>(core::marker::PhantomData<P>);
 
 impl<P: Pack> Mode for In<P> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<
         T: Real,
         B: Body<G, R, W>,
@@ -92,7 +92,7 @@ impl<P: Pack> Mode for In<P> {
 }
 
 /// Computes all iterations of a nest, in lanes if `is_long`.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn nest<
     T: Real,
     N: Nest<T, G, R, C, Z>,
@@ -149,11 +149,11 @@ impl<
 {
     type Output = Option<[&'a mut [T]; C]>;
     const BEST: Cpu = compiled::BEST;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn best(&self) -> Cpu {
         compiled::best(self.arithmetic.fused)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
         if const { has_lanes(L::CPU) } {
             rounded::<L, L::Eight, _>(self.arithmetic.fused, self);
@@ -173,7 +173,7 @@ impl<
     const Z: usize,
 > Rounded for NestKernel<'_, T, N, G, R, C, Z>
 {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<P: Pack>(self) {
         let NestKernel {
             given,

@@ -8,7 +8,7 @@ use super::{BLOCK, Body, CARRY, STRIDE, Stretch, changed, has_shared};
 use hamiltonian_lanes::{Pack, Real};
 
 /// Computes at least [`STRIDE`] iterations in packs of as many lanes.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn packs<
     T: Real,
     B: Body<G, R, W>,
@@ -165,7 +165,7 @@ pub(super) fn packs<
 }
 
 /// Successive numbers of iterations.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn ramp<T: Real, P: Pack>(first: usize) -> T::Over<P> {
     let mut numbers = [T::zero(); STRIDE];
     let mut k = 0;

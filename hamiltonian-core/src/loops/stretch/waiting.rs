@@ -46,7 +46,7 @@ pub(super) struct Waiting<T, const S: usize, const W: usize> {
 pub(super) const NONE: usize = usize::MAX;
 
 impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn new(
         stores: &[ColumnStore],
         offsets: [usize; S],
@@ -103,7 +103,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     }
 
     /// Returns true if results of any store wait.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn is_any(&self) -> bool {
         let mut s = 0;
         while s < S {
@@ -116,7 +116,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     }
 
     /// Returns true if the store does not wait, reads its element, and is the first one to change it.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn is_taken_back(&self, stores: &[ColumnStore], s: usize) -> bool {
         let store = &stores[s];
         store.change.reads()
@@ -127,7 +127,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     }
 
     /// Stores the results of iterations `at..end`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn store_due<P: Pack, const C: usize>(
         &mut self,
         stores: &[ColumnStore],
@@ -162,7 +162,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     }
 
     /// All stores of a group, element by element.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn together<P: Pack>(
         &mut self,
         stores: &[ColumnStore],
@@ -204,7 +204,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     }
 
     /// The next element of a group, by itself.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn element(
         &mut self,
         stores: &[ColumnStore],
@@ -229,7 +229,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     }
 
     /// One store of a column.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn one_store<P: Pack>(
         &self,
         store: &ColumnStore,

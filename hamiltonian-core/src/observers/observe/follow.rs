@@ -144,13 +144,13 @@ impl<U: Real> LaneDrift<U> {
     }
 
     /// Returns its numbers: the first value, the largest size of a change, the sum of sizes, the sum of changes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn numbers(&self) -> [&U; 4] {
         [&self.start, &self.max, &self.sum_of_sizes, &self.sum]
     }
 
     /// Returns its numbers for writing.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn numbers_mut(&mut self) -> [&mut U; 4] {
         [
             &mut self.start,
@@ -161,7 +161,7 @@ impl<U: Real> LaneDrift<U> {
     }
 
     /// Starts the drifts of the lanes `begins` at their first value, or records the value in lanes that are due.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn follow(&mut self, begins: Option<U::Mask>, due: Option<U::Mask>, value: U) {
         match begins {
             Some(lanes) => self.begin(lanes, value),
@@ -170,7 +170,7 @@ impl<U: Real> LaneDrift<U> {
     }
 
     /// Starts the drifts of some lanes at their first value.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn begin(&mut self, lanes: U::Mask, value: U) {
         self.start = U::select(lanes, value, self.start);
         for sum in [&mut self.max, &mut self.sum_of_sizes, &mut self.sum] {
@@ -179,7 +179,7 @@ impl<U: Real> LaneDrift<U> {
     }
 
     /// Records a value as [`Deviation`] does, in all lanes or in those that are due.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn record(&mut self, due: Option<U::Mask>, value: U) {
         let mut change = value - self.start;
         if let Some(due) = due {

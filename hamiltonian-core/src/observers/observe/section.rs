@@ -47,7 +47,7 @@ pub(crate) struct LaneSection<U> {
 }
 
 /// Rounds `x` to the nearest integer, for |x| below 2⁵¹: adding 1.5·2⁵² leaves no digits after the point.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn nearest<U: Real>(x: U) -> U {
     let large = U::constant(6_755_399_441_055_744.0, 0.0);
     (x + large) - large
@@ -66,20 +66,20 @@ impl<U: Real> LaneSection<U> {
     }
 
     /// Returns the value after the last step and the one before, for writing.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn values_mut(&mut self) -> &mut [U; 2] {
         self.newest = 0;
         &mut self.values
     }
 
     /// The value after the last step.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn value(&self) -> &U {
         &self.values[self.newest & 1]
     }
 
     /// The value after the last step, and the one before.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn last(&self) -> [&U; 2] {
         [self.value(), &self.values[(self.newest + 1) & 1]]
     }
@@ -87,7 +87,7 @@ impl<U: Real> LaneSection<U> {
     /// Accepts the value after the next step and returns true if the observers of `section_lanes` do not need the step.
     /// Otherwise the value is not accepted. This is a fast form of [`lanes_to_mark`](LaneSection::lanes_to_mark) for
     /// the usual step.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn try_skip(&mut self, value: U, section_lanes: &U::Mask) -> bool {
         if self.period.is_some() {
             return false;
@@ -111,7 +111,7 @@ impl<U: Real> LaneSection<U> {
     ///
     /// The observer evaluates the function again without fused products. Therefore a lane is also returned, at this
     /// step and at the next, if its value is so small relative to its change that rounding may decide the sign.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(crate) fn lanes_to_mark(&mut self, value: U) -> U::Mask {
         let [&from, &before] = self.last();
         let changed = from - before;

@@ -182,7 +182,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
 
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Writes the state after the `made` steps of the map. Returns true if everything is finite.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn arrives(&mut self, steps: u64) -> bool {
         let made = steps - self.began;
         let steps = Steps {
@@ -227,7 +227,7 @@ impl<R: Map> Steps<'_, R> {
     pub(crate) fn make(self) -> bool {
         // This runs in a function of the level of a pack: here its instructions would be calls.
         ScalarOf::<R>::out_of_line(
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             || {
                 self.snapshot.copy_from(self.carried);
                 (self.map).run(self.clock, self.made, self.n, self.carried, self.work);
@@ -237,7 +237,7 @@ impl<R: Map> Steps<'_, R> {
     }
 
     /// Writes the state after the steps. Returns true if everything is finite.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn arrive(self) -> bool {
         let made = self.made + self.n;
         let t = self.clock.at(made);

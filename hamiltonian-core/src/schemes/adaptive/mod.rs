@@ -161,7 +161,7 @@ where
         self.tolerance.check()?;
         self.scheme.check(prepared, state)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         Following {
             map: self.scheme.prepare(prepared, Step::of(step.h)),
@@ -254,7 +254,7 @@ impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W
 type WorkOf<T, S, M> = FollowingWork<CarriedBy<M, S, T>, MapBy<M, S, T>, WorkBy<M, S, T>>;
 
 /// A number without its derivatives: sizes of steps are no functions of the start.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn fixed<T: Real>(x: T) -> T {
     if T::LANES == 1 {
         T::constant(x.to_f64(), 0.0)
@@ -264,7 +264,7 @@ fn fixed<T: Real>(x: T) -> T {
 }
 
 /// x^(1/16), near the exponent 2/37 with which a size follows from an error that is proportional to h^18.5.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn root<T: Real>(x: T) -> T {
     x.sqrt().sqrt().sqrt().sqrt()
 }
@@ -286,7 +286,7 @@ const ATTEMPTS: u32 = 60;
 
 impl<C: Carried> Follows<C> {
     /// Lets a pilot choose anew where steps were refused too often, later after each pilot.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn wait(&mut self, lanes: <C::Scalar as Real>::Mask) {
         let soon = C::Scalar::constant(SOON as f64, 0.0);
         let soon = soon * (self.numbers[11] + C::Scalar::one());
@@ -298,7 +298,7 @@ impl<C: Carried> Follows<C> {
 
 impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     /// The map for steps of `by`·parameter.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn sized<'a>(
         &self,
         by: T,
@@ -322,7 +322,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     }
 
     /// Makes one step of h = `by`·parameter. Returns h.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn attempt(&self, by: T, t: T, of: &mut CarriedBy<M, S, T>, work: &mut WorkOf<T, S, M>) -> T {
         let h = self.parameter * by;
         let map = self.sized(by, &mut work.map, (&mut work.of, &mut work.by));
@@ -331,14 +331,14 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     }
 
     /// The estimated error of the step of size h that led here, in units of the tolerated one.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn error(&self, h: T, of: &CarriedBy<M, S, T>, work: &WorkOf<T, S, M>) -> T {
         M::error::<T, true>(&self.estimate, h, work.before.point(), of)
     }
 
     /// Makes up to `n` steps of a single run in lanes, until one is refused. Returns their number; 0 if there are no
     /// lanes.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn quickly(
         &self,
         n: u64,
@@ -371,7 +371,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     }
 
     /// Finds the density after a step with this one; `changed` are lanes in which a size was refused.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn follow(
         &self,
         made: T,
@@ -424,7 +424,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     }
 
     /// Counts `made` steps, and looks whether a pilot must choose anew after the number of steps at which it may.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn count(&self, made: u64, z: &mut Follows<CarriedBy<M, S, T>>, work: &mut WorkOf<T, S, M>) {
         let (zero, left) = (T::zero(), z.numbers[9]);
         let counts = zero.lt(left);
@@ -439,7 +439,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
     }
 
     /// Q⁴ and G, with differences over 1/32 of a step.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(
         &self,
         h: T,
@@ -456,7 +456,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
     type Carried = Follows<CarriedBy<M, S, T>>;
     type Work = WorkOf<T, S, M>;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run(&self, _: Clock<T>, _: u64, n: u64, z: &mut Self::Carried, work: &mut Self::Work) {
         let mut left = n;
         while left > 0 {
@@ -470,7 +470,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             }
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
         let [zero, one] = [T::zero(), T::one()];
         let [before, rate, t, mut refused, _, limit, low, ..] = z.numbers;
@@ -561,7 +561,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
 
 /// The factor of the size after a step with this error was refused. A step whose equations were not solved may be a little
 /// too long for them, or far too long.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn shrink<T: Real>(error: T, attempts: u32) -> T {
     let [least, most] = [T::constant(0.1, 0.0), T::constant(0.9, 0.0)];
     let unknown = T::constant(if attempts == 1 { 0.7 } else { 0.25 }, 0.0);

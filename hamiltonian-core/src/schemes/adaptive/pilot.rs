@@ -31,7 +31,7 @@ const LEAP: f64 = 100.0;
 /// iterations.
 const WORTH: f64 = 5.0;
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn number<T: Real>(x: f64) -> T {
     T::constant(x, 0.0)
 }
@@ -56,7 +56,7 @@ fn attempt<T: Real, S: System, M: Estimates<S>>(
     work: &mut WorkOf<T, S, M>,
 ) -> T {
     T::out_of_line(
-        #[inline(always)]
+        #[cfg_attr(not(unoptimised), inline(always))]
         || {
             let h = map.attempt(by, t, of, work);
             map.error(h, of, work)
@@ -74,7 +74,7 @@ fn scale_at<T: Real, S: System, M: Estimates<S>>(
     derivatives: &mut Derivatives<VectorOf<S, T>>,
 ) -> [T; 2] {
     T::out_of_line(
-        #[inline(always)]
+        #[cfg_attr(not(unoptimised), inline(always))]
         || map.scale(h, t, point, derivatives),
     )
 }
@@ -93,7 +93,7 @@ fn is_slack<T: Real, S: System, M: Estimates<S>>(
     let [_, _, t, _, last, ..] = z.numbers;
     let h = map.parameter * fixed(last.recip());
     let error = T::out_of_line(
-        #[inline(always)]
+        #[cfg_attr(not(unoptimised), inline(always))]
         || map.error(h, &z.of, work),
     );
     let [scale, _] = scale_at(map, h, t, z.of.point(), &mut work.derivatives);

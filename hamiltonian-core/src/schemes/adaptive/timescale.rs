@@ -57,7 +57,7 @@ const DIFFERENCES: [Difference; 9] = [
     difference(-2.0, 3, 3, -0.5),
 ];
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn number<T: Real>(x: f64) -> T {
     T::constant(x, 0.0)
 }
@@ -72,7 +72,7 @@ impl<V: Vector> Derivatives<V> {
     }
 
     /// Finds Q⁴ and G at a point, with differences over τ. Where the orbit has no time scale, Q is 0 or NaN.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn scale<F: VectorField<V>>(
         &mut self,
         field: &F,

@@ -109,19 +109,19 @@ pub(super) type MapBy<M, S, T> = <M as Scheme<S>>::Map<T>;
 pub(super) type WorkBy<M, S, T> = <MapBy<M, S, T> as Map>::Work;
 
 /// The larger of two numbers; the second if one is NaN.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn larger<T: Real>(a: T, b: T) -> T {
     T::select(b.lt(a), a, b)
 }
 
 /// The larger of two numbers; NaN if one is NaN.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn worse<T: Real>(a: T, b: T) -> T {
     T::select(a.lt(b) | !b.equals(b), b, a)
 }
 
 /// The largest size of a component.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn most<V: Vector>(x: &V) -> V::Scalar {
     let mut most = V::Scalar::zero();
     for k in 0..V::PARTS {
@@ -155,7 +155,7 @@ struct Tolerated<T> {
 }
 
 impl<T: Real> Tolerated<T> {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn of<V: Vector<Scalar = T>>(tolerance: Tolerance, before: &V, after: &V) -> Self {
         Tolerated {
             tolerance,
@@ -164,7 +164,7 @@ impl<T: Real> Tolerated<T> {
     }
 
     /// The tolerated error of a component that was `before` and is `after`.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn error(&self, before: T, after: T) -> T {
         /// 2⁻²⁰.
         const SMALL: f64 = 1.0 / (1_u64 << 20) as f64;
@@ -178,7 +178,7 @@ impl<T: Real> Tolerated<T> {
     }
 
     /// The error `FACTOR·r²√r·of` in units of the tolerated one, as in [`Estimates::error`].
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn share<const EXACT: bool>(&self, r: T, of: T, before: T, after: T) -> T {
         let [zero, two] = [T::zero(), T::constant(2.0, 0.0)];
         let tolerated = self.error(before, after);
@@ -220,7 +220,7 @@ impl<T: Real> Estimate<T> {
     /// If the coefficients decay like ρ⁻ᵏ, r is ρ⁻⁷, and the relative error of the quadrature, of order 17 in h, is near
     /// ρ⁻¹⁷ = r^(17/7). [`FACTOR`]·r²√r bounds it. So that a coefficient that happens to vanish does not hide the error,
     /// the one before it counts an eighth.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn tail<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
         weights: &[[L::Bundle; STAGES]; 2],
         slopes: &[X; STAGES],
@@ -242,7 +242,7 @@ impl<T: Real> Estimate<T> {
 
     /// The error of a step in units of the tolerated one, from the slopes at its stages, or from the forces there: their
     /// relative error is taken for that of the coordinates' change as well.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn error<L, V, X, const EXACT: bool>(
         &self,
         weights: &[[L::Bundle; STAGES]; 2],
@@ -291,16 +291,16 @@ struct ErrorInspection<'a, T, V> {
 
 impl<T: Real, V: Vector<Scalar = T>> Inspect<T, V, STAGES> for ErrorInspection<'_, T, V> {
     const LOOKS: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn begins(&self, _: Clock<T>, _: u64) -> T {
         self.time[0]
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn keep(&mut self, point: &Point<V>, low: &Point<V>) {
         self.before[0].copy_from(point);
         self.before[1].copy_from(low);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn accepts<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
         &mut self,
         point: &Point<V>,
@@ -324,7 +324,7 @@ impl<T: Real, V: Vector<Scalar = T>> Inspect<T, V, STAGES> for ErrorInspection<'
         }
         is_met
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn undo(&self, point: &mut Point<V>, low: &mut Point<V>) {
         point.copy_from(self.before[0]);
         low.copy_from(self.before[1]);
@@ -335,13 +335,13 @@ impl<T: Real, V: Vector<Scalar = T>> Inspect<T, V, STAGES> for ErrorInspection<'
 const STUCK: f64 = 0.01;
 
 /// The lanes in which a step moves the time.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn moves<T: Real>(t: T, h: T) -> T::Mask {
     (t.abs() * T::constant(T::epsilon() * STUCK, 0.0)).lt(h.abs())
 }
 
 /// A time and its low word after a step.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn later<T: Real>([t, low]: [T; 2], h: T) -> [T; 2] {
     let by = h + low;
     let end = t + by;
@@ -361,11 +361,11 @@ macro_rules! estimates {
                 map.restrict(most_iterations::<T>());
                 map
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn resize<T: Real>(from: &Self::Map<T>, by: T, to: &mut Self::Map<T>) {
                 from.resize(by, to);
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn error<T: Real, const EXACT: bool>(
                 estimate: &Estimate<T>,
                 h: T,
@@ -375,7 +375,7 @@ macro_rules! estimates {
                 let (point, slopes) = (&after.x, &after.y.x.0);
                 estimate.error::<Apart, _, _, EXACT>(&estimate.weights, h, before, point, slopes)
             }
-            #[inline(always)]
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn steps<T: Real>(
                 estimate: &Estimate<T>,
                 map: &Self::Map<T>,
@@ -388,7 +388,7 @@ macro_rules! estimates {
                 let mut inspection = ErrorInspection { estimate, h, time, before };
                 let clock = (Clock::between(time[0], time[0] + h), 0, n);
                 let made = T::out_of_line(
-                    #[inline(always)]
+                    #[cfg_attr(not(unoptimised), inline(always))]
                     || map.steps_in_lanes(clock, z, work, &mut inspection),
                 );
                 (made.unwrap_or(0), inspection.time)

@@ -52,7 +52,7 @@ where
     type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
     const LEVELS: [Cpu; 2] = LEVELS;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
     where
         P: Pack,

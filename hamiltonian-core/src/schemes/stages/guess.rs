@@ -11,7 +11,7 @@ use hamiltonian_lanes::{DoubleDouble, Real};
 /// The matrix that takes the slopes at the stages of the step before to guesses for this one's: the
 /// slopes' polynomial, without its terms of degree 8 and more, whose extrapolation would be rounding;
 /// their mean where the steps are too different.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::schemes) fn extrapolation<T: Real, const S: usize>(
     method: &Collocation<S>,
     step: Step<T>,
@@ -47,20 +47,20 @@ pub(in crate::schemes) fn extrapolation<T: Real, const S: usize>(
 }
 
 /// Legendre's polynomials Pₖ₊₁ and Pₖ at x of [−1, 1], from Pₖ and Pₖ₋₁.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn next<T: Real>(k: usize, x: T, (value, before): (T, T)) -> (T, T) {
     let next = (number::<T>(2 * k + 1) * x * value - number::<T>(k) * before) / number(k + 1);
     (next, value)
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn number<T: Real>(x: usize) -> T {
     T::constant(x as f64, 0.0)
 }
 
 /// α and β of the guess that [`extrapolation`] makes, for the slopes of the step before in place of this one's;
 /// and α and β themselves.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(in crate::schemes) fn of_fixed_point<T: Real, const S: usize>(
     method: &Collocation<S>,
     step: Step<T>,

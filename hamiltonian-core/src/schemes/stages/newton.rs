@@ -58,7 +58,7 @@ impl<V: Vector> LinearSystem<V> {
 
     /// Puts the derivative of `(dq/dt, dp/dt) − J∇H(z)` at stage `i` into its rows, where `entries(j)`
     /// says how both depend on the unknowns of stage j; dp/dt is the unknown y itself.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn linearise<P: Dynamics<V::Scalar, Vector = V>>(
         &mut self,
         dynamics: &P,
@@ -107,7 +107,7 @@ impl<V: Vector> LinearSystem<V> {
     }
 
     /// Solves for the right-hand side `residual` and adds the solution to it in place.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn solve<const S: usize>(&mut self, residual: &mut Stages<Point<V>, S>) {
         let Some(matrix) = &mut self.matrix else {
             return;
@@ -128,7 +128,7 @@ impl<V: Vector> LinearSystem<V> {
 }
 
 /// Gaussian elimination with partial pivoting, lane by lane; `right` becomes the solution.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn eliminate<T: Real>(matrix: &mut [T], right: &mut [T]) {
     let size = right.len();
     for k in 0..size {

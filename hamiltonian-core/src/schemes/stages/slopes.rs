@@ -51,7 +51,7 @@ where
     X: Vector<Scalar = L::Bundle>,
 {
     type Unknowns = Point<X>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn points(&self, matrices: usize, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
         // One unknown is its own guess: the same factors in every iteration.
         let matrices = &self.tableau.matrices[if S == 1 { 1 } else { matrices }];
@@ -74,7 +74,7 @@ where
             }
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn evaluate(&mut self, bundle: usize, point: &mut Point<X>, next: &mut Point<X>) {
         // From −0, x + (−0) = x to the bit; if c is known to be 1, the compiler removes the sum.
         for k in 0..Point::<X>::PARTS {
@@ -86,7 +86,7 @@ where
         let Point { q, p } = next;
         self.field.add(t, &point.q, &point.p, q, p);
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self) -> T::Size {
         self.point.size() / self.tableau.h.size()
     }
@@ -94,7 +94,7 @@ where
 
 /// Solves for the slopes of the step from `t`, from those of the step before.
 #[allow(clippy::too_many_arguments)]
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
     limit: u32,
     tableau: &Tableau<'_, T, L::Bundle, S>,
@@ -123,7 +123,7 @@ where
 }
 
 /// Adds Σ bᵢhFᵢ to the point and its low words.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn finish<T, L, V, X, const S: usize>(
     weights: &[L::Bundle; S],
     slopes: &[Point<X>; S],
@@ -157,7 +157,7 @@ pub(super) struct StepScratch<X: Vector, const S: usize> {
 ///
 /// The scratch, the point and its low words should be variables of the caller alone, so that they may stay in
 /// registers.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn steps<T, L, F, V, X, W, const S: usize>(
     limit: u32,
     tableau: &Tableau<'_, T, L::Bundle, S>,
@@ -236,7 +236,7 @@ where
     type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
     const LEVELS: [Cpu; 2] = LEVELS;
 
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
     where
         P: Pack,

@@ -241,7 +241,7 @@ impl Data {
 }
 
 /// The four B-splines of a cell at u in [0, 1], times 6.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn weights<T: Real>(u: T) -> [T; 4] {
     let [one, three, four, six] = [1.0, 3.0, 4.0, 6.0].map(|number| T::constant(number, 0.0));
     let rest = one - u;
@@ -254,7 +254,7 @@ fn weights<T: Real>(u: T) -> [T; 4] {
 }
 
 impl Function<2> for Grid {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn value<T: Real>(&self, [x, y]: [T; 2]) -> T {
         let found = T::look_up([x, y], |at| self.0.around(at));
         let [wide, high] = self.0.spacing;

@@ -243,7 +243,7 @@ impl PiecewiseCubic {
 }
 
 impl Function<1> for Spline {
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn value<T: Real>(&self, [x]: [T; 1]) -> T {
         let [left, a, b, c, d] = T::look_up([x], |[x]| self.0.around(x));
         let x = x - left;

@@ -28,7 +28,7 @@ pub const MAX_MEMBERS: usize = 128;
 
 /// Work of a single run over the scalar `T` that is faster in packs: stages, loops.
 ///
-/// `run` and all that it calls in a loop must be `#[inline(always)]`, as for [`Kernel`].
+/// `run` and all that it calls in a loop must be `#[cfg_attr(not(unoptimised), inline(always))]`, as for [`Kernel`].
 pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
     /// The computation.
     type Output;
@@ -49,7 +49,7 @@ pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
 /// Work that is done with a system in all lanes of the pack `P`: an [`InLanes`] kernel at its level, or a step
 /// on the way of one through a system that is made of others.
 ///
-/// `run` must be `#[inline(always)]`, as for [`Kernel`].
+/// `run` must be `#[cfg_attr(not(unoptimised), inline(always))]`, as for [`Kernel`].
 pub trait InPack<T: Real, V: Vector<Scalar = T>, P: Pack> {
     /// The computation.
     type Output;
@@ -66,7 +66,7 @@ pub struct Kept(Option<Box<dyn Any + Send + Sync>>);
 
 impl Kept {
     /// The kept value, if it has this type and passes the test; otherwise a new one.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn get<X: Any + Send + Sync>(
         &mut self,
         is_good: impl FnOnce(&X) -> bool,
@@ -99,7 +99,7 @@ impl fmt::Debug for Kept {
 /// Runs a kernel on the best level of this CPU with one system in all lanes. Nothing runs if `T` has no
 /// form in lanes, if the system [has none](Dynamics::in_pack), if its [arithmetic](Dynamics::arithmetic)
 /// does not use them, or if the CPU has none of the kernel's [levels](InLanes::LEVELS).
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn in_lanes<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>>(
     system: &D,
     kept: &mut Kept,
@@ -128,7 +128,7 @@ struct SystemKernel<'a, T, D, K> {
 impl<T: Real, D: Dynamics<T>, K: InLanes<T, D::Vector>> Kernel for SystemKernel<'_, T, D, K> {
     type Output = Option<K::Output>;
     const BEST: Cpu = K::LEVELS[1];
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
         // The compiler decides this condition, because it is a constant of types.
         if const { (L::CPU as u8) < K::LEVELS[0] as u8 } {
@@ -149,7 +149,7 @@ struct AtLevel<K>(K);
 
 impl<T: Real, V: Vector<Scalar = T>, P: Pack, K: InLanes<T, V>> InPack<T, V, P> for AtLevel<K> {
     type Output = K::Output;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn run<D>(self, system: &D, kept: &mut Kept) -> K::Output
     where
         D: Dynamics<T::Over<P>, Vector = Over<V, T::Over<P>>> + 'static,
@@ -171,7 +171,7 @@ type GatheredOf<S, T, P> =
 
 /// Runs a kernel with one system in all lanes of its pack: the implementation of [`Dynamics::in_pack`] for what the
 /// system `S` prepares.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn in_pack<T: Real, S: System, P: Pack, K: InPack<T, VectorOf<S, T>, P>>(
     prepared: &S::Prepared<T>,
     kept: &mut Kept,
@@ -190,7 +190,7 @@ pub fn in_pack<T: Real, S: System, P: Pack, K: InPack<T, VectorOf<S, T>, P>>(
 
 /// Runs a kernel with a system that is made of others, all of them in the lanes of a pack. `kept` belongs to the
 /// system that was gathered last, so it is empty when one of them has changed; `is_good` compares the rest.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(crate) fn with_whole<T: Real, V, P, D, K>(
     kept: &mut Kept,
     is_good: impl FnOnce(&D) -> bool,
@@ -208,7 +208,7 @@ where
 }
 
 /// A number of each member, in its lane.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn number<T: Real, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> T) -> T::Over<P> {
     let mut values = [T::default(); MAX_MEMBERS];
     let count = members.len().min(MAX_MEMBERS);
@@ -219,7 +219,7 @@ pub fn number<T: Real, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> T) -> T::O
 }
 
 /// An array of numbers of each member, in its lane.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn numbers<T: Real, P: Pack, M, const N: usize>(
     members: &[&M],
     of: impl Fn(&M) -> &[T; N],
@@ -232,7 +232,7 @@ pub fn numbers<T: Real, P: Pack, M, const N: usize>(
 }
 
 /// Conditions of each member, in its lane.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn masks<T: Real, P: Pack, M, const N: usize>(
     members: &[&M],
     of: impl Fn(&M) -> &[T::Mask; N],
@@ -248,7 +248,7 @@ pub fn masks<T: Real, P: Pack, M, const N: usize>(
 ///
 /// # Panics
 /// If there is no member.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn vectors<V: Vector, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> &V) -> VectorOver<V, P> {
     let mut gathered = of(members[0]).zeros_over::<ScalarOver<V, P>>();
     for k in 0..V::PARTS {
@@ -260,7 +260,7 @@ pub fn vectors<V: Vector, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> &V) -> 
 }
 
 /// Writes lane k of a vector to member k, for as many members as there are. All have its shape.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn scatter<V: Vector, P: Pack>(from: &VectorOver<V, P>, members: &mut [&mut V]) {
     let mut values = [V::Scalar::default(); MAX_MEMBERS];
     let count = members.len().min(MAX_MEMBERS);

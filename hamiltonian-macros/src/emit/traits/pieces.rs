@@ -211,7 +211,7 @@ impl Emission<'_> {
 
 /// Returns true if the code of a function is so long that a call is short beside it.
 fn is_long(program: &Program, function: &Function) -> bool {
-    const LONG: usize = 500;
+    const LONG: usize = 250;
     // The instructions of an elementary function, about.
     const FUNCTION: usize = 30;
     let operations = program.operations(function);

@@ -374,6 +374,26 @@ fn the_same_run_has_the_same_bits() {
     assert_eq!(allocations(|| drop(whole.advance(300).map(|_| ()))), 0);
 }
 
+hamiltonian! {
+    /// An orbit round a black hole. A number that is prepared for a branch that is not taken is NaN.
+    pub struct BlackHole { E = 0.995, L = 4.6 }
+    H(r, theta; p_r, p_theta) = (1 - 2/r)*p_r^2/2 + p_theta^2/(2*r^2) - E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2)
+}
+
+/// A prepared system equals itself, so that its copy in lanes is kept from step to step.
+#[test]
+fn a_system_in_lanes_is_kept() {
+    let system = BlackHole::default();
+    let [same, other] = [4.6, 4.7].map(|l| System::prepare::<f64>(&BlackHole { L: l, ..system }));
+    let prepared = System::prepare::<f64>(&system);
+    let equals = |other| BlackHole::<f64>::equals(&prepared, other);
+    assert!(equals(&same) && !equals(&other));
+    let start = State::new([11.0, 1.5], [0.0, 2.06]);
+    let mut run = Integrator::to_tolerance(&system, start, 1e-9).unwrap();
+    run.advance(2).unwrap();
+    assert_eq!(allocations(|| drop(run.advance(4).map(|_| ()))), 0);
+}
+
 /// Stages in lanes, where several steps are made at a time, have the bits of stages one by one, also where a step is
 /// refused; so have parts of a run.
 #[test]

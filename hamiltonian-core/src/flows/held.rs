@@ -25,7 +25,7 @@ pub struct Held<T: Real, const N: usize, const M: usize = 0, D = ()> {
 
 impl<T: Real, const N: usize, const M: usize, D> Held<T, N, M, D> {
     /// Numbers, conditions and data.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     pub fn new(v: [T; N], m: [T::Mask; M], data: D) -> Self {
         Held { v, m, data }
     }
@@ -47,7 +47,7 @@ pub trait LaneValue<T: Real>: Clone + Debug + Send + Sync + 'static {
 
 impl<T: Real, const N: usize, const M: usize, D: LaneValue<T>> LaneValue<T> for Held<T, N, M, D> {
     type Over<U: Real> = Held<U, N, M, D::Over<U>>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>> {
         Held {
             v: numbers::<T, P, _, _>(members, |one| &one.v),
@@ -59,8 +59,17 @@ impl<T: Real, const N: usize, const M: usize, D: LaneValue<T>> LaneValue<T> for 
         self.data.fits(&other.data)
     }
     fn equals(&self, other: &Self) -> bool {
-        self.v == other.v && same_masks::<T, M>(&self.m, &other.m) && self.data.equals(&other.data)
+        same_numbers(&self.v, &other.v)
+            && same_masks::<T, M>(&self.m, &other.m)
+            && self.data.equals(&other.data)
     }
+}
+
+/// Returns true if both have the same numbers. A number that is computed for a branch that is not taken may be NaN.
+fn same_numbers<T: Real, const N: usize>(these: &[T; N], those: &[T; N]) -> bool {
+    let not_a_number = |x: &T| !x.equals(*x);
+    let mut pairs = these.iter().zip(those);
+    pairs.all(|(a, b)| a == b || (not_a_number(a) & not_a_number(b)).all())
 }
 
 /// Returns true if the same conditions hold in both.
@@ -70,7 +79,7 @@ fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N
 }
 
 /// Gathers a part of each member into its lane.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 pub fn gathered<'a, T: Real, P: Pack, W, D: LaneValue<T>>(
     members: &[&'a W],
     of: impl Fn(&'a W) -> &'a D,
@@ -87,7 +96,7 @@ pub fn gathered<'a, T: Real, P: Pack, W, D: LaneValue<T>>(
 macro_rules! same {
     ($ty:ty, $one:ident, $other:ident, $fits:expr) => {
         type Over<U: Real> = $ty;
-        #[inline(always)]
+        #[cfg_attr(not(unoptimised), inline(always))]
         fn gather<P: Pack>(members: &[&Self]) -> Self {
             members[0].clone()
         }
@@ -119,7 +128,7 @@ impl<T: Real, F: Function<N>, const N: usize> LaneValue<T> for Given<F, N> {
 
 impl<V: Vector> LaneValue<V::Scalar> for V {
     type Over<U: Real> = Over<V, U>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather<P: Pack>(members: &[&Self]) -> Over<V, <V::Scalar as Real>::Over<P>> {
         vectors::<V, P, _>(members, |one| one)
     }
@@ -131,7 +140,7 @@ impl<V: Vector> LaneValue<V::Scalar> for V {
 /// Holders of a run share an array of run-time size.
 impl<V: Vector> LaneValue<V::Scalar> for Arc<V> {
     type Over<U: Real> = Arc<Over<V, U>>;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather<P: Pack>(members: &[&Self]) -> Arc<Over<V, <V::Scalar as Real>::Over<P>>> {
         Arc::new(vectors::<V, P, _>(members, |one| &**one))
     }
@@ -147,7 +156,7 @@ impl<T: Real> LaneValue<T> for () {
 /// One value, and the rest.
 impl<T: Real, A: LaneValue<T>, B: LaneValue<T>> LaneValue<T> for (A, B) {
     type Over<U: Real> = (A::Over<U>, B::Over<U>);
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>> {
         let first = gathered::<T, P, _, _>(members, |one| &one.0);
         (first, gathered::<T, P, _, _>(members, |one| &one.1))

@@ -167,6 +167,10 @@ impl<T: Real> Cycle<T> {
         z: &mut Point<Flat<T>>,
         frame: &mut CycleFrame<T>,
     ) {
+        // The loop ends behind a step.
+        if made >= end {
+            return;
+        }
         let frame = frame.of(self);
         let (numbers, masks) = (&mut *frame.numbers, &mut *frame.masks);
         let width = z.q.len();

@@ -151,6 +151,19 @@ pub(crate) fn equation<T: Real>(a: T, b: T, c: T, y: T) -> (T, T, T) {
 /// 1986, doi:10.1007/BF01230852), kept inside the bracket of the solution, and one of Newton's.
 #[inline(always)]
 pub(crate) fn anomaly<T: Real>(a: T, b: T, c: T) -> T {
+    // Of a pack, whose code grows with its registers, a program has one copy.
+    if T::LANES == 1 {
+        return anomaly_here(a, b, c);
+    }
+    T::out_of_line(
+        #[inline(always)]
+        move || anomaly_here(a, b, c),
+    )
+}
+
+/// The same, at its use.
+#[inline(always)]
+fn anomaly_here<T: Real>(a: T, b: T, c: T) -> T {
     let (zero, one) = (T::zero(), T::one());
     let number = |x: f64| T::constant(x, 0.0);
     let nan = number(f64::NAN);

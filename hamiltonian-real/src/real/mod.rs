@@ -479,14 +479,7 @@ pub trait Real:
     /// ```
     #[inline(always)]
     fn universal_anomaly(self, b: Self, c: Self) -> Self {
-        // Of a pack, whose code grows with its registers, a program has one copy.
-        if Self::LANES == 1 {
-            return kepler::anomaly(self, b, c);
-        }
-        Self::out_of_line(
-            #[inline(always)]
-            move || kepler::anomaly(self, b, c),
-        )
+        kepler::anomaly(self, b, c)
     }
     /// The part of the time that is left after whole revolutions, for b = `self` and c of
     /// [`universal_anomaly`](Real::universal_anomaly), in units of the time: 1 if the orbit does not return in it;

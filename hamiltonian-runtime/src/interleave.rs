@@ -35,7 +35,7 @@ fn before(ops: &[Op]) -> Vec<Vec<usize>> {
         });
         let written = written(op, &all);
         let mut before = Vec::new();
-        // What is written counts as read: a change of an element reads it.
+        // A written register counts as read: a change of an element reads it.
         for place in all {
             before.extend(writers.get(&place));
             readers.entry(place).or_default().push(at);

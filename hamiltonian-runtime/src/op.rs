@@ -293,7 +293,7 @@ pub(crate) struct FunctionCode {
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Framed {
     pub(crate) ops: Vec<Op>,
-    /// What its held registers hold.
+    /// The values of its held registers.
     pub(crate) held: Vec<Held>,
     /// The first of them.
     pub(crate) first_held: usize,

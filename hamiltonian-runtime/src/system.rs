@@ -48,7 +48,7 @@ pub struct RuntimeSystem {
     parameters: Arc<Vec<Vec<f64>>>,
     /// The functions with data.
     functions: Arc<Vec<Tabulated>>,
-    /// What it prepares over `f64`, which the members of an ensemble share.
+    /// The system prepared over `f64`, which the members of an ensemble share.
     prepared: Arc<OnceLock<Prepared<f64>>>,
 }
 

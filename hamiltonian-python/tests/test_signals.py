@@ -17,10 +17,13 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 @pytest.fixture
 def ctrl_c():
     """Sends Ctrl-C to this process in 0.3 s."""
+    # A script that runs in the background (`.ci/run &`) hands down that Ctrl-C is ignored, and Python leaves it so.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     yield
     timer.join()
+    signal.signal(signal.SIGINT, before)
 
 
 def test_ensembles_keep_what_is_done(ctrl_c):
@@ -57,6 +60,18 @@ def test_indicators_stop(ctrl_c):
     with pytest.raises(KeyboardInterrupt):
         swarm.lyapunov(1e7, step=0.01)
     assert time.monotonic() - start < 5
+
+
+def test_an_ignored_ctrl_c_is_ignored():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        swarm = SPRING.ensemble([[0.5]], 0.0)
+        # As many steps as take several blocks, between which the interpreter is asked.
+        swarm.advance(10**5, step=0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+        assert swarm.advance(10**5).t[0] == pytest.approx(2000)
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_other_threads_run():

@@ -1,5 +1,7 @@
 //! Runs to a tolerance: what their errors are, that varying steps do not drift, and what is refused.
 
+mod between;
+
 use crate::allocator::allocations;
 use crate::common::is_heavy;
 use hamiltonian::errors::{Error, StartError, StepError};

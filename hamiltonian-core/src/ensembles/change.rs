@@ -65,6 +65,7 @@ impl<S: System, M: Scheme<S>> Standing<'_, S, M> {
             step: self.step,
             clock: self.clock,
             duration: carried.duration(self.clock.interval),
+            last: None,
         }
     }
 }

@@ -484,7 +484,12 @@ where
                 occupants.write_states(row, |state| &mut state.t);
             }
             let durations = rows.next().filter(|_| carries_duration);
-            pass_to_host(scheme, occupants, host, durations);
+            let has_parts = self.map.has_parts();
+            if has_parts {
+                store::<L, T, P, _>(&self.carried, &mut self.rows);
+            }
+            let words = has_parts.then_some(&*self.rows);
+            pass_to_host(scheme, occupants, host, durations, words);
         } else {
             occupants.for_each_due(|_, _| false);
         }

@@ -67,6 +67,32 @@ pub trait Map {
         Cause::Overflow
     }
 
+    /// Returns true if the map makes parts of its steps, see [`part`](Map::part).
+    #[doc(hidden)]
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn has_parts(&self) -> bool {
+        false
+    }
+    /// Returns the size of the step that led to `z`, in units of this map's.
+    #[doc(hidden)]
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn last_step(&self, _z: &Self::Carried) -> ScalarOf<Self> {
+        ScalarOf::<Self>::one()
+    }
+    /// Moves `z`, the value after a step that ended at `t` and had the size `last` in units of this map's, by `by` such
+    /// units, at most back to the beginning of that step.
+    #[doc(hidden)]
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn part(
+        &self,
+        _t: ScalarOf<Self>,
+        _by: ScalarOf<Self>,
+        _last: ScalarOf<Self>,
+        _z: &mut Self::Carried,
+        _work: &mut Self::Work,
+    ) {
+    }
+
     /// Applies [`join`](Map::join), and, if `closes`, [`close`](Map::close) to a copy. Both begin at the same point, so
     /// common expressions are computed once.
     #[doc(hidden)]

@@ -289,7 +289,7 @@ mod threads;
 
 pub(crate) use checks::{check_change, check_scheme, check_start, check_state, check_step};
 pub use estimate::ErrorEstimate;
-pub(crate) use part::{Part, Recipe};
+pub(crate) use part::{LastStep, Part, Recipe};
 pub use until::States;
 
 impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
@@ -303,6 +303,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
 
     /// Parts of a step from the current state.
     pub(crate) fn part(&self) -> Part<'_, T, S, R> {
+        let made = self.steps - self.began;
         Part {
             prepared: &self.prepared,
             recipe: &*self.recipe,
@@ -310,6 +311,29 @@ impl<T: Real, S: System, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             step: self.step,
             clock: self.clock,
             duration: self.carried.duration(self.clock.interval),
+            last: LastStep::of(
+                &self.map,
+                &self.carried,
+                None,
+                self.clock,
+                made,
+                self.state.t,
+            ),
+        }
+    }
+
+    /// Parts of a step from the current state, in the scratch of the run.
+    fn part_in_place(&mut self) -> Part<'_, T, S, R> {
+        let made = self.steps - self.began;
+        let (carried, work) = (&self.carried, Some(&mut self.work));
+        Part {
+            prepared: &self.prepared,
+            recipe: &*self.recipe,
+            state: &self.state,
+            step: self.step,
+            clock: self.clock,
+            duration: carried.duration(self.clock.interval),
+            last: LastStep::of(&self.map, carried, work, self.clock, made, self.state.t),
         }
     }
 

@@ -365,18 +365,25 @@ const ROUNDING: f64 = 1024.0;
 /// drift beside rounding, not even over 10⁷ steps.
 const REST: f64 = 1.0 / 16.0;
 
+/// The same for a step alone, which is half as long as the unknowns allow at most: the state then changes by two ε of what
+/// a step changes it by.
+const ALONE: f64 = 4.0;
+
 /// Iterates `y ← g(y)` of all stages, at most `limit` times, until the change, the largest of all stages,
 /// - is 0,
 /// - or would be lost the next time in the rounding of the unknowns, as foreseen from the last two
 ///   quotients of changes,
 /// - or does not shrink any more and is rounding.
 ///
+/// If `is_own`, the unknowns are a guess for this step, by the matrices of every iteration. The first change then counts,
+/// and one quotient is enough to foresee a change below [`ALONE`] ε: no step follows, so nothing adds up.
+///
 /// A maximum is the same in any order, so that a step ends after as many iterations in every layout. The guess
 /// itself is not computed, so the first change is that of the second iteration; one stage begins with its
 /// unknown of the step before. A lane of `T` that is solved is not touched any more.
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: usize>(
-    limit: u32,
+    (limit, is_own): (u32, bool),
     equations: &mut E,
     unknowns: &mut [E::Unknowns; S],
     points: &mut [E::Unknowns; S],
@@ -391,7 +398,8 @@ pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: 
     // Of numbers that the compiler knows it makes a choice between the entries of two matrices, one by one.
     let matrices = core::hint::black_box([0, 1]);
     while iterations < limit {
-        equations.points(matrices[usize::from(iterations > 0)], unknowns, points);
+        let later = iterations > 0 || is_own;
+        equations.points(matrices[usize::from(later)], unknowns, points);
         let mut changes = [<L::Bundle as Real>::Size::zero(); S];
         for bundle in 0..bundles::<T, L, S>() {
             equations.evaluate(bundle, &mut points[bundle], next);
@@ -400,18 +408,21 @@ pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: 
         }
         iterations += 1;
         if iterations == 1 {
-            let part = T::Size::constant(REST * T::epsilon(), 0.0);
+            let share = if is_own { ALONE } else { REST };
+            let part = T::Size::constant(share * T::epsilon(), 0.0);
             rest = part * largest_size::<T, L, _, S>(unknowns);
             rest = T::Size::select(rest.lt(infinite), rest, zero);
-            if S > 1 {
+            if S > 1 && !is_own {
                 continue;
             }
         }
         let change = largest::<T, L, S>(&changes);
         // Two quotients: one may be small by chance.
-        let foreseen = (change * change).le(rest * before)
-            & (change * before).le(rest * earlier)
-            & earlier.lt(infinite);
+        let is_steady = match is_own {
+            true => before.lt(infinite),
+            false => (change * before).le(rest * earlier) & earlier.lt(infinite),
+        };
+        let foreseen = (change * change).le(rest * before) & is_steady;
         let mut now = change.equals(zero) | foreseen;
         if !(now | change.lt(before)).all() {
             // Strictly smaller than infinity: ∞ ≤ ∞ is no convergence.

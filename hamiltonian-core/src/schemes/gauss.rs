@@ -163,6 +163,7 @@ impl<S: System, const STAGES: usize> Scheme<S> for Gauss<STAGES> {
             modes: None,
             matrices: of_fixed_point(&self.coefficients, step, &weights, [integrals; 2]),
             limits: [self.max_iterations; 2],
+            is_part: false,
         }
     }
     fn start<T: Real>(

@@ -92,6 +92,7 @@ mod bundles;
 pub mod collocation;
 mod gauss;
 mod midpoint;
+mod polynomial;
 mod second_order;
 mod staged;
 mod stages;

@@ -157,6 +157,7 @@ where
             ends: times.map(|time| h - time),
             drifts: [first, h - first],
             limit: self.max_iterations,
+            is_part: false,
         }
     }
     fn start<T: Real>(
@@ -193,6 +194,8 @@ pub struct Eliminated<T: Real, P: Dynamics<T>, const S: usize> {
     /// often halfway between two numbers, but for the rounding of h, and so rounded to one side.
     drifts: [T; 2],
     limit: u32,
+    /// True if the forces are a guess for the step itself, see [`StagedMap::make_part`].
+    is_part: bool,
 }
 
 /// The scratch of [`Eliminated`].
@@ -244,17 +247,18 @@ struct Sums<V> {
 }
 
 /// The tableau of a Nyström method for steps of one size, in bundles of stages.
-struct NystromTableau<'a, R, const S: usize> {
+struct NystromTableau<'a, T, R, const S: usize> {
     times: &'a [R; S],
     weights: &'a [R; S],
     /// In one array, so that they are read where they are: of two, compilers copy one.
     double: &'a [[[R; S]; S]; 2],
     ends: &'a [R; S],
+    drifts: [T; 2],
 }
 
 /// ∂V/∂q at the stages ↦ ∂V/∂q at the points they lead to.
 struct SecondOrder<'a, T: Real, L: StageLayout<T>, D, V: Vector, X, const S: usize> {
-    tableau: &'a NystromTableau<'a, L::Bundle, S>,
+    tableau: &'a NystromTableau<'a, T, L::Bundle, S>,
     dynamics: &'a D,
     t: L::Bundle,
     h: T,
@@ -306,7 +310,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     #[cfg_attr(not(unoptimised), inline(always))]
     fn fixed_point<L, D>(
         &self,
-        tableau: &NystromTableau<'_, L::Bundle, S>,
+        tableau: &NystromTableau<'_, T, L::Bundle, S>,
         dynamics: &D,
         t: T,
         point: &Point<P::Vector>,
@@ -344,14 +348,20 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
             free: &free.0,
             moved,
         };
-        solve(self.limit, &mut equations, gradients, &mut points.0, next)
+        solve(
+            (self.limit, self.is_part),
+            &mut equations,
+            gradients,
+            &mut points.0,
+            next,
+        )
     }
 
     /// Moves the point and its low words.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn finish<L, X>(
         &self,
-        tableau: &NystromTableau<'_, L::Bundle, S>,
+        tableau: &NystromTableau<'_, T, L::Bundle, S>,
         t: T,
         gradients: &[X; S],
         point: &mut Point<P::Vector>,
@@ -373,7 +383,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         self.dynamics
             .gradient_p(t, &point.q, &sums.impulse, &mut sums.moved);
         low.q.accumulate(T::one(), &sums.moved);
-        for duration in self.drifts {
+        for duration in tableau.drifts {
             low.q.accumulate(duration, &sums.velocity);
         }
         carry(point, low);
@@ -401,12 +411,13 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
         self.limit = self.limit.min(limit);
     }
 
-    fn tableau(&self) -> NystromTableau<'_, T, S> {
+    fn tableau(&self) -> NystromTableau<'_, T, T, S> {
         NystromTableau {
             times: &self.times,
             weights: &self.weights,
             double: &self.double,
             ends: &self.ends,
+            drifts: self.drifts,
         }
     }
 
@@ -434,6 +445,43 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
 }
 
 impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, S> {
+    type Unknowns = P::Vector;
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn unknowns(z: &mut CarriesForces<P::Vector, S>) -> &mut [P::Vector; S] {
+        &mut z.y.x.0
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn multiples(&self) -> (T, &[T; S], &[T; S]) {
+        (self.h, &self.times, &self.weights)
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn part_of_size(&self, by: T) -> Self {
+        let mut part = self.clone();
+        self.resize(by, &mut part);
+        part.is_part = true;
+        part
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn add_unknowns(
+        &self,
+        by: T,
+        t: T,
+        z: &mut CarriesForces<P::Vector, S>,
+        work: &mut EliminatedWork<P::Vector, S>,
+    ) {
+        let (Pair { x: point, y }, sums) = (z, &mut work.sums);
+        self.dynamics
+            .gradient_p(t, &point.q, &point.p, &mut sums.velocity);
+        let [weights, ends] = [self.weights, self.ends].map(|all| all.map(|x| x * by));
+        let tableau = NystromTableau {
+            weights: &weights,
+            ends: &ends,
+            drifts: self.drifts.map(|duration| duration * by),
+            ..self.tableau()
+        };
+        self.finish::<Apart, _>(&tableau, t, &y.x.0, point, &mut y.y, sums);
+    }
+
     #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
         &self,
@@ -525,6 +573,17 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
         work: &mut Self::Work,
     ) {
         self.steps(clock, made, n, z, work);
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn has_parts(&self) -> bool {
+        true
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn part(&self, t: T, by: T, last: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        T::out_of_line(
+            #[cfg_attr(not(unoptimised), inline(always))]
+            || self.make_part(t, by, last, z, work),
+        );
     }
     #[cold]
     fn explain(&self, t: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {

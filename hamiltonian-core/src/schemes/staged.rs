@@ -3,10 +3,11 @@
 //! Input: a map ([`StagedMap`]). Output: its steps. Invariant: the bits are those of the steps stage by stage.
 
 use super::bundles::{Abreast, LEAST, StageLayout, Width};
+use super::polynomial::interpolate;
 use crate::flows::map::{Cause, Clock, Map, ScalarOf};
 use crate::systems::state::{Carried, Point};
 use crate::systems::vector::Vector;
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Mask, Real};
 
 /// The vectors of the point that a map moves.
 type SeenBy<M> = <<M as Map>::Carried as Carried>::Vector;
@@ -53,7 +54,56 @@ impl<T: Real, V: Vector<Scalar = T>, const S: usize> Inspect<T, V, S> for Uninsp
 }
 
 /// A map whose steps are computed stage by stage, or with several stages in the lanes of a pack.
-pub(super) trait StagedMap<const S: usize>: Map {
+pub(super) trait StagedMap<const S: usize>: Map + Sized {
+    /// What a step is solved for at each stage.
+    type Unknowns: Vector<Scalar = ScalarOf<Self>>;
+    /// The unknowns of the last step.
+    fn unknowns(z: &mut Self::Carried) -> &mut [Self::Unknowns; S];
+    /// h, cᵢh, and bᵢh but for the sign of all.
+    fn multiples(&self) -> (ScalarOf<Self>, &[ScalarOf<Self>; S], &[ScalarOf<Self>; S]);
+    /// The map of a step of `by` times the size, whose unknowns are a guess for this step in place of those of the one
+    /// before.
+    fn part_of_size(&self, by: ScalarOf<Self>) -> Self;
+    /// Moves the point by the unknowns as they are, by a step of `by` times the size.
+    fn add_unknowns(
+        &self,
+        by: ScalarOf<Self>,
+        t: ScalarOf<Self>,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    );
+
+    /// [`Map::part`]: a step from the nearer end of the last one, whose iteration begins at the collocation polynomial of
+    /// the last step.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn make_part(
+        &self,
+        t: ScalarOf<Self>,
+        by: ScalarOf<Self>,
+        last: ScalarOf<Self>,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) {
+        let [zero, one] = [ScalarOf::<Self>::zero(), ScalarOf::<Self>::one()];
+        let half = ScalarOf::<Self>::constant(0.5, 0.0);
+        let (h, times, weights) = self.multiples();
+        let is_early = by.lt(-(last * half));
+        if is_early.any() {
+            // The step back, which has the same unknowns in the other order.
+            let mut begin = z.clone();
+            Self::unknowns(&mut begin).reverse();
+            self.add_unknowns(-last, t, &mut begin, work);
+            Self::unknowns(&mut begin).reverse();
+            z.copy_where(is_early, &begin);
+        }
+        let from = ScalarOf::<Self>::select(is_early, t - last * h, t);
+        let by = ScalarOf::<Self>::select(is_early, by + last, by);
+        let first = ScalarOf::<Self>::select(is_early, zero, one);
+        interpolate((h, times, weights), (first, by / last), Self::unknowns(z));
+        let part = self.part_of_size(by);
+        part.steps(Clock::between(from, from + by * h), 0, 1, z, work);
+    }
+
     /// True if the stages may lie beside each other.
     fn has_bundles(&self) -> bool {
         true

@@ -12,24 +12,24 @@
 //! to such polynomials, and dq/dt = ∂H/∂p at the nodes is left to Newton's method.
 
 mod guess;
+mod map;
 mod newton;
 mod slopes;
 
-use super::bundles::{Abreast, Apart, LEAST, Width};
+use super::bundles::Apart;
 use super::compensated::carry;
-use super::staged::{Inspect, StagedMap, Uninspected};
 use crate::flows::iterate::{Contraction, Outcome, iterate};
-use crate::flows::map::{Cause, Clock, Map};
-use crate::systems::flow::{Scratch, VectorField};
+use crate::flows::map::Cause;
+use crate::systems::flow::VectorField;
 use crate::systems::state::{Pair, Point, State};
 use crate::systems::system::Dynamics;
-use crate::systems::system::gather::{Kept, in_lanes};
+use crate::systems::system::gather::Kept;
 use crate::systems::vector::{Over, Shape, Vector};
 use core::ops::Range;
 pub(super) use guess::{extrapolation, of_fixed_point};
 use hamiltonian_lanes::{Mask, Real};
 use newton::{Entries, LinearSystem};
-use slopes::{StepScratch, StepsBeside, Tableau, finish, fixed_point, steps};
+use slopes::{Tableau, finish};
 
 /// One vector a stage, as one vector.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,6 +125,8 @@ pub struct Collocated<T: Real, P: Dynamics<T>, const S: usize> {
     pub(super) matrices: [[[[T; S]; S]; 2]; 2],
     /// The most iterations of the fixed point, and of Newton's method.
     pub(super) limits: [u32; 2],
+    /// True if the slopes are a guess for the step itself, see [`StagedMap::make_part`](super::staged::StagedMap::make_part).
+    pub(super) is_part: bool,
 }
 
 /// The scratch of [`Collocated`].
@@ -365,6 +367,12 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         outcome
     }
 
+    /// The most iterations of the fixed point, and whether the first has the guess for the step itself.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn fixed_point_limit(&self) -> (u32, bool) {
+        (self.limits[0], self.is_part)
+    }
+
     fn tableau(&self) -> Tableau<'_, T, T, S> {
         Tableau {
             h: self.h,
@@ -447,145 +455,5 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         // The result of a lane does not depend on other lanes: those that the fixed point solved keep its values.
         slopes.copy_where(!fixed, &work.guess);
         outcome.solved = outcome.solved | fixed;
-    }
-}
-
-impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, S> {
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn has_bundles(&self) -> bool {
-        self.modes.is_none()
-    }
-
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
-        &self,
-        (clock, made, n): (Clock<T>, u64, u64),
-        z: &mut Carries<P::Vector, S>,
-        work: &mut CollocatedWork<P::Vector, S>,
-        inspection: &mut W,
-    ) -> Option<u64>
-    where
-        Abreast<WIDTH>: Width,
-    {
-        let steps = StepsBeside::<_, _, _, S, WIDTH> {
-            map: self,
-            clock,
-            made,
-            n,
-            z,
-            inspection,
-        };
-        in_lanes(&self.dynamics, &mut work.kept, steps)
-    }
-
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn complete_unsolved(
-        &self,
-        t: T,
-        z: &mut Carries<P::Vector, S>,
-        work: &mut CollocatedWork<P::Vector, S>,
-    ) {
-        self.complete(t, Outcome::unsolved(), z, work);
-    }
-
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn solve(
-        &self,
-        t: T,
-        z: &mut Carries<P::Vector, S>,
-        work: &mut CollocatedWork<P::Vector, S>,
-    ) -> Cause {
-        let Pair { x: point, y } = &mut *z;
-        let unknowns = &mut y.x;
-        let outcome = if self.modes.is_some() {
-            self.solve_between(t, point, None, unknowns, work, |_, _| {})
-        } else {
-            fixed_point::<T, Apart, _, _, _, S>(
-                self.limits[0],
-                &self.tableau(),
-                &self.field,
-                t,
-                point,
-                &mut unknowns.0,
-                &mut work.next.0,
-                &mut work.stage,
-            )
-        };
-        self.complete(t, outcome, z, work)
-    }
-
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn steps_apart(
-        &self,
-        clock: Clock<T>,
-        made: u64,
-        n: u64,
-        z: &mut Carries<P::Vector, S>,
-        work: &mut CollocatedWork<P::Vector, S>,
-    ) -> u64 {
-        if S >= LEAST || self.modes.is_some() {
-            self.solve(clock.at(made), z, work);
-            return 1;
-        }
-        // Few stages may stay in registers, if they are variables of this loop alone.
-        let mut scratch = StepScratch {
-            slopes: z.y.x.take(),
-            before: work.guess.take(),
-            points: work.next.take(),
-            next: work.stage.take(),
-        };
-        let (mut point, mut low) = (z.x.take(), z.y.y.take());
-        let (solved, outcome) = steps::<T, Apart, _, _, _, _, S>(
-            self.limits[0],
-            &self.tableau(),
-            &self.field,
-            (clock, made, n),
-            &mut scratch,
-            (&mut point, &mut low),
-            &mut Uninspected,
-        );
-        (z.x, z.y.y) = (point, low);
-        z.y.x = scratch.slopes;
-        (work.next, work.stage, work.guess) = (scratch.points, scratch.next, scratch.before);
-        if solved < n {
-            self.complete(clock.at(made + solved), outcome, z, work);
-            return solved + 1;
-        }
-        n
-    }
-}
-
-impl<V: Vector, const S: usize> Scratch<Carries<V, S>> for CollocatedWork<V, S> {
-    fn like(like: &Carries<V, S>) -> Self {
-        CollocatedWork::new(&like.x, &like.y.x)
-    }
-}
-
-impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
-    type Carried = Carries<P::Vector, S>;
-    type Work = CollocatedWork<P::Vector, S>;
-
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        T::out_of_line(
-            #[cfg_attr(not(unoptimised), inline(always))]
-            || self.steps(Clock::between(t, end), 0, 1, z, work),
-        );
-    }
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn run(
-        &self,
-        clock: Clock<T>,
-        made: u64,
-        n: u64,
-        z: &mut Self::Carried,
-        work: &mut Self::Work,
-    ) {
-        self.steps(clock, made, n, z, work);
-    }
-
-    #[cold]
-    fn explain(&self, t: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
-        self.solve(t, z, work)
     }
 }

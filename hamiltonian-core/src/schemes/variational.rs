@@ -343,6 +343,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
             modes: Some(Modes { values, velocities }),
             matrices: [[zero; 2]; 2],
             limits: [self.max_iterations; 2],
+            is_part: false,
         }
     }
 

@@ -3,20 +3,21 @@
 //! Input: numbers of the lanes. Output: states passed to observers, and causes of failures. Invariant: nothing here
 //! depends on the level.
 
-use crate::ensembles::host::{Host, RunAtStop};
+use crate::ensembles::host::{Host, MemberRun, RunAtStop};
 use crate::ensembles::occupants::Occupants;
 use crate::errors::Error;
 use crate::flows::map::{Clock, Map, Step};
 use crate::observers::observe::View;
 use crate::runs::failed::Failed;
-use crate::runs::integrator::{Part, Recipe};
-use crate::schemes::scheme::Scheme;
+use crate::runs::integrator::{LastStep, Part, Recipe};
+use crate::schemes::scheme::{CarriedBy, Scheme};
 use crate::systems::domain::{self, write_state};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, State};
 use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::vec::Vec;
+use core::cell::RefCell;
 use hamiltonian_lanes::Real;
 
 /// Passes the states of members at their stops to the host.
@@ -26,10 +27,12 @@ pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
     occupants: &mut Occupants<T, S>,
     host: &mut dyn Host<T, S>,
     durations: Option<&[T]>,
+    words: Option<&[T]>,
 ) {
     let recipe: &dyn Recipe<T, S, M::Map<T>> = scheme;
     let (mut is_any_changed, mut is_any_moved) = (false, false);
     occupants.for_each_due(|lane, run| {
+        let carried = carried_after::<T, S, M>(scheme, run, run.made, lane, words);
         let part = Part {
             prepared: &run.prepared,
             recipe,
@@ -37,6 +40,7 @@ pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
             step: run.step,
             clock: run.clock,
             duration: durations.map(|durations| durations[lane]),
+            last: last_step(carried.as_ref()),
         };
         let view = View {
             steps: run.made,
@@ -80,6 +84,35 @@ pub(super) struct PassedStates<'a, T> {
     /// The number of steps from these states to the last of three.
     pub(super) back: u64,
     pub(super) signs_kept: bool,
+    /// The carried values after the step, in rows, if the map makes parts of its steps.
+    pub(super) words: Option<&'a [T]>,
+}
+
+/// The carried value of a member after a step, from rows of all lanes; `None` if there are no rows, or the scheme started
+/// there.
+fn carried_after<T: Real, S: System, M: Scheme<S>>(
+    scheme: &M,
+    run: &MemberRun<T, S>,
+    step: u64,
+    lane: usize,
+    words: Option<&[T]>,
+) -> Option<CarriedBy<M, S, T>> {
+    let words = words.filter(|_| step > run.began)?;
+    let lanes = words.len() / run.words.len();
+    let mut carried = scheme.start_alone(&run.prepared, &run.state, run.step);
+    for (c, row) in words.chunks_exact(lanes).enumerate() {
+        *carried.component_mut(c) = row[lane];
+    }
+    Some(carried)
+}
+
+/// The last step of a member whose map makes parts of its steps.
+fn last_step<R: Map>(carried: Option<&R::Carried>) -> Option<LastStep<'_, R>> {
+    carried.map(|carried| LastStep {
+        map: None,
+        carried,
+        work: RefCell::new(None),
+    })
 }
 
 impl<T: Real> PassedStates<'_, T> {
@@ -102,6 +135,7 @@ impl<T: Real> PassedStates<'_, T> {
             let mut next = || rows.next().map_or(T::zero(), |row| row[lane]);
             write_state(&mut run.state, core::iter::from_fn(|| Some(next())));
             run.received = step;
+            let carried = carried_after::<T, S, M>(scheme, run, step, lane, self.words);
             let part = Part {
                 prepared: &run.prepared,
                 recipe,
@@ -109,6 +143,7 @@ impl<T: Real> PassedStates<'_, T> {
                 step: run.step,
                 clock: run.clock,
                 duration: self.carries_duration.then(next),
+                last: last_step(carried.as_ref()),
             };
             let view = View {
                 steps: step,

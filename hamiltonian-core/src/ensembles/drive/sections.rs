@@ -9,6 +9,7 @@ use super::{Lanes, number_of_each};
 use crate::ensembles::close::Close;
 use crate::ensembles::host::{Host, MemberRun};
 use crate::ensembles::occupants::Occupants;
+use crate::flows::map::Map;
 use crate::observers::observe::{LaneSection, MemberSection};
 use crate::schemes::scheme::Scheme;
 use crate::systems::system::System;
@@ -145,6 +146,10 @@ where
                 shown: &mut self.passed,
                 rows: &mut self.passed_rows,
             });
+            let has_parts = self.map.has_parts();
+            if has_parts {
+                store::<L, T, P, _>(carried, &mut self.rows);
+            }
             let passed = PassedStates {
                 rows: &self.passed_rows,
                 carries_duration,
@@ -152,6 +157,7 @@ where
                 ahead,
                 back,
                 signs_kept: signs_kept || back > 0,
+                words: has_parts.then_some(&*self.rows),
             };
             passed.pass(scheme, occupants, host);
         }

@@ -4,7 +4,7 @@
 //! Invariant: a state that is not finite is never returned; a failed run stands at the last good
 //! state.
 
-use super::part::Part;
+use super::part::{LastStep, Part};
 use super::{Integrator, MapOf, numbers};
 use crate::errors::Error;
 use crate::flows::map::{Clock, Map, ScalarOf};
@@ -60,6 +60,14 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
                     step: self.step,
                     clock: self.clock,
                     duration: self.carried.duration(self.clock.interval),
+                    last: LastStep::of(
+                        &self.map,
+                        &self.carried,
+                        Some(&mut self.work),
+                        self.clock,
+                        due - self.began,
+                        self.state.t,
+                    ),
                 };
                 let view = View {
                     steps: self.steps,

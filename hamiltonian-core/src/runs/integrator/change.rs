@@ -4,7 +4,7 @@
 //! steps, the observers and the times of steps stay; a change that is refused leaves the run as it was.
 
 use super::checks::{check_change, check_values, onto_shell};
-use super::part::Part;
+use super::part::{LastStep, Part};
 use super::{Integrator, MapOf, check_step, duration};
 use crate::errors::Error;
 use crate::flows::map::{Clock, Step};
@@ -162,6 +162,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             step: self.step,
             clock,
             duration: carried.duration(clock.interval),
+            last: None,
         };
         let before = Part {
             prepared: &self.prepared,
@@ -170,6 +171,14 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             step: self.step,
             clock: self.clock,
             duration: self.carried.duration(self.clock.interval),
+            last: LastStep::of(
+                &self.map,
+                &self.carried,
+                None,
+                self.clock,
+                made,
+                self.state.t,
+            ),
         };
         let [from, to] = [&before, &after].map(|part| part.view(self.steps));
         self.observer.change(&from, &to);

@@ -5,17 +5,18 @@
 
 use super::{MapOf, check_scheme, numbers};
 use crate::errors::{Error, StepError, TimeError};
-use crate::flows::map::{Clock, Map, Step};
+use crate::flows::map::{Clock, Map, ScalarOf, Step};
 use crate::observers::observe::{Between, View};
 use crate::runs::failed::Failed;
 use crate::schemes::scheme::Scheme;
 use crate::systems::domain;
 use crate::systems::flow::Scratch;
-use crate::systems::state::{Carried, State};
+use crate::systems::state::{Carried, Point, State};
 use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::format;
 use alloc::string::String;
+use core::cell::RefCell;
 use hamiltonian_lanes::{Mask, Real};
 
 /// The scheme of a run without its type, which makes maps. (The type of a run contains only the
@@ -65,7 +66,7 @@ impl<T: Real, S: System, M: Scheme<S>> Recipe<T, S, M::Map<T>> for M {
 }
 
 /// Ingredients of a part of a step.
-pub(crate) struct Part<'a, T: Real, S: System, R> {
+pub(crate) struct Part<'a, T: Real, S: System, R: Map> {
     pub(crate) prepared: &'a S::Prepared<T>,
     pub(crate) recipe: &'a dyn Recipe<T, S, R>,
     pub(crate) state: &'a State<VectorOf<S, T>>,
@@ -73,6 +74,36 @@ pub(crate) struct Part<'a, T: Real, S: System, R> {
     pub(crate) clock: Clock<T>,
     /// The approximate length of the next step, if it is not the interval of the clock.
     pub(crate) duration: Option<T>,
+    /// The last step, if the map makes parts of its steps and this is the state after it.
+    pub(crate) last: Option<LastStep<'a, R>>,
+}
+
+/// The last step of a run.
+pub(crate) struct LastStep<'a, R: Map> {
+    /// The map of its steps; it is made again if it is `None`.
+    pub(crate) map: Option<&'a R>,
+    /// The carried value after it.
+    pub(crate) carried: &'a R::Carried,
+    /// The scratch of the run; a new one is made if it is `None`.
+    pub(crate) work: RefCell<Option<&'a mut R::Work>>,
+}
+
+impl<'a, R: Map> LastStep<'a, R> {
+    /// The last of `made` steps of the clock, if there is one, if its map makes parts of it, and if the run stands at its
+    /// end `t`: an observer may have ended it before.
+    pub(crate) fn of(
+        map: &'a R,
+        carried: &'a R::Carried,
+        work: Option<&'a mut R::Work>,
+        clock: Clock<ScalarOf<R>>,
+        made: u64,
+        t: ScalarOf<R>,
+    ) -> Option<Self> {
+        let stands = made > 0 && carried.time(clock.at(made)).equals(t).all();
+        let map = Some(map).filter(|map| stands && map.has_parts());
+        let work = RefCell::new(work);
+        map.is_some().then_some(LastStep { map, carried, work })
+    }
 }
 
 impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T, S, R> {
@@ -94,11 +125,24 @@ impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T,
             }
             .into());
         }
-        self.at(self.state, t, (t - now) / self.clock.interval)
+        let by = (t - now) / self.clock.interval;
+        match self.near_last_step(t, by) {
+            Some(state) => Ok(state),
+            None => self.at(self.state, t, by),
+        }
     }
 
     fn part(&self, from: &State<VectorOf<S, T>>, time: T) -> Result<State<VectorOf<S, T>>, Error> {
-        self.at(from, from.t + time, time / self.clock.interval)
+        let interval = self.clock.interval;
+        let t = from.t + time;
+        let since = match from.t.equals(self.state.t).all() {
+            true => T::zero(),
+            false => self.between(from.t, self.state.t),
+        };
+        match self.near_last_step(t, (time - since) / interval) {
+            Some(state) if !time.equals(T::zero()).all() => Ok(state),
+            _ => self.at(from, t, time / interval),
+        }
     }
 
     fn between(&self, from: T, to: T) -> T {
@@ -131,6 +175,45 @@ impl<T: Real, S: System, R: MapOf<T, S>> Part<'_, T, S, R> {
     /// The rounding of two times in units of the interval: they are sums and products.
     fn rounding(&self, a: T, b: T) -> f64 {
         4.0 * T::epsilon() * (a.magnitude() + b.magnitude()) / self.clock.interval.magnitude()
+    }
+
+    /// The state at `t`, `by` step sizes from the current one, by a part of the last step; `None` if there is no such part,
+    /// or if it fails.
+    fn near_last_step(&self, t: T, by: T) -> Option<State<VectorOf<S, T>>> {
+        /// The farthest time ahead, in units of the last step: the guess is extrapolated to there.
+        const FARTHEST: f64 = 1.5;
+        /// How far the beginning of the step may be passed: a time may be rounded.
+        const BEFORE: f64 = -1.001;
+        let last = self.last.as_ref()?;
+        let made;
+        let map = match last.map {
+            Some(map) => map,
+            None => {
+                made = self.recipe.prepare(self.prepared, Step::of(self.step));
+                &made
+            }
+        };
+        let size = map.last_step(last.carried);
+        let at = by / size;
+        let is_near = T::constant(BEFORE, 0.0).le(at) & at.le(T::constant(FARTHEST, 0.0));
+        if !is_near.all() || by.equals(T::zero()).all() {
+            return None;
+        }
+        let mut carried = last.carried.clone();
+        let mut fresh;
+        let mut of_run = last.work.borrow_mut();
+        let work = match &mut *of_run {
+            Some(work) => &mut **work,
+            None => {
+                fresh = Scratch::like(&carried);
+                &mut fresh
+            }
+        };
+        map.part(self.state.t, by, size, &mut carried, work);
+        let Point { q, p } = carried.point().clone();
+        let state = State { t, q, p };
+        let is_made = carried.is_finite() && domain::is_inside::<T, S>(self.prepared, &state);
+        is_made.then_some(state)
     }
 
     /// The state at `t` by a step of a copy that starts at `from`: by that `part` of the step, or, for a

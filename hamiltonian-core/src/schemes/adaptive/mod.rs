@@ -544,6 +544,19 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
         self.count(1, z, work);
     }
 
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn has_parts(&self) -> bool {
+        self.map.has_parts()
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn last_step(&self, z: &Self::Carried) -> T {
+        fixed(z.numbers[4].recip())
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn part(&self, t: T, by: T, last: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.map.part(t, by, last, &mut z.of, &mut work.inner);
+    }
+
     /// A step whose end is not finite was refused at every size that moves the time; a single step was that of the scheme.
     #[cold]
     fn explain(&self, _: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {

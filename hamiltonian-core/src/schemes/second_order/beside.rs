@@ -89,6 +89,7 @@ where
             weights: &weights,
             double,
             ends: &ends,
+            drifts: map.drifts,
         };
         // Moved out, they are variables of this loop alone and may stay in registers.
         let (mut of, mut scratch) = (gradients.take(), bundles.take());

@@ -6,6 +6,7 @@
 use crate::flows::map::Step;
 use crate::schemes::bundles::of_the_guess;
 use crate::schemes::collocation::{Collocation, constant};
+use crate::schemes::polynomial::TERMS;
 use hamiltonian_lanes::{DoubleDouble, Real};
 
 /// The matrix that takes the slopes at the stages of the step before to guesses for this one's: the
@@ -16,7 +17,6 @@ pub(in crate::schemes) fn extrapolation<T: Real, const S: usize>(
     method: &Collocation<S>,
     step: Step<T>,
 ) -> [[T; S]; S] {
-    const TERMS: usize = 8;
     const FAR: f64 = 1.5;
     let ratio = step.h / step.before;
     let terms = if ratio.magnitude() <= FAR {

@@ -96,7 +96,7 @@ where
 #[allow(clippy::too_many_arguments)]
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
-    limit: u32,
+    limit: (u32, bool),
     tableau: &Tableau<'_, T, L::Bundle, S>,
     field: &F,
     t: T,
@@ -159,7 +159,7 @@ pub(super) struct StepScratch<X: Vector, const S: usize> {
 /// registers.
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn steps<T, L, F, V, X, W, const S: usize>(
-    limit: u32,
+    limit: (u32, bool),
     tableau: &Tableau<'_, T, L::Bundle, S>,
     field: &F,
     (clock, made, n): (Clock<T>, u64, u64),
@@ -291,7 +291,7 @@ where
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut here.slopes.0);
         let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, _, S>(
-            map.limits[0],
+            map.fixed_point_limit(),
             &tableau,
             &field,
             (clock, made, n),

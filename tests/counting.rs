@@ -96,8 +96,8 @@ fn lattice<const N: usize>() {
     // The gradient is the field with other signs: q − q, c·exp to one side and from the other; ∂H/∂p is c·p.
     assert_eq!(work.gradient, per_site(4, 2));
     assert_eq!(work.energy_and_gradient, with_tree(per_site(5, 2)));
-    // Besides v − v, and exp·(v − v).
-    assert_eq!(work.hessian, per_site(4, 1));
+    // It is the gradient of dual numbers.
+    assert_eq!((work.hessian.exponentials, work.hessian.divisions), (N, 0));
     // q += c·p; c·exp is added twice.
     assert_eq!(work.flow, per_site(4, 2));
 }
@@ -124,7 +124,7 @@ fn one_root_and_one_division_for_each_pair() {
         let linear = |pair: usize, body: usize, once: usize| pair * pairs + body * n + once;
         let prepare = Counts {
             divisions: n,
-            ..counts(0, 1)
+            ..Counts::default()
         };
         assert_eq!(work.prepare, prepare);
         let expected = |additions, multiplications| Counts {
@@ -138,8 +138,11 @@ fn one_root_and_one_division_for_each_pair() {
         assert_eq!(work.gradient, gradient);
         let with_energy = expected(linear(12, 7, 1), linear(10, 9, 2));
         assert_eq!(work.energy_and_gradient, with_energy);
-        for work in [work.energy, work.hessian, work.flow] {
+        for work in [work.energy, work.flow] {
             assert_eq!((work.roots, work.divisions), (pairs, pairs));
         }
+        // Over dual numbers, the derivatives of a root and of a reciprocal are quotients.
+        let hessian = work.hessian;
+        assert_eq!((hessian.roots, hessian.divisions), (pairs, 3 * pairs));
     }
 }

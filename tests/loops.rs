@@ -154,9 +154,19 @@ where
         "gradient, n = {n}"
     );
     prepared.hessian_vector(0.0, &q, &p, &vq, &vp, &mut a, &mut b);
+    // Emitted code has the derivatives of the gradient in place of this function.
     let expected = outcome(Purpose::HessianVector);
-    assert_eq!(column(&expected, Side::Q), a.as_slice(), "Hessian, n = {n}");
-    assert_eq!(column(&expected, Side::P), b.as_slice(), "Hessian, n = {n}");
+    for (side, found) in [(Side::Q, &a), (Side::P, &b)] {
+        let expected = column(&expected, side);
+        let size = expected.iter().fold(0.0, |most, x| x.abs().max(most));
+        for (expected, found) in expected.iter().zip(found) {
+            let error = (expected - found).abs();
+            assert!(
+                error <= 32.0 * f64::EPSILON * size,
+                "Hessian, n = {n}: {error:e} of {size}"
+            );
+        }
+    }
     (a, b) = (system.zeros(), system.zeros());
     prepared.field(1.0).add(0.0, &q, &p, &mut a, &mut b);
     let expected = outcome(Purpose::VectorField);

@@ -47,6 +47,16 @@ hamiltonian! {
     monitor pull = bracket(px, H)
 }
 hamiltonian! {
+    /// Its second derivatives have third ones of a Rust function.
+    pub struct SlopeByRust {}
+    fn V(x, y) = egg_box;
+    H(x, y; px, py) = (px^2 + py^2)/2 + bracket(V(x, y), px)
+}
+hamiltonian! {
+    pub struct SlopeInLanguage {}
+    H(x, y; px, py) = (px^2 + py^2)/2 - sin(x)*sin(y) + 2*x*y
+}
+hamiltonian! {
     /// A particle in a potential that is given when the program runs.
     pub struct Well {
         /// The potential.
@@ -100,6 +110,8 @@ fn derivatives_of_rust_functions_are_those_of_the_language() {
     agree(&ours, &derivatives!(InLanguage::default(), q, p), 1e-14);
     let ours = derivatives!(TwoByRust {}, q, p);
     agree(&ours, &derivatives!(TwoInLanguage {}, q, p), 1e-14);
+    let ours = derivatives!(SlopeByRust {}, q, p);
+    agree(&ours, &derivatives!(SlopeInLanguage {}, q, p), 1e-14);
     let start = State::new(q, p);
     let pull = TwoInLanguage {}.pull(&start);
     assert!((TwoByRust {}.pull(&start) - pull).abs() < 1e-14);

@@ -35,12 +35,14 @@ pub use crate::errors::Error;
 pub use crate::flows::emitted::{
     Adds, Damped, Drift, Emitted, FieldBody, FieldOf, FlowBody, Halves, Kick, Linear, Matrices,
     Moves, Numbered, OfGradient, Origin, Push, Pushed, Rates, SharedCode, Shift, Shifts, Stepped,
-    Whole, WithData, add_field, gradient_by_field, slopes_by_kick, velocities_by_drift,
+    Whole, WithData, add_field, gradient_by_field, hessian_by_gradient, slopes_by_kick,
+    velocities_by_drift,
 };
 pub use crate::flows::exponential::Exponential;
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
 /// For maps of other crates.
 pub use crate::flows::map::Times;
+pub use crate::flows::narrow::{Varied, fixed};
 pub use crate::flows::push::{Coupled, SubStep};
 pub use crate::loops::calls::*;
 pub use crate::loops::pairs::{TILED, TileRow, Triangle, pairs};
@@ -320,7 +322,7 @@ macro_rules! __prepared {
 
 /// The field of a kind, and the methods of a prepared system whose data begins with how it is computed, in lanes where
 /// there are some. The derivative by time of an H that does not depend on it is 0. A gradient that is not written out
-/// comes from the kick and the drift, or from the field.
+/// comes from the kick and the drift, or from the field, and the Hessian from that gradient over dual numbers.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __computed_as_chosen {
@@ -359,6 +361,22 @@ macro_rules! __computed_as_chosen {
         #[inline(always)]
         fn gradient_p(&self, _t: $scalar, _q: &Self::Vector, _p: &Self::Vector, _out: &mut Self::Vector) {
             self.gradient(_t, _q, _p, &mut $crate::private::Vector::zeros_like(_q), _out);
+        }
+    };
+    (@hessian_by_gradient $scalar:ident) => {
+        #[inline(always)]
+        fn hessian_vector(
+            &self,
+            _t: $scalar,
+            _q: &Self::Vector,
+            _p: &Self::Vector,
+            _vq: &Self::Vector,
+            _vp: &Self::Vector,
+            _oq: &mut Self::Vector,
+            _op: &mut Self::Vector,
+        ) {
+            let _lifted = __Prepared($crate::private::LaneValue::<$scalar>::lifted(&self.0));
+            $crate::private::hessian_by_gradient(&_lifted, _t, [_q, _p], [_vq, _vp], [_oq, _op]);
         }
     };
     ($scalar:ident of $system:ty, $field:ty $(, $more:ident)*) => {

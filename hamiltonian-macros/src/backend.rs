@@ -70,7 +70,6 @@ fn emitted(frame: &Frame, system: &System, piece: Option<&Ident>) -> TokenStream
         declared: analysis.declared.as_ref().filter(|_| is_whole),
         model: &system.model,
         program: &system.program,
-        third: system.third.as_deref(),
         gradient: system.gradient,
         field: system.field,
         structure: &system.structure,

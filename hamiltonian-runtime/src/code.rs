@@ -97,14 +97,8 @@ impl Code {
             model,
             program,
             structure,
-            third,
             ..
         } = system;
-        if let Some(function) = third {
-            return Err(format!(
-                "second derivatives of H, which have third ones of `{function}`"
-            ));
-        }
         let (coordinates, len) = coordinates(&model.groups, sizes);
         let places = places(system, len, sizes);
         let setting = Setting {

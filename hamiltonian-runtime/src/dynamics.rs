@@ -8,6 +8,7 @@ use crate::machine::Arrays;
 use crate::prepared::{Flat, Prepared, at};
 use crate::system::RuntimeSystem;
 use hamiltonian_core::Vector;
+use hamiltonian_core::private::hessian_by_gradient;
 use hamiltonian_core::schemes::author::{
     Arithmetic, Description, Dynamics, InPack, Kept, VectorField, gather,
 };
@@ -152,7 +153,9 @@ impl<T: Real> Dynamics<T> for Prepared<T> {
             into_p: out_p.as_mut_slice(),
             ..at(t, q, p)
         };
-        self.call(Purpose::HessianVector, &[], arrays);
+        if !self.call(Purpose::HessianVector, &[], arrays) {
+            hessian_by_gradient(&self.lifted(), t, [q, p], [vq, vp], [out_q, out_p]);
+        }
     }
 
     fn force(&self, t: T, q: &Flat<T>, p: &Flat<T>, out: &mut Flat<T>) {

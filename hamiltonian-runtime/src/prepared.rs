@@ -8,6 +8,7 @@ use crate::machine::{Arrays, Given, Home, Pool, run};
 use crate::op::{FunctionCode, Held};
 use crate::tabulated::Tabulated;
 use hamiltonian_core::nalgebra::DVector;
+use hamiltonian_core::private::{Varied, fixed as constant};
 use hamiltonian_core::schemes::author::{Arithmetic, gather};
 use hamiltonian_lanes::{Pack, Real};
 use hamiltonian_language::analyse::structure::GradientSource;
@@ -168,6 +169,23 @@ impl<T: Real> Prepared<T> {
         let data = lanes(first.data.len(), &|member, at| member.data[at]);
         let functions = first.functions.clone();
         Prepared::whole(first.code.clone(), held, data, functions, first.arithmetic)
+    }
+
+    /// The system over numbers with derivatives, which are zero.
+    pub(crate) fn lifted(&self) -> Prepared<Varied<T>> {
+        let fixed = |numbers: &[T]| numbers.iter().copied().map(constant).collect();
+        let held = self.held.iter().map(|held| HeldOf {
+            coefficient: fixed(&held.coefficient),
+            evaluation: fixed(&held.evaluation),
+            framed: fixed(&held.framed),
+        });
+        Prepared::whole(
+            self.code.clone(),
+            held.collect(),
+            fixed(&self.data),
+            self.functions.clone(),
+            self.arithmetic,
+        )
     }
 
     /// The same with registers of its own.

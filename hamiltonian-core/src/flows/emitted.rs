@@ -7,11 +7,12 @@
 //! point.
 
 use crate::flows::exponential::Exponential;
+use crate::flows::narrow::{Varied, along, derivatives, fixed};
 use crate::flows::push::{Both, Coupled, SubStep};
 use crate::systems::flow::{Flow, Piece, VectorField};
 use crate::systems::state::Point;
 use crate::systems::system::Dynamics;
-use crate::systems::vector::Vector;
+use crate::systems::vector::{Over, Vector};
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
@@ -273,6 +274,29 @@ pub fn gradient_by_field<T: Real, D: FieldBody<Whole, T>>(
             *place = -*place;
         }
     }
+}
+
+/// The Hessian of H times a vector by the system over dual numbers: the derivatives of the gradient along the vector.
+#[cfg_attr(not(unoptimised), inline(always))]
+pub fn hessian_by_gradient<V: Vector, D>(
+    lifted: &D,
+    t: V::Scalar,
+    [q, p]: [&V; 2],
+    [vq, vp]: [&V; 2],
+    [out_q, out_p]: [&mut V; 2],
+) where
+    D: Dynamics<Varied<V::Scalar>, Vector = Over<V, Varied<V::Scalar>>>,
+{
+    V::Scalar::out_of_line(
+        #[cfg_attr(not(unoptimised), inline(always))]
+        || {
+            let (q, p) = (along(q, vq), along(p, vp));
+            let (mut by_q, mut by_p) = (q.clone(), p.clone());
+            lifted.gradient(fixed(t), &q, &p, &mut by_q, &mut by_p);
+            derivatives(&by_q, out_q);
+            derivatives(&by_p, out_p);
+        },
+    );
 }
 
 /// The kick of V, or the part of it that reads no momenta.

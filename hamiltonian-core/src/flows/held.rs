@@ -3,6 +3,7 @@
 //! Input: numbers and conditions of a definition, and its sizes, functions and arrays. Output: [`Held`], which
 //! emitted bodies read. Invariant: each of them is a [`LaneValue`], which can be copied into the lanes of a pack.
 
+use crate::flows::narrow::{Varied, fixed, fixed_vector};
 use crate::systems::function::Function;
 use crate::systems::system::Arithmetic;
 use crate::systems::system::gather::{MAX_MEMBERS, masks, numbers, vectors};
@@ -37,6 +38,8 @@ pub trait LaneValue<T: Real>: Clone + Debug + Send + Sync + 'static {
     type Over<U: Real>;
     /// Gathers the values of members into lanes.
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>>;
+    /// The same, without derivatives.
+    fn lifted(&self) -> Self::Over<Varied<T>>;
     /// Returns true if the lanes of one pack can hold both.
     fn fits(&self, _: &Self) -> bool {
         true
@@ -54,6 +57,16 @@ impl<T: Real, const N: usize, const M: usize, D: LaneValue<T>> LaneValue<T> for 
             m: masks::<T, P, _, _>(members, |one| &one.m),
             data: gathered::<T, P, _, _>(members, |one| &one.data),
         }
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn lifted(&self) -> Self::Over<Varied<T>> {
+        let mut v = [fixed(T::zero()); N];
+        let mut k = 0;
+        while k < N {
+            v[k] = fixed(self.v[k]);
+            k += 1;
+        }
+        Held::new(v, self.m, self.data.lifted())
     }
     fn fits(&self, other: &Self) -> bool {
         self.data.fits(&other.data)
@@ -100,6 +113,10 @@ macro_rules! same {
         fn gather<P: Pack>(members: &[&Self]) -> Self {
             members[0].clone()
         }
+        #[cfg_attr(not(unoptimised), inline(always))]
+        fn lifted(&self) -> Self {
+            self.clone()
+        }
         fn fits(&self, other: &Self) -> bool {
             let ($one, $other) = (self, other);
             $fits
@@ -132,6 +149,10 @@ impl<V: Vector> LaneValue<V::Scalar> for V {
     fn gather<P: Pack>(members: &[&Self]) -> Over<V, <V::Scalar as Real>::Over<P>> {
         vectors::<V, P, _>(members, |one| one)
     }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn lifted(&self) -> Over<V, Varied<V::Scalar>> {
+        fixed_vector(self)
+    }
     fn equals(&self, other: &Self) -> bool {
         self == other
     }
@@ -143,6 +164,10 @@ impl<V: Vector> LaneValue<V::Scalar> for Arc<V> {
     #[cfg_attr(not(unoptimised), inline(always))]
     fn gather<P: Pack>(members: &[&Self]) -> Arc<Over<V, <V::Scalar as Real>::Over<P>>> {
         Arc::new(vectors::<V, P, _>(members, |one| &**one))
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn lifted(&self) -> Arc<Over<V, Varied<V::Scalar>>> {
+        Arc::new(fixed_vector(&**self))
     }
     fn equals(&self, other: &Self) -> bool {
         self == other
@@ -160,6 +185,10 @@ impl<T: Real, A: LaneValue<T>, B: LaneValue<T>> LaneValue<T> for (A, B) {
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>> {
         let first = gathered::<T, P, _, _>(members, |one| &one.0);
         (first, gathered::<T, P, _, _>(members, |one| &one.1))
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn lifted(&self) -> Self::Over<Varied<T>> {
+        (self.0.lifted(), self.1.lifted())
     }
     fn fits(&self, other: &Self) -> bool {
         self.0.fits(&other.0) && self.1.fits(&other.1)

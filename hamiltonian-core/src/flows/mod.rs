@@ -8,4 +8,5 @@ pub(crate) mod exponential;
 pub(crate) mod held;
 pub(crate) mod iterate;
 pub(crate) mod map;
+pub(crate) mod narrow;
 pub(crate) mod push;

@@ -61,9 +61,8 @@ pub struct System {
     pub model: Model,
     /// The instructions.
     pub program: Program,
-    /// The Rust function whose third derivative is in H's second derivatives, which are then not in the program.
-    pub third: Option<String>,
-    /// The source of the gradient.
+    /// The source of the gradient. The derivatives of the gradient over dual numbers are the Hessian if the program has no
+    /// function for it.
     pub gradient: GradientSource,
     /// The source of the vector field.
     pub field: FieldSource,
@@ -163,19 +162,20 @@ fn system(
     if structure.jumping.is_some() {
         text.facts.push(JUMPS.to_owned());
     }
-    let gradient = match large {
-        true => GradientSource::Written,
-        false => source_of_gradient(&model, &structure),
+    let has_loops = has_loops(&model);
+    let gradient = match has_loops && !large && model.force.is_empty() {
+        false => GradientSource::Written,
+        true if structure.separable.is_ok() => GradientSource::Halves,
+        true => GradientSource::Field,
     };
-    let wanted = wanted(checked, &model, (large, gradient), &structure);
-    let (program, third) = derive(checked, beyond, &mut model, wanted, report)?;
+    let wanted = wanted(checked, &model, [large, has_loops], gradient, &structure);
+    let program = derive(checked, beyond, &mut model, wanted, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
     Some(System {
         field: source_of_field(&program, gradient, &structure),
         model,
         program,
-        third,
         gradient,
         structure,
         text,
@@ -201,16 +201,12 @@ fn too_large(checked: &Checked, operations: usize, report: &mut Report) {
     );
 }
 
-/// The source of the gradient. Where H has loops, each function more is many lines, and the kick, the drift and the
-/// field have the same loops as the gradient; without loops, functions of their own take fewer operations.
-fn source_of_gradient(model: &Model, verdicts: &Verdicts) -> GradientSource {
+/// Returns true if H has loops. Each function more is then many lines: the gradient comes from the kick and the drift or
+/// from the field, which have the same loops, and the Hessian from the gradient over dual numbers. Without loops,
+/// functions of their own take fewer operations.
+fn has_loops(model: &Model) -> bool {
     let is_loop = |node: &Node| matches!(model.dag.kind(*node), Kind::Reduce(..));
-    let has_loops = model.dag.reachable(&[model.h()]).iter().any(is_loop);
-    match (has_loops && model.force.is_empty(), &verdicts.separable) {
-        (false, _) => GradientSource::Written,
-        (true, Ok(())) => GradientSource::Halves,
-        (true, Err(_)) => GradientSource::Field,
-    }
+    model.dag.reachable(&[model.h()]).iter().any(is_loop)
 }
 
 /// The source of the field: the kick and the drift, if they share no work.
@@ -231,19 +227,22 @@ fn source_of_field(
     }
 }
 
-/// The functions of a system. Those of a large one that the gradient can stand in for are left out.
+/// The functions of a system, without those that the gradient can stand in for in a large one or in loops.
 fn wanted(
     checked: &Checked,
     model: &Model,
-    (large, gradient): (bool, GradientSource),
+    [large, has_loops]: [bool; 2],
+    gradient: GradientSource,
     verdicts: &Verdicts,
 ) -> Vec<Purpose> {
     let mut wanted = vec![
         Purpose::Energy,
         Purpose::EnergyAndGradient,
         Purpose::TimeDerivative,
-        Purpose::HessianVector,
     ];
+    if !has_loops {
+        wanted.push(Purpose::HessianVector);
+    }
     if !large && gradient == GradientSource::Written {
         wanted.extend([Purpose::GradientQ, Purpose::GradientP, Purpose::Gradient]);
     }
@@ -272,23 +271,21 @@ fn is_large(checked: &Checked, model: &Model) -> bool {
     is_static && model.dag.reachable(&[model.h()]).len() > LARGE
 }
 
-/// The program, without H's own second derivatives if they have third ones of a Rust function, whose name is returned.
+/// The program, without H's own second derivatives if they have third ones of a Rust function.
 fn derive(
     checked: &Checked,
     beyond: &Beyond,
     model: &mut Model,
     mut wanted: Vec<Purpose>,
     report: &mut Report,
-) -> Option<(Program, Option<String>)> {
-    let (mut blamed, mut third) = (Vec::new(), None);
+) -> Option<Program> {
+    let mut blamed = Vec::new();
     loop {
         match pipeline::derive(model, &wanted) {
-            Ok(program) => return Some((program, third)),
+            Ok(program) => return Some(program),
             Err(NoProgram::ThirdDerivative { purpose, function }) => {
                 wanted.retain(|other| *other != purpose);
-                if purpose == Purpose::HessianVector {
-                    third = Some(function);
-                } else {
+                if purpose != Purpose::HessianVector {
                     let asked = (purpose, function.as_str());
                     blame::third_derivative(checked, model, asked, &mut blamed, report);
                 }

@@ -34,8 +34,6 @@ pub struct Definition<'a> {
     pub model: &'a Model,
     /// The instructions.
     pub program: &'a Program,
-    /// The Rust function whose third derivative is in H's second derivatives, which are then not in the program.
-    pub third: Option<&'a str>,
     /// The source of the vector field.
     pub field: FieldSource,
     /// The source of the gradient.

@@ -6,9 +6,8 @@
 
 use hamiltonian_symbolic::program::Purpose;
 
-/// The body of a method of prepared systems whose function is not in the program; `third` is the Rust function of which
-/// a third derivative would be needed.
-pub fn body(purpose: Purpose, third: Option<&str>) -> String {
+/// The body of a method of prepared systems whose function is not in the program.
+pub fn body(purpose: Purpose) -> String {
     const CALL: &str = "<Self as __h::Dynamics<T>>::energy_and_gradient(self, _t, _q, _p,";
     match purpose {
         Purpose::Gradient => format!("let _ = {CALL} _oq, _op);"),
@@ -18,21 +17,8 @@ pub fn body(purpose: Purpose, third: Option<&str>) -> String {
         Purpose::GradientP => {
             format!("let mut _x = *_op;\nlet _ = {CALL} &mut _x, _op);")
         }
-        Purpose::HessianVector => refusal(&third.map_or_else(
-            || "the second derivatives of H were not derived".to_owned(),
-            |function| {
-                format!(
-                    "the second derivatives of H have a third derivative of `{function}` in them, and Rust functions have \
-                     two; Newton's iteration of schemes with stages, such as `Gauss`, and `TimeTransformed` need them; \
-                     help: write it in the language: `let {function}(x) = …`"
-                )
-            },
-        )),
-        _ => refusal("this function of the system was not derived"),
+        // A compile error where the function is used, and nowhere else.
+        _ => "const { __h::core::panic!(\"this function of the system was not derived\") }"
+            .to_owned(),
     }
-}
-
-/// A compile error where a function is used, and nowhere else.
-fn refusal(message: &str) -> String {
-    format!("const {{ __h::core::panic!({message:?}) }}")
 }

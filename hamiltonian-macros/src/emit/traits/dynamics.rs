@@ -169,6 +169,7 @@ impl<'a> Emission<'a> {
             self.vector,
         );
         let (q, p) = ("_oq", "_op");
+        let has_hessian = context.program.function(Purpose::HessianVector).is_some();
         for (name, purpose, more, returns) in [
             ("energy", Purpose::Energy, &[][..], true),
             ("gradient_q", Purpose::GradientQ, &[q], false),
@@ -194,6 +195,7 @@ impl<'a> Emission<'a> {
                 Purpose::Gradient if are_apart(context.program, purpose, halves) => {}
                 Purpose::Gradient | Purpose::GradientQ | Purpose::GradientP
                     if context.definition.gradient != GradientSource::Written => {}
+                Purpose::HessianVector if !has_hessian => {}
                 Purpose::TimeDerivative if is_timeless(context) => {}
                 _ => self.method(name, purpose, more, returns),
             }
@@ -227,9 +229,13 @@ impl<'a> Emission<'a> {
             GradientSource::Halves => ", gradient_by_halves",
             GradientSource::Field => ", gradient_by_field",
         };
+        let hessian = match has_hessian {
+            true => "",
+            false => ", hessian_by_gradient",
+        };
         line!(
             self,
-            "__h::computed_as_chosen!(T of {system}, {field}{zero}{gradient});\n}}"
+            "__h::computed_as_chosen!(T of {system}, {field}{zero}{gradient}{hessian});\n}}"
         );
     }
 
@@ -259,7 +265,7 @@ impl<'a> Emission<'a> {
                     _ => apart(&body),
                 }
             }
-            None => derived::body(purpose, self.context.definition.third),
+            None => derived::body(purpose),
         };
         let list = declared(&arguments);
         line!(

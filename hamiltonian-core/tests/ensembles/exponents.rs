@@ -11,6 +11,8 @@ where
     M: Scheme<S>,
 {
     type Found = Result<Vec<f64>, Error>;
+    // More than the lanes of a level, and not a multiple of them.
+    const COUNT: usize = 67;
     let h = 0.0625;
     let swarm = |count, threads| {
         Lyapunov::new(count, make, scheme.clone(), h)

@@ -154,6 +154,12 @@ fn one_level() -> std::sync::RwLockReadGuard<'static, ()> {
     LEVEL.read().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Sizes of chunks for the layouts of a level: one that is not a multiple of its lanes, and at the least level the smallest
+/// and one for all members as well, since what divides members among threads does not depend on lanes.
+fn chunks(cpu: Cpu) -> &'static [usize] {
+    if cpu > Cpu::Sse2 { &[7] } else { &[7, 1, 4096] }
+}
+
 /// Runs a test on each level of this CPU that has code of its own: on x86-64 the least is SSE2.
 fn at_each_level(test: impl Fn(Cpu)) {
     let _alone = LEVEL.write().unwrap_or_else(PoisonError::into_inner);

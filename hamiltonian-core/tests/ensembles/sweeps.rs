@@ -34,14 +34,14 @@ fn a_sweep_has_the_bits_of_single_runs_whatever_its_layout() {
         (index, Status::Ended, run.steps(), values)
     };
     let expected: Vec<_> = (0..COUNT).map(alone).collect();
-    at_each_level(|_| {
+    at_each_level(|cpu| {
         let all = rows(&sweep().reproducible().with_threads(1));
         assert_eq!(all.len(), COUNT);
         for (found, expected) in all.iter().zip(&expected) {
             assert_eq!(found, expected);
         }
         let fused = rows(&sweep().with_threads(1));
-        for chunk in [1, 7, 4096] {
+        for &chunk in chunks(cpu) {
             assert_eq!(
                 all,
                 rows(&sweep().reproducible().with_chunk(chunk).with_threads(2))

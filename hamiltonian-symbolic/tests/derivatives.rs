@@ -413,7 +413,7 @@ fn accept(tally: Tally, undecided: usize, count: usize) {
 
 #[test]
 fn first_derivatives_of_random_expressions() {
-    let count = common::cases(5_000, 100_000);
+    let count = common::cases(3_000, 100_000);
     let (tally, undecided) = campaign(1, count, &FIRST);
     accept(tally, undecided, count);
 }

@@ -18,7 +18,7 @@ use hamiltonian_symbolic::structure::analyse;
 fn on_a_small_stack(work: impl FnOnce() + Send) {
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new()
-            .stack_size(128 * 1024)
+            .stack_size(64 * 1024)
             .spawn_scoped(scope, work)
             .unwrap();
         thread.join().unwrap();
@@ -62,13 +62,13 @@ fn depth_costs_no_stack() {
         ] {
             let mut m = model("q, x; p, u", "", "a");
             let from = parse(&mut m, "q + p");
-            let h = chain(&mut m, from, ops, 500);
+            let h = chain(&mut m, from, ops, 250);
             everything(&mut m, h);
         }
         let mut m = model("q, x; p, u", "", "a");
         let mut node = parse(&mut m, "q*p");
         let one = m.dag.integer(1);
-        for _ in 0..1000 {
+        for _ in 0..500 {
             let sum = m.dag.add(&[one, node]);
             node = m.dag.powi(sum, -1);
         }

@@ -207,7 +207,7 @@ fn grow(random: &mut Random, is_bell: bool) -> Formula {
 fn mixtures_of_exponentials_are_right_at_any_argument() {
     let mut random = Random(3804);
     let (mut wrong, mut control, mut worst) = (Vec::new(), 0, 0.0_f64);
-    let count = common::cases(300, 3_000);
+    let count = common::cases(200, 3_000);
     for _ in 0..count {
         let is_bell = random.chance(0.4);
         let formula = grow(&mut random, is_bell);

@@ -244,7 +244,7 @@ fn claims(definition: &Definition, certificate: &Certificate) -> Vec<String> {
 /// and orbits are to contradict at least `caught` in a hundred of those of which the derivative vanishes.
 fn follow(seed: u64, make: fn(&mut Random) -> Definition, proven: usize, caught: usize) {
     let mut random = Random(seed);
-    let count = cases(300, 6000);
+    let count = cases(200, 6000);
     let (mut right, mut contradicted, mut wrong) = (0, 0, Vec::new());
     for _ in 0..count {
         let definition = make(&mut random);
@@ -287,7 +287,7 @@ fn conditions_with_poles() {
 #[test]
 fn functions_in_rust() {
     let mut random = Random(43);
-    let count = cases(300, 6000);
+    let count = cases(200, 6000);
     let (mut proven, mut needed) = (0, 0);
     for _ in 0..count {
         let definition = make::function(&mut random);

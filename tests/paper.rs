@@ -209,6 +209,7 @@ fn scheme_26_advances_two_steps() {
 }
 
 #[test]
+#[ignore = "many steps: `.ci/run` makes them"]
 fn drift_of_implicit_midpoint_on_34() {
     let system = Paper34::default();
     let at = |h| {

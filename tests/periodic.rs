@@ -27,6 +27,7 @@ hamiltonian! {
 /// R. F. Arenstorf's orbit from x = 1.2 (L. F. Shampine and M. K. Gordon, *Computer Solution of Ordinary
 /// Differential Equations*, 1975).
 #[test]
+#[ignore = "many steps: `.ci/run` makes them"]
 fn the_orbit_of_arenstorf_is_found() -> Result<(), Error> {
     let (speed, period) = (-1.049_357_509_830_319_9, 6.192_169_331_319_64);
     let guess = State::new([1.199, 0.0], [1e-3, 1.2 + speed - 1e-3]);

@@ -409,6 +409,7 @@ fn figure_eight() {
 
 /// 15.
 #[test]
+#[ignore = "many steps: `.ci/run` makes them"]
 fn arenstorf() {
     let exact = RestrictedThreeBody {
         mu: exactly("0.012277471"),

@@ -45,16 +45,7 @@ impl<const S: usize> Collocation<S> {
     /// Gauss' nodes, the zeros of the Legendre polynomial: order 2s, symplectic.
     pub fn gauss() -> Self {
         const { assert!(S > 0, "collocation needs a stage") };
-        // Those of runs to a tolerance are computed once: they would take longer than a hundred steps.
-        #[cfg(feature = "std")]
-        if S == 8 {
-            static EIGHT: std::sync::OnceLock<Collocation<8>> = std::sync::OnceLock::new();
-            let eight: &dyn core::any::Any = EIGHT.get_or_init(Collocation::computed);
-            if let Some(known) = eight.downcast_ref() {
-                return *known;
-            }
-        }
-        Self::computed()
+        known(|eight| &eight.method).unwrap_or_else(Self::computed)
     }
 
     /// [`gauss`](Self::gauss).
@@ -264,8 +255,12 @@ impl<const S: usize> Collocation<S> {
     }
 
     /// νᵢⱼ for j ≤ i.
-    #[inline(never)]
     fn double_integrals(&self) -> [[DoubleDouble; S]; S] {
+        known(|eight| &eight.double).unwrap_or_else(|| self.computed_double())
+    }
+
+    #[inline(never)]
+    fn computed_double(&self) -> [[DoubleDouble; S]; S] {
         let mut double = [[number(0.0); S]; S];
         for (i, row) in double.iter_mut().enumerate() {
             for (j, sum) in row.iter_mut().enumerate().take(i + 1) {
@@ -276,6 +271,58 @@ impl<const S: usize> Collocation<S> {
         }
         double
     }
+}
+
+impl<const S: usize> Collocation<S> {
+    /// Weights of the stages in the last two coefficients of the slopes' polynomial, in Legendre's polynomials, of Gauss'
+    /// method.
+    pub(super) fn last_coefficients(&self) -> [[DoubleDouble; S]; 2] {
+        known(|eight| &eight.last).unwrap_or_else(|| self.computed_last())
+    }
+
+    fn computed_last(&self) -> [[DoubleDouble; S]; 2] {
+        let polynomials = self.polynomials();
+        let mut last = [[number(0.0); S]; 2];
+        for (row, k) in last.iter_mut().zip([S - 1, S - 2]) {
+            for (i, to) in row.iter_mut().enumerate() {
+                *to = self.norm(k) * self.weights[i] * polynomials[i][k].0;
+            }
+        }
+        last
+    }
+}
+
+/// The numbers of Gauss' method with eight stages, that of runs to a tolerance.
+#[cfg_attr(not(feature = "std"), allow(dead_code))]
+struct Eight {
+    method: Collocation<8>,
+    double: [[DoubleDouble; 8]; 8],
+    last: [[DoubleDouble; 8]; 2],
+}
+
+/// Numbers that are computed once: each time, they would take longer than a hundred steps. `None` if `A` is the type of
+/// those of another number of stages, and without the standard library.
+#[cfg(feature = "std")]
+fn known<A: Copy + 'static, B: 'static>(of: fn(&'static Eight) -> &'static B) -> Option<A> {
+    static EIGHT: std::sync::OnceLock<Eight> = std::sync::OnceLock::new();
+    if core::any::TypeId::of::<A>() != core::any::TypeId::of::<B>() {
+        return None;
+    }
+    let eight = EIGHT.get_or_init(|| {
+        let method = Collocation::computed();
+        Eight {
+            method,
+            double: method.computed_double(),
+            last: method.computed_last(),
+        }
+    });
+    let numbers: &dyn core::any::Any = of(eight);
+    numbers.downcast_ref().copied()
+}
+
+#[cfg(not(feature = "std"))]
+fn known<A, B: 'static>(_: fn(&'static Eight) -> &'static B) -> Option<A> {
+    None
 }
 
 /// `part·h` for a part from 0 to 1, rounded to a multiple of the last place of h: sums and differences of such

@@ -204,13 +204,7 @@ pub struct Estimate<T> {
 
 impl<T: Real> Estimate<T> {
     fn new(method: &Collocation<STAGES>, tolerance: Tolerance) -> Self {
-        let polynomials = method.polynomials();
-        let mut weights = [[T::zero(); STAGES]; 2];
-        for (row, k) in weights.iter_mut().zip([STAGES - 1, STAGES - 2]) {
-            for (i, to) in row.iter_mut().enumerate() {
-                *to = constant(method.norm(k) * method.weights[i] * polynomials[i][k].0);
-            }
-        }
+        let weights = method.last_coefficients().map(|row| row.map(constant));
         Estimate { tolerance, weights }
     }
 

@@ -27,18 +27,24 @@ pub(in crate::schemes) fn extrapolation<T: Real, const S: usize>(
     // Double-double arithmetic is a call, and the loops below contain none.
     let norms: [DoubleDouble; S] = core::array::from_fn(|k| method.norm(k));
     let two = number::<T>(2);
+    // Legendre's polynomials at the nodes of the step before, and where the nodes of this one lie, in its units.
+    let mut there = [[T::zero(); S]; TERMS];
+    let mut here = [[T::zero(); S]; TERMS];
+    for i in 0..S {
+        let node = constant::<T>(method.nodes[i]);
+        let (mut at_node, mut at_point) = ((T::one(), T::zero()), (T::one(), T::zero()));
+        for k in 0..terms {
+            (there[k][i], here[k][i]) = (at_node.0, at_point.0);
+            at_node = next(k, two * node - T::one(), at_node);
+            at_point = next(k, T::one() + two * node * ratio, at_point);
+        }
+    }
     let mut matrix = [[T::zero(); S]; S];
     for (i, row) in matrix.iter_mut().enumerate() {
-        // One step on, in units of the step before.
-        let here = T::one() + two * constant(method.nodes[i]) * ratio;
         for (j, to) in row.iter_mut().enumerate() {
-            let there = two * constant(method.nodes[j]) - T::one();
-            let (mut at_j, mut at_i) = ((T::one(), T::zero()), (T::one(), T::zero()));
             let mut sum = T::zero();
             for (k, norm) in norms.iter().enumerate().take(terms) {
-                sum += constant::<T>(*norm) * at_j.0 * at_i.0;
-                at_j = next(k, there, at_j);
-                at_i = next(k, here, at_i);
+                sum += constant::<T>(*norm) * there[k][j] * here[k][i];
             }
             *to = constant::<T>(method.weights[j]) * sum;
         }

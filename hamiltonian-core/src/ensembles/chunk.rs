@@ -83,6 +83,8 @@ pub(crate) struct Chunk<R, V: Vector<Scalar = f64>, O> {
     pub(crate) starts: Shared<f64>,
     /// The number of steps after which the scheme started, for each member; empty if it is 0 for all.
     pub(crate) began: Vec<u64>,
+    /// The number of steps that each member has made; empty if all have made as many.
+    pub(crate) steps: Vec<u64>,
     pub(crate) finished: BTreeMap<usize, Finished<V>>,
     pub(crate) observers: Vec<O>,
 }
@@ -99,6 +101,7 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
             prepared: Shared::Nothing,
             starts: Shared::Nothing,
             began: Vec::new(),
+            steps: Vec::new(),
             finished: BTreeMap::new(),
             observers: Vec::new(),
         }
@@ -146,6 +149,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
             prepared: self.prepared,
             starts: self.starts,
             began: self.began,
+            steps: self.steps,
             finished: self.finished,
             observers,
         }
@@ -153,6 +157,11 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
 }
 
 impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
+    /// Returns the number of steps that a member has made, which is that of `common` unless members differ.
+    pub(crate) fn made(&self, key: usize, common: &Common<V>) -> u64 {
+        self.steps.get(key).copied().unwrap_or(common.steps)
+    }
+
     /// Returns a copy of the members before `end`, without observers.
     pub(crate) fn unobserved(&self, end: usize, width: usize) -> Chunk<R, V, ()> {
         Chunk {
@@ -162,6 +171,7 @@ impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
             prepared: self.prepared.clone(),
             starts: self.starts.clone(),
             began: self.began.clone(),
+            steps: self.steps.clone(),
             finished: self.finished.clone(),
             observers: alloc::vec![(); end],
         }
@@ -180,7 +190,7 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
     pub(crate) interval: f64,
     /// True if steps differ in duration.
     pub(crate) varies: bool,
-    /// The number of steps made by the members that have not stopped.
+    /// The number of steps made by the members that have not stopped; the largest of these numbers if they differ.
     pub(crate) steps: u64,
 }
 
@@ -189,8 +199,8 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
 pub(crate) struct ChunkHost<'a, S: System, O, F> {
     pub(crate) chunk: &'a mut ChunkOf<S, O>,
     pub(crate) common: &'a Common<VectorOf<S>>,
-    /// The number of steps at which members leave their lanes.
-    pub(crate) target: u64,
+    /// The number of steps after which members leave their lanes.
+    pub(crate) left: u64,
     /// True if observers receive states.
     pub(crate) observes: bool,
     /// The index of the next member.
@@ -218,18 +228,23 @@ where
     S: System,
     O: Observer<f64, S>,
 {
+    /// Returns the number of steps at which a member leaves its lane.
+    fn target(&self, key: usize) -> u64 {
+        self.chunk.made(key, self.common).saturating_add(self.left)
+    }
+
     /// Returns the next stop of a member that has made `made` steps.
-    fn stop(&self, key: usize, made: u64) -> u64 {
+    pub(crate) fn stop(&self, key: usize, made: u64) -> u64 {
         if !self.observes {
-            return self.target;
+            return self.target(key);
         }
         let interval = self.chunk.observers[key].interval().max(1);
         let due = (made / interval).saturating_add(1).saturating_mul(interval);
-        due.min(self.target)
+        due.min(self.target(key))
     }
 
     /// Records the state at which a member has ended. Returns false: the member does not stay.
-    fn end(&mut self, key: usize, view: &View<'_, f64, S>, end: EndOf<S>) -> bool {
+    pub(crate) fn end(&mut self, key: usize, view: &View<'_, f64, S>, end: EndOf<S>) -> bool {
         let finished = match end {
             Ok(end) => {
                 let end = end.unwrap_or_else(|| view.state.clone());
@@ -248,7 +263,8 @@ where
             return;
         };
         let observer = &mut self.chunk.observers[key];
-        let evaluates = self.evaluates_in_lanes;
+        // In lanes, observers receive states after the same steps.
+        let evaluates = self.evaluates_in_lanes && self.chunk.steps.is_empty();
         FollowVisitor::list(prepared.description(), into, |visitor| {
             evaluates && observer.follow(visitor)
         });
@@ -292,12 +308,12 @@ where
         ) else {
             return false;
         };
-        let made = self.common.steps;
+        let made = self.chunk.made(key, self.common);
         let began = self.chunk.began.get(key).copied().unwrap_or(0);
         let interval = self.chunk.observers[key].interval();
         let stop = match followed.is_empty() {
             true => self.stop(key, made),
-            false => self.target,
+            false => self.target(key),
         };
         let width = self.common.width;
         let words = &self.chunk.words[key * width..][..width];
@@ -346,7 +362,7 @@ where
         match guard(|| receive(key, observer, view)) {
             Ok(ControlFlow::Continue(())) => {
                 *run.stop = self.stop(key, view.steps);
-                view.steps < self.target
+                view.steps < self.target(key)
             }
             Ok(ControlFlow::Break(end)) => self.end(key, view, end),
             Err(error) => self.end(key, view, Err(error)),
@@ -383,6 +399,9 @@ where
     fn leave(&mut self, run: &mut MemberRun<f64, S>) {
         let width = self.common.width;
         self.chunk.words[run.key * width..][..width].copy_from_slice(&run.words);
+        if let Some(steps) = self.chunk.steps.get_mut(run.key) {
+            *steps = run.made;
+        }
     }
 
     fn fail(&mut self, run: &mut MemberRun<f64, S>, error: Error) {

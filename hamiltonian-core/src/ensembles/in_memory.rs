@@ -55,7 +55,7 @@ pub struct Ensemble<S: System, M, O = (), A = Fused> {
     pub(crate) scheme: Arc<M>,
     pub(crate) chunks: Vec<ChunkOf<S, O>>,
     pub(crate) common: Common<VectorOf<S>>,
-    threads: usize,
+    pub(super) threads: usize,
     rounding: PhantomData<A>,
     /// The saved data of observers, until they are attached to a resumed ensemble.
     pub(crate) memory: Memory,
@@ -199,12 +199,10 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     ///
     /// This returns no error: [`states`](Ensemble::states) has the error of a member in its place.
     pub fn advance(&mut self, n: u64) -> &mut Self {
-        let target = self.common.steps.saturating_add(n);
-        if target == self.common.steps {
-            return self;
+        if n > 0 {
+            self.drive(n, false, |_, observer, view| observe(observer, view));
+            self.common.steps = self.common.steps.saturating_add(n);
         }
-        self.drive(target, false, |_, observer, view| observe(observer, view));
-        self.common.steps = target;
         self
     }
 
@@ -248,7 +246,8 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         self.chunks.iter().map(|chunk| chunk.count).sum()
     }
 
-    /// The number of steps made by the members that have neither failed nor been ended.
+    /// The number of steps made by the members that have neither failed nor been ended. After
+    /// [`advance_until`](Ensemble::advance_until) with steps that vary in time, the largest of these numbers.
     pub fn steps(&self) -> u64 {
         self.common.steps
     }
@@ -288,7 +287,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         let chunk = self.chunks.get(number)?;
         Some(match chunk.finished.get(&(index - chunk.first)) {
             Some(Finished::Failed(_, steps) | Finished::Ended(_, steps)) => *steps,
-            None => self.common.steps,
+            None => chunk.made(index - chunk.first, &self.common),
         })
     }
 }
@@ -363,7 +362,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
             observed.restore(&mut memory);
             return observed;
         }
-        observed.drive(now, true, |_, observer, view| match observer.attach(view) {
+        observed.drive(0, true, |_, observer, view| match observer.attach(view) {
             ControlFlow::Continue(()) => ControlFlow::Continue(()),
             ControlFlow::Break(()) => ControlFlow::Break(end_of(observer)),
         });
@@ -397,7 +396,7 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     /// # Ok::<(), Error>(())
     /// ```
     pub fn update(&mut self, mut change: impl FnMut(Member, &mut State<VectorOf<S>>)) -> &mut Self {
-        let (made, width) = (self.common.steps, self.common.width);
+        let width = self.common.width;
         let scheme = Arc::clone(&self.scheme);
         let mut words = Vec::new();
         for number in 0..self.chunks.len() {
@@ -412,6 +411,7 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
                 ) else {
                     continue;
                 };
+                let made = chunk.made(key, &self.common);
                 let standing = Standing {
                     scheme: &*scheme,
                     prepared,
@@ -481,7 +481,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         let mut host = ChunkHost {
             chunk: &mut copy,
             common: &self.common,
-            target: self.common.steps,
+            left: 0,
             observes: true,
             attaches: false,
             evaluates_in_lanes: false,
@@ -523,7 +523,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
             let mut host = ChunkHost {
                 chunk,
                 common: &self.common,
-                target: self.common.steps,
+                left: 0,
                 observes: true,
                 attaches: false,
                 evaluates_in_lanes: false,
@@ -543,10 +543,10 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         }
     }
 
-    /// Advances all members to a number of steps.
+    /// Makes so many steps of all members.
     fn drive(
         &mut self,
-        target: u64,
+        left: u64,
         attaches: bool,
         receive: impl Fn(usize, &mut O, &View<'_, f64, S>) -> Decision<S> + Sync,
     ) where
@@ -558,7 +558,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
             let mut host = ChunkHost {
                 chunk,
                 common,
-                target,
+                left,
                 observes,
                 attaches,
                 evaluates_in_lanes: true,

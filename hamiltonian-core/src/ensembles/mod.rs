@@ -11,7 +11,7 @@
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`rounding`]: whether products and sums are fused, as a type;
 //! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
-//! - [`chunk`], [`in_memory`], [`until`], [`saved`]: members in memory;
+//! - [`chunk`], [`in_memory`], [`to_time`], [`until`], [`saved`]: members in memory;
 //! - [`sweep`], `sweep::host`, [`record`], [`collected`], `stored`: members that are run to their ends and recorded;
 //! - [`lyapunov`], `drive::deviations`: indicators of chaos of members.
 
@@ -33,6 +33,7 @@ mod threads;
 // The documentation shows the methods in the order of these modules.
 mod in_memory;
 
+mod to_time;
 mod until;
 
 mod saved;

@@ -76,6 +76,10 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S>, A: Rounding> Ensemble<S, M, O
             for steps in &chunk.began {
                 numbers.count(*steps);
             }
+            numbers.count(chunk.steps.len() as u64);
+            for steps in &chunk.steps {
+                numbers.count(*steps);
+            }
             for (key, observer) in chunk.observers.iter().enumerate() {
                 match chunk.finished.get(&key) {
                     None => numbers.count(ON),
@@ -181,14 +185,16 @@ impl<S: System, M: Scheme<S>, A: Rounding> Ensemble<S, M, (), A> {
             for word in &mut chunk.words {
                 *word = numbers.read_number()?;
             }
-            chunk.began = match numbers.read_count()? {
-                0 => Vec::new(),
-                count if count == chunk.count as u64 => {
-                    let steps = (0..count).map(|_| numbers.read_count());
-                    steps.collect::<Result<_, Error>>()?
-                }
-                _ => return Err(damaged()),
-            };
+            for steps in [&mut chunk.began, &mut chunk.steps] {
+                *steps = match numbers.read_count()? {
+                    0 => Vec::new(),
+                    count if count == chunk.count as u64 => {
+                        let steps = (0..count).map(|_| numbers.read_count());
+                        steps.collect::<Result<_, Error>>()?
+                    }
+                    _ => return Err(damaged()),
+                };
+            }
             for key in 0..chunk.count {
                 let finished = match (numbers.read_count()?, &swarm.common.template) {
                     (ON, _) => continue,

@@ -64,6 +64,9 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     /// the last whole step. The shorter step does not fuse products and sums. A member that its observer has ended has
     /// the state of its end.
     ///
+    /// If steps vary in time, as those from a tolerance do, each member makes the step that passes `t` too, and has made a
+    /// [number of steps](Ensemble::steps_of) of its own.
+    ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
     ///
@@ -77,20 +80,31 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
     /// ```
     ///
     /// # Errors
-    /// [`TimeError::Behind`], [`TimeError::Unreachable`], [`SweepError::Apart`]. The error of a member is in its place,
-    /// see [`states`](Ensemble::states).
+    /// [`TimeError::Behind`], [`TimeError::Unreachable`]; [`SweepError::Apart`] if members with fixed steps start at
+    /// different times. The error of a member is in its place, see [`states`](Ensemble::states);
+    /// [`TimeError::Far`] for a time before its last step, if steps vary in time.
     pub fn advance_until(
         &mut self,
         t: f64,
     ) -> Result<impl Iterator<Item = Result<State<VectorOf<S>>, Error>>, Error> {
-        let mut between = None;
-        if let Some(time) = self.clock()? {
+        let (mut between, mut passed) = (None, None);
+        if self.common.varies {
+            if !t.is_finite() {
+                let (clock, target) = (self.time_name().into(), t);
+                return Err(TimeError::Unreachable { clock, target }.into());
+            }
+            passed = Some(self.pass_time(t));
+        } else if let Some(time) = self.clock()? {
             let (before, after) = time.whole_steps(self.common.steps, t, self.time_name())?;
             between = before.map(|_| t);
             self.advance(before.unwrap_or(after));
         }
-        let chunks = 0..self.chunks.len();
-        Ok(chunks.flat_map(move |number| self.closed(number, 0..usize::MAX, between)))
+        let chunks = match passed {
+            Some(_) => 0..0,
+            None => 0..self.chunks.len(),
+        };
+        let closed = chunks.flat_map(move |number| self.closed(number, 0..usize::MAX, between));
+        Ok(passed.into_iter().flatten().chain(closed))
     }
 
     /// Returns the name of the time of the members.

@@ -46,6 +46,8 @@ pub(crate) trait Between<V: Vector> {
     fn state_at(&self, t: V::Scalar) -> Result<State<V>, Error>;
     /// Returns the state at `time` after `from`, a state of the run, before the next one.
     fn part(&self, from: &State<V>, time: V::Scalar) -> Result<State<V>, Error>;
+    /// Returns a number of steps from the current state that are sure to end before the time `t`, or 1.
+    fn steps_to(&self, t: V::Scalar) -> u64;
     /// Returns the time between two states one step apart. This is the interval itself, without the rounding errors of
     /// times, unless the scheme carries the time.
     fn between(&self, from: V::Scalar, to: V::Scalar) -> V::Scalar;

@@ -1,6 +1,7 @@
 //! Members at times, and saved on their way.
 
 use super::*;
+use hamiltonian::schemes::Adaptive;
 use hamiltonian_core::VectorOf;
 use hamiltonian_core::errors::{SweepError, TimeError};
 
@@ -81,12 +82,104 @@ fn members_reach_a_time_as_single_runs_do() {
         apart.advance_to(2.0),
         Err(Error::Sweep(SweepError::Apart { .. }))
     ));
-    let varying = Paced::new(StormerVerlet::default(), Steady);
-    let mut varying = Ensemble::new(3, together, varying, 0.1).expect("there are members");
+}
+
+/// Members whose steps vary in time have a time in common, and the bits of single runs: their states there, their events on
+/// the way, and what they do afterwards.
+#[test]
+fn members_with_steps_of_their_own_reach_a_time() {
+    let _level = one_level();
+    reach(Adaptive::new(GaussNystrom::<8>::default(), 1e-9), 1.0);
+    reach(Paced::new(StormerVerlet::default(), Steady), 0.0625);
+}
+
+/// More than the lanes of a pack.
+const FEW: usize = 20;
+
+fn reach<M: Scheme<Pendulum> + Copy>(scheme: M, step: f64) {
+    // Each from a time of its own.
+    let own = |member: Member| {
+        let (system, start) = pendulum(member);
+        (system, start.at(0.01 * member.index as f64))
+    };
+    let observer = |member: Member| {
+        let ends = 2 + member.index as u64 % 4;
+        let events = Events::new([Event::named("bottom").with_end_after(ends)]);
+        (
+            events,
+            every(1 + member.index as u64 % 3, EnergyDrift::new()),
+        )
+    };
+    let ensemble = || {
+        let swarm = Ensemble::new(FEW, own, scheme, step).expect("there are members");
+        swarm.reproducible()
+    };
+    let mut swarm = ensemble().observe(observer);
     assert!(matches!(
-        varying.advance_until(2.0).map(|_| ()),
+        swarm.advance_to(2.0),
         Err(Error::Sweep(SweepError::Apart { .. }))
     ));
+    assert!(matches!(
+        swarm.advance_until(f64::INFINITY).map(|_| ()),
+        Err(Error::Time(TimeError::Unreachable { .. }))
+    ));
+    let mut runs: Vec<_> = (0..FEW)
+        .map(|index| {
+            let member = Member::new(index, 0);
+            let (system, start) = own(member);
+            Integrator::new(&system, scheme, start, step)
+                .expect("a good start")
+                .observe(observer(member))
+        })
+        .collect();
+    swarm.advance(3);
+    for run in &mut runs {
+        run.advance(3).expect("finite");
+    }
+    let mut saved = None;
+    for t in [5.25, 5.31, 5.3105, 7.0] {
+        let ends = swarm.advance_until(t).expect("ahead");
+        let mut on_the_way = 0;
+        for (end, run) in ends.zip(&mut runs) {
+            let end = end.expect("finite");
+            let expected = run.advance_until(t).expect("ahead");
+            assert_eq!(bits(&end), bits(&expected));
+            on_the_way += u32::from(end.t.to_bits() == t.to_bits());
+        }
+        assert!(on_the_way > 8, "{on_the_way} members are at t = {t}");
+        saved.get_or_insert_with(|| swarm.checkpoint());
+    }
+    let steps = |run: &Integrator<_, _, _, _>| run.steps();
+    let most = runs.iter().filter(|run| !run.has_ended()).map(steps).max();
+    assert_eq!(Some(swarm.steps()), most);
+    assert!(runs.iter().map(steps).min() < most);
+    // The saved members do the same once more.
+    let checkpoint = Checkpoint::from_bytes(&saved.expect("saved").to_bytes()).expect("as saved");
+    let resumed = Ensemble::resume_reproducible(FEW, own, scheme, checkpoint);
+    let mut resumed = resumed.expect("the same members").observe(observer);
+    assert!(
+        resumed
+            .advance_until(7.0)
+            .expect("ahead")
+            .all(|end| end.is_ok())
+    );
+    for swarm in [&mut swarm, &mut resumed] {
+        swarm.advance(7);
+    }
+    for (index, run) in runs.iter_mut().enumerate() {
+        run.advance(7).expect("finite");
+        for swarm in [&swarm, &resumed] {
+            let end = swarm.state_of(index).and_then(Result::ok).expect("finite");
+            assert_eq!(bits(&end), bits(run.state()));
+            assert_eq!(swarm.steps_of(index), Some(run.steps()));
+        }
+    }
+    for swarm in [&swarm, &resumed] {
+        for (found, run) in swarm.observers().zip(&runs) {
+            assert_eq!(found.0.located(), run.observer().0.located());
+            assert_eq!(format!("{:?}", found.1), format!("{:?}", run.observer().1));
+        }
+    }
 }
 
 #[test]

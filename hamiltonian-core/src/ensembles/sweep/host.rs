@@ -174,7 +174,7 @@ where
         active.is_followed = !followed.is_empty();
         active.is_attached = !observes || active.is_followed;
         let stop = if active.is_attached {
-            self.stop(&active, 0)
+            self.stop(&active, 0, 1)
         } else {
             0
         };
@@ -248,8 +248,9 @@ where
         Ok(())
     }
 
-    /// Returns the number of steps at the next stop of a member.
-    fn stop(&self, active: &ActiveMember<O>, made: u64) -> u64 {
+    /// Returns the number of steps at the next stop of a member. `ahead` more steps are sure to end before it is recorded
+    /// next, if steps differ in duration.
+    fn stop(&self, active: &ActiveMember<O>, made: u64, ahead: u64) -> u64 {
         let interval = match active.is_followed {
             true => u64::MAX,
             false => active.observer.interval().max(1),
@@ -258,7 +259,7 @@ where
         let next = |interval: u64| (made / interval).saturating_add(1).saturating_mul(interval);
         next(interval)
             .min(next(changes))
-            .min(active.target.unwrap_or(made + 1))
+            .min(active.target.unwrap_or(made + ahead))
     }
 
     /// Passes a state to the observer of a member. Returns the end of the member if the observer ended it.
@@ -493,7 +494,10 @@ where
                     });
                     active.is_followed = !followed.is_empty();
                 }
-                *stop = self.stop(&active, view.steps);
+                // A change restarts the scheme.
+                let time = self.time(&active).filter(|_| !is_changed);
+                let ahead = time.map_or(1, |t| view.between.steps_to(t));
+                *stop = self.stop(&active, view.steps, ahead);
                 self.active[key] = Some(active);
                 true
             }

@@ -145,6 +145,12 @@ impl<T: Real, S: System, R: MapOf<T, S>> Between<VectorOf<S, T>> for Part<'_, T,
         }
     }
 
+    fn steps_to(&self, t: T) -> u64 {
+        let left = t - self.state.t;
+        let steps = |last: &LastStep<'_, R>| last.carried.steps_within(self.clock.interval, left);
+        self.last.as_ref().map_or(1, steps)
+    }
+
     fn between(&self, from: T, to: T) -> T {
         let time = to - from;
         let is_step = (time - self.clock.interval).magnitude()

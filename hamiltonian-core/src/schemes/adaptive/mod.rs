@@ -69,7 +69,8 @@ pub trait ToTolerance: System + Sized {
 ///   H does not drift.
 ///
 /// Steps that became short, for example in a collision, grow again. Constant steps are looked at after 32, 96, 224, … steps:
-/// if they could be four times as long, a pilot chooses anew. A refused step that makes them less than 0.4 times as long as a
+/// if they could be four times as long, a pilot chooses anew, and constant steps need not be shorter than the size that has
+/// met the tolerance so far. A refused step that makes them less than 0.4 times as long as a
 /// pilot chose them begins the series again, with 32·(k + 1) in place of 32 after k pilots. Where refused steps have made
 /// varying ones less than half as long, a pilot chooses anew after as many steps. Steps whose equations take more than 40
 /// iterations over `f64` are refused too: shorter ones take less time.
@@ -180,7 +181,7 @@ where
     ) -> Follows<CarriedBy<M, S, T>> {
         let map = Scheme::<S>::prepare(self, prepared, Step::of(h));
         let of = self.scheme.start(prepared, state, h);
-        pilot::start(&map, state.t, of)
+        pilot::start(&map, state.t, of, T::zero())
     }
     fn start_alone<T: Real>(
         &self,

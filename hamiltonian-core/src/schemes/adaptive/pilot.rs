@@ -120,7 +120,10 @@ pub(super) fn again<T: Real, S: System, M: Estimates<S>>(
         chosen = chosen | (lanes & is_slack(map, z, work));
     }
     if chosen.any() {
-        let [next, rate, _, _, _, limit, _, unit, first, ..] = start(map, t, z.of.clone()).numbers;
+        let size = (map.parameter * fixed(density.recip())).abs();
+        let held = T::select(was_constant, size, zero);
+        let [next, rate, _, _, _, limit, _, unit, first, ..] =
+            start(map, t, z.of.clone(), held).numbers;
         let gains = (next * number(GAIN)).lt(density);
         chosen = chosen & !(was_constant & zero.lt(limit) & !gains);
         // The time, its low word and the last step go on.
@@ -143,11 +146,12 @@ pub(super) fn again<T: Real, S: System, M: Estimates<S>>(
     }
 }
 
-/// The carried value at a start.
+/// The carried value at a start. Constant steps of the size `held` have met the tolerance so far; 0 if none have.
 pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
     map: &Following<T, S, M>,
     t: T,
     of: CarriedBy<M, S, T>,
+    held: T,
 ) -> Follows<CarriedBy<M, S, T>> {
     let [zero, one] = [T::zero(), T::one()];
     let parameter = map.parameter;
@@ -248,6 +252,8 @@ pub(super) fn start<T: Real, S: System, M: Estimates<S>>(
             over = over | size.lt(best * number(0.9));
         }
     }
+    // The estimate along steps that vary may be too careful for constant ones, and the pilot is short.
+    let smallest = larger(held, smallest);
     let is_constant = elapsed.le(number::<T>(WORTH) * varying * smallest);
     // The density lost its way with steps of this size.
     let worst = T::select(failed, worst * number(0.5), worst);

@@ -48,7 +48,7 @@ pub struct Tolerance {
 
 impl Tolerance {
     /// Refuses what no step can meet.
-    pub(super) fn check(self) -> Result<(), Error> {
+    pub(crate) fn check(self) -> Result<(), Error> {
         let Tolerance { relative, absolute } = self;
         // This is false for NaN.
         let is_size = |x: f64| x >= 0.0 && x.is_finite();

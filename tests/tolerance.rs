@@ -1,6 +1,7 @@
 //! Runs to a tolerance: what their errors are, that varying steps do not drift, and what is refused.
 
 mod between;
+mod long;
 
 use crate::allocator::allocations;
 use crate::common::is_heavy;

@@ -268,6 +268,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
 
 // The documentation shows the methods above, then those of these modules, in this order. `new` and `observe` are above
 // because rustc's messages about their bounds then name the type, not the module.
+mod long;
 mod tolerance;
 
 mod advance;

@@ -1,6 +1,6 @@
 //! States between two steps: their errors beside those of steps, and what they cost.
 
-use super::{Coupled, Kepler, Restricted, arenstorf, kepler, pendulum};
+use super::{BlackHole, Coupled, Kepler, Restricted, arenstorf, kepler, pendulum};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{Adaptive, ToTolerance};
 use std::cell::Cell;
@@ -80,6 +80,8 @@ fn states_between_steps_have_the_error_of_steps() {
     of("a pendulum", &pendulum(), &State::new([2.5], [0.0]));
     of("(34)", &Coupled {}, &State::new([1.0], [1.0]));
     of("Arenstorf", &Restricted::default(), &arenstorf());
+    let start = State::new([11.0, 1.5], [0.0, 2.06]);
+    of("a black hole", &BlackHole::default(), &start);
 }
 
 thread_local! {

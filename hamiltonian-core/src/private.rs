@@ -326,13 +326,13 @@ macro_rules! __prepared {
 #[macro_export]
 #[doc(hidden)]
 macro_rules! __computed_as_chosen {
-    (@timeless $scalar:ident) => {
+    (@timeless $scalar:ident $system:ty) => {
         #[inline(always)]
         fn time_derivative(&self, _: $scalar, _: &Self::Vector, _: &Self::Vector) -> $scalar {
             <$scalar as $crate::private::Real>::constant(0.0, 0.0)
         }
     };
-    (@gradient_by_halves $scalar:ident) => {
+    (@gradient_by_halves $scalar:ident $system:ty) => {
         #[inline(always)]
         fn gradient_q(&self, _t: $scalar, _q: &Self::Vector, _: &Self::Vector, _out: &mut Self::Vector) {
             $crate::private::slopes_by_kick(self, _t, _q, _out);
@@ -342,7 +342,7 @@ macro_rules! __computed_as_chosen {
             $crate::private::velocities_by_drift(self, _t, _p, _out);
         }
     };
-    (@gradient_by_field $scalar:ident) => {
+    (@gradient_by_field $scalar:ident $system:ty) => {
         #[inline(always)]
         fn gradient(
             &self,
@@ -363,7 +363,7 @@ macro_rules! __computed_as_chosen {
             self.gradient(_t, _q, _p, &mut $crate::private::Vector::zeros_like(_q), _out);
         }
     };
-    (@hessian_by_gradient $scalar:ident) => {
+    (@hessian_by_gradient $scalar:ident $system:ty) => {
         #[inline(always)]
         fn hessian_vector(
             &self,
@@ -375,12 +375,13 @@ macro_rules! __computed_as_chosen {
             _oq: &mut Self::Vector,
             _op: &mut Self::Vector,
         ) {
-            let _lifted = __Prepared($crate::private::LaneValue::<$scalar>::lifted(&self.0));
+            let _lifted: <$system as $crate::private::System>::Prepared<$crate::private::Varied<$scalar>> =
+                __Prepared($crate::private::LaneValue::<$scalar>::lifted(&self.0));
             $crate::private::hessian_by_gradient(&_lifted, _t, [_q, _p], [_vq, _vp], [_oq, _op]);
         }
     };
     ($scalar:ident of $system:ty, $field:ty $(, $more:ident)*) => {
-        $($crate::__computed_as_chosen! { @$more $scalar })*
+        $($crate::__computed_as_chosen! { @$more $scalar $system })*
         type Field = $crate::private::FieldOf<Self, $field, $scalar>;
         #[inline(always)]
         fn description(&self) -> &$crate::private::Description {

@@ -1,4 +1,4 @@
-//! Derivatives of a trajectory with respect to its start, and indicators of chaos.
+//! Derivatives of a trajectory with respect to its start and to parameters, and indicators of chaos.
 //!
 //! Input: starts, one a row. Output: matrices, exponents, MEGNO. Invariant: all are exact derivatives of the numerical maps,
 //! by dual numbers.
@@ -7,23 +7,25 @@ use crate::errors;
 use crate::run;
 use crate::swarm::Members;
 use crate::system::System;
-use hamiltonian_core::analysis::monodromy;
-use hamiltonian_core::nalgebra::DMatrix;
 use hamiltonian_core::schemes::{BlanesMoan4, Gauss, GaussNystrom};
-use hamiltonian_core::{Error, Lyapunov, Member, Scheme, State};
+use hamiltonian_core::{Error, Integrator, Lyapunov, Member, Scheme, State};
+use hamiltonian_lanes::Dual;
 use hamiltonian_runtime::{FlatState, RunError, RuntimeSystem};
 use numpy::{
     IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
     PyUntypedArrayMethods,
 };
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
-/// The derivative of the state after the time `time` with respect to the start, in `steps` steps: coordinates, then momenta,
-/// in the order of Python.
+/// A number of a parameter: the name, and the element of an array row after row.
+type Number = (String, usize);
+
+/// The derivatives of the state after the time `time`, in `steps` steps, with respect to the start, and behind it to numbers
+/// of parameters: a column each, coordinates, then momenta, in the order of Python.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub fn derivative<'py>(
@@ -35,27 +37,63 @@ pub fn derivative<'py>(
     time: f64,
     steps: u64,
     nystrom: bool,
+    numbers: Vec<Number>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let own = system.get();
     let start = run::state(own, &q, &p, t)?;
-    let of = &own.system;
+    let by = |(name, element): &Number| own.system.by_parameter(name, *element);
+    let by: Result<Vec<_>, _> = numbers.iter().map(by).collect();
+    let by = by.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    let of = (&own.system, &start);
     let made = py.detach(|| match nystrom {
-        true => monodromy(of, GaussNystrom::<8>::default(), start, time, steps),
-        false => monodromy(of, Gauss::<8>::default(), start, time, steps),
+        true => columns(GaussNystrom::<8>::default(), of, (time, steps), &by),
+        false => columns(Gauss::<8>::default(), of, (time, steps), &by),
     });
-    let matrix: DMatrix<f64> = made.map_err(|error| errors::of_run(py, &error.into()))?;
+    let columns = made.map_err(|error| errors::of_run(py, &error.into()))?;
     let len = own.layout.len();
     // The place of each row and column in the order of Python.
     let mut places = vec![0.0; len];
     let all: Vec<f64> = (0..len).map(|at| at as f64).collect();
     own.layout.write(&all, &mut places);
-    let place = |at: usize| places[at % len] as usize + at / len * len;
-    let size = 2 * len;
-    let numbers = (0..size).flat_map(|row| (0..size).map(move |column| (row, column)));
+    let place = |at: usize| match at / len {
+        side @ (0 | 1) => places[at % len] as usize + side * len,
+        _ => at,
+    };
+    let (rows, width) = (2 * len, columns.len());
+    let numbers = (0..rows).flat_map(|row| (0..width).map(move |column| (row, column)));
     let numbers: Vec<f64> = numbers
-        .map(|(row, column)| matrix[(place(row), place(column))])
+        .map(|(row, column)| columns[place(column)][place(row)])
         .collect();
-    numbers.into_pyarray(py).reshape([size, size])
+    numbers.into_pyarray(py).reshape([rows, width])
+}
+
+/// The derivatives of the numerical map, a column for each component of the start, and for each system by a parameter.
+fn columns<M: Scheme<RuntimeSystem>>(
+    scheme: M,
+    (system, start): (&RuntimeSystem, &FlatState),
+    (time, steps): (f64, u64),
+    by: &[RuntimeSystem],
+) -> Result<Vec<Vec<f64>>, Error> {
+    let len = start.q.len();
+    let column = |system: &RuntimeSystem, direction: Option<usize>| {
+        let mut lifted = State {
+            t: Dual::fixed(start.t),
+            q: start.q.map(Dual::fixed),
+            p: start.p.map(Dual::fixed),
+        };
+        match direction {
+            Some(at) if at < len => lifted.q[at].eps = 1.0,
+            Some(at) => lifted.p[at - len].eps = 1.0,
+            None => {}
+        }
+        let step = Dual::fixed(time / steps as f64);
+        let mut run = Integrator::new(system, scheme.clone(), lifted, step)?;
+        let end = run.advance(steps)?;
+        Ok(end.q.iter().chain(&end.p).map(|one| one.eps).collect())
+    };
+    let starts = (0..2 * len).map(|at| column(system, Some(at)));
+    let parameters = by.iter().map(|system| column(system, None));
+    starts.chain(parameters).collect()
 }
 
 /// The numbers that are computed for each member.

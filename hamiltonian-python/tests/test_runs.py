@@ -190,13 +190,26 @@ def test_derivatives_keep_the_order_of_arrays():
     assert matrix[5, 1] == pytest.approx(-0.25, rel=0.02) and matrix[1, 5] == pytest.approx(-0.125, rel=0.02)
 
 
-def test_a_parameter_as_a_coordinate():
-    spring = hm.define("H(x, k; p, pk) = p^2/2 + k*x^2/2")
+def test_derivatives_with_respect_to_parameters():
+    # ẍ = −(k/m)·x from (1, v): x = cos(w·t) + v·sin(w·t)/w with w = √(k/m).
+    spring = hm.define("struct S { k, m: [2] } H(x; p) = p^2/(2*m[1]) + k*x^2/2 + 0*m[0]", k=4.0, m=[3.0, 2.0])
     t = np.linspace(0, 3, 4)
-    sol = spring.solve([1.0, 4.0], [0.0, 0.0], t, tolerance=1e-13)
-    by_k = spring.sensitivity(sol)[:, 0, 1]
-    # x = cos(√k·t): ∂x/∂k = −t·sin(√k·t)/(2·√k).
-    np.testing.assert_allclose(by_k, -t * np.sin(2 * t) / 4, atol=1e-9)
+    sol = spring.solve(1.0, 0.0, t, tolerance=1e-13)
+    all = spring.sensitivity(sol, parameters=["m", "k"])
+    assert all.shape == (4, 2, 5) and (all[:, :, :2] == spring.sensitivity(sol)).all()
+    w = np.sqrt(2.0)
+    by_w = -t * np.sin(w * t)
+    np.testing.assert_allclose(all[:, 0, 2:], np.stack([0 * t, -by_w * w / 4, by_w * w / 8], axis=1), atol=1e-9)
+    # Over two intervals, for an H that is not quadratic, against differences.
+    swing = hm.define("H(a; p) = p^2/(2*l^2) - g*l*cos(a)*(1 + p^2/50)", l=1.3, g=9.81)
+    t = np.array([0.0, 0.4, 1.5])
+    sol = swing.solve(1.0, 0.5, t, tolerance=1e-13)
+    by_l = swing.sensitivity(sol, parameters="l", tolerance=1e-11)[:, :, 2]
+    ends = [swing.with_(l=1.3 + h).solve(1.0, 0.5, t, tolerance=1e-13) for h in (1e-5, -1e-5)]
+    ends = [np.concatenate([end.q, end.p], axis=1) for end in ends]
+    np.testing.assert_allclose(by_l, (ends[0] - ends[1]) / 2e-5, rtol=1e-6, atol=1e-7)
+    with pytest.raises(TypeError, match="there is no parameter `x`; there are `l`, `g`"):
+        swing.sensitivity(sol, parameters=["x"])
 
 
 def test_plots(spring):

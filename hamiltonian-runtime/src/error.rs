@@ -56,6 +56,16 @@ pub enum SystemError {
         /// The number of elements given.
         found: usize,
     },
+    /// An array has no element of this number.
+    #[non_exhaustive]
+    NoElement {
+        /// Its name.
+        name: String,
+        /// The number of the element.
+        element: usize,
+        /// The number of elements.
+        count: usize,
+    },
     /// A parameter is NaN.
     #[non_exhaustive]
     NaN {
@@ -107,6 +117,14 @@ impl Display for SystemError {
                 expected,
                 found,
             } => write!(f, "`{name}` must have {expected} elements, found {found}"),
+            Self::NoElement {
+                name,
+                element,
+                count,
+            } => write!(
+                f,
+                "`{name}` has {count} elements, numbered from 0: there is no element {element}"
+            ),
             Self::NaN { name } => write!(f, "the parameter `{name}` is NaN, and must be a number"),
             Self::Memory { name } => write!(
                 f,

@@ -62,24 +62,24 @@ fn held<T: Real>(held: &[Held], scalars: &[T], prepared: &[T], data: &[T]) -> Ve
 }
 
 impl<T: Real> Prepared<T> {
-    /// Prepares a system from the numbers of each parameter.
+    /// Prepares a system from the numbers of each parameter, which a function lifts: the number of the parameter, and that
+    /// of its element.
     pub(crate) fn new(
         code: &Arc<Code>,
         parameters: &[Vec<f64>],
         functions: &Arc<Vec<Tabulated>>,
+        lift: impl Fn([usize; 2], f64) -> T,
     ) -> Self {
-        let lifted = |number: &f64| T::constant(*number, 0.0);
         let mut scalars = vec![T::zero(); parameters.len()];
         let mut data = vec![T::constant(f64::NAN, 0.0); code.places.data];
         for (at, numbers) in parameters.iter().enumerate() {
             if !code.extents[at].is_empty() {
                 let (first, _) = code.places.parameters[at];
-                let numbers = numbers.iter().map(lifted);
-                for (to, number) in data[first..].iter_mut().zip(numbers) {
-                    *to = number;
+                for (element, (to, number)) in data[first..].iter_mut().zip(numbers).enumerate() {
+                    *to = lift([at, element], *number);
                 }
             } else if let Some(number) = numbers.first() {
-                scalars[at] = lifted(number);
+                scalars[at] = lift([at, 0], *number);
             }
         }
         let pool = Pool::new();

@@ -4,6 +4,7 @@
 //! what is not proven of its H is in its description, and a run whose scheme requires it is refused.
 
 use crate::code::{Code, Part};
+use crate::error::SystemError;
 use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
 use crate::tabulated::Tabulated;
@@ -48,6 +49,8 @@ pub struct RuntimeSystem {
     parameters: Arc<Vec<Vec<f64>>>,
     /// The functions with data.
     functions: Arc<Vec<Tabulated>>,
+    /// The parameter, and its element, by which dual numbers take derivatives.
+    variable: Option<[usize; 2]>,
     /// The system prepared over `f64`, which the members of an ensemble share.
     prepared: Arc<OnceLock<Prepared<f64>>>,
 }
@@ -63,8 +66,60 @@ impl RuntimeSystem {
             code,
             parameters,
             functions,
+            variable: None,
             prepared: Arc::default(),
         }
+    }
+
+    /// The system whose runs over [`Dual`] numbers have the derivative by a parameter: by a number, or by the element
+    /// `element` of an array, row after row. A number has the element 0. Runs over other scalars are those of this system.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    /// use hamiltonian_runtime::Definition;
+    ///
+    /// let spring = Definition::parse("struct Spring { k = 4.0 } H(x; p) = p^2/2 + k*x^2/2", "spring.txt")?;
+    /// let system = spring.system([("k", 4.0)])?.by_parameter("k", 0)?;
+    /// let start = State::over(vec![Dual::fixed(1.0)], vec![Dual::fixed(0.0)]);
+    /// let mut run = Integrator::new(&system, KahanLi8, start, Dual::fixed(0.01))?;
+    /// // x = cos(√k t), ∂x/∂k = −t sin(√k t)/(2√k)
+    /// let x = run.advance(100)?.q[0];
+    /// assert!((x.eps + 2f64.sin()/4.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SystemError::Unknown`] if there is no such parameter, or it is a function; [`SystemError::NoElement`].
+    ///
+    /// [`Dual`]: hamiltonian_lanes::Dual
+    pub fn by_parameter(&self, name: &str, element: usize) -> Result<RuntimeSystem, SystemError> {
+        let names = &self.code.parameter_names;
+        let at = names.iter().position(|known| known == name);
+        let at = at.ok_or_else(|| SystemError::Unknown {
+            name: name.to_owned(),
+            known: names.clone(),
+        })?;
+        let count = self.parameters[at].len();
+        if element >= count {
+            let name = name.to_owned();
+            return Err(SystemError::NoElement {
+                name,
+                element,
+                count,
+            });
+        }
+        Ok(RuntimeSystem {
+            variable: Some([at, element]),
+            ..self.clone()
+        })
+    }
+
+    fn prepared<T: Real>(&self) -> Prepared<T> {
+        let lift = |place, number| match self.variable == Some(place) {
+            true => T::from_dual(number, 1.0),
+            false => T::constant(number, 0.0),
+        };
+        Prepared::new(&self.code, &self.parameters, &self.functions, lift)
     }
 
     /// The number of coordinates, which is that of momenta.
@@ -136,13 +191,12 @@ impl System for RuntimeSystem {
 
     fn prepare<T: Real>(&self) -> Prepared<T> {
         if TypeId::of::<T>() == TypeId::of::<f64>() {
-            let make = || Prepared::new(&self.code, &self.parameters, &self.functions);
-            let kept: &dyn Any = self.prepared.get_or_init(make);
+            let kept: &dyn Any = self.prepared.get_or_init(|| self.prepared());
             if let Some(kept) = kept.downcast_ref::<Prepared<T>>() {
                 return kept.with_registers();
             }
         }
-        Prepared::new(&self.code, &self.parameters, &self.functions)
+        self.prepared()
     }
 
     fn zeros<T: Real>(&self) -> Flat<T> {

@@ -114,7 +114,7 @@ class Swarm:
     def steps(self) -> int: ...
 
 def derivative(
-    system: System, q: Array, p: Array, t: float, time: float, steps: int, nystrom: bool
+    system: System, q: Array, p: Array, t: float, time: float, steps: int, nystrom: bool, numbers: list[tuple[str, int]]
 ) -> Array: ...
 def indicators(
     members: Members, q: Array, p: Array, t: float, splitting: bool, step: float, steps: int, every: int, deviations: int

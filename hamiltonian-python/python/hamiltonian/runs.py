@@ -194,7 +194,7 @@ def solved(system: System, q, p, t, tolerance, scheme, step) -> Solution:
     return solution
 
 
-def sensitivities(solution: Solution, tolerance) -> np.ndarray:
+def sensitivities(solution: Solution, tolerance, parameters) -> np.ndarray:
     """See `System.sensitivity`."""
     system, t = solution.system, solution.t
     relative = arrays.number("tolerance", tolerance)
@@ -203,30 +203,40 @@ def sensitivities(solution: Solution, tolerance) -> np.ndarray:
     size = 2 * math.prod(system.shape)
     if size == 0:
         raise ValueError("a system without coordinates has no derivatives")
+    numbers = _numbers(system, [parameters] if isinstance(parameters, str) else list(parameters))
     nystrom = not {"Separable", "QuadraticKinetic", "Unforced"} & set(system.missing)
-    matrix = np.eye(size)
-    all = np.empty((len(t), size, size))
+    matrix = np.eye(size, size + len(numbers))
+    all = np.empty((len(t), *matrix.shape))
     mean = (t[-1] - t[0]) / max(solution.steps, 1) if len(t) else 1.0
     for row in range(len(t)):
-        if row:
+        if row and t[row] != t[row - 1]:
             time = t[row] - t[row - 1]
             start = solution.q[row - 1].ravel(), solution.p[row - 1].ravel(), t[row - 1]
             steps = max(1, math.ceil(time / mean)) if mean else 1
-            own = _converged(system, start, time, steps, nystrom, relative)
-            matrix = own @ matrix
+            own = _converged(system, start, time, steps, nystrom, relative, numbers)
+            matrix = own[:, :size] @ matrix
+            matrix[:, size:] += own[:, size:]
         all[row] = matrix
     return all
 
 
-def _converged(system: System, start, time: float, steps: int, nystrom: bool, relative: float) -> np.ndarray:
-    """The derivative of the state after some time, by steps that are halved until it changes no more."""
-    if time == 0:
-        return np.eye(2 * math.prod(system.shape))
+def _numbers(system: System, parameters: list[str]) -> list[tuple[str, int]]:
+    """Each parameter with each of its elements, row after row."""
+    known = system.parameters
+    for name in parameters:
+        if name not in known:
+            all = ", ".join(f"`{one}`" for one in known) or "none"
+            raise TypeError(f"there is no parameter `{name}`; there are {all}")
+    return [(name, element) for name in parameters for element in range(np.size(known[name]))]
+
+
+def _converged(system: System, start, time: float, steps: int, nystrom: bool, relative: float, numbers) -> np.ndarray:
+    """The derivatives of the state after some time, by steps that are halved until they change no more."""
     q, p, t = start
-    last = derivative(system._own, q, p, t, time, steps, nystrom)
+    last = derivative(system._own, q, p, t, time, steps, nystrom, numbers)
     for _ in range(20):
         steps *= 2
-        own = derivative(system._own, q, p, t, time, steps, nystrom)
+        own = derivative(system._own, q, p, t, time, steps, nystrom, numbers)
         if np.abs(own - last).max() <= relative * np.abs(own).max():
             return own
         last = own

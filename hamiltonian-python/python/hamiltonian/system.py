@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -344,15 +345,24 @@ class System:
         """
         return Ensemble(self, q, p, t, threads, values)
 
-    def sensitivity(self, solution: Solution, tolerance: float = 1e-9) -> np.ndarray:
-        """The derivatives of the states of a solution with respect to its start: a matrix for each time.
+    def sensitivity(
+        self, solution: Solution, tolerance: float = 1e-9, parameters: str | Iterable[str] = ()
+    ) -> np.ndarray:
+        """The derivatives of the states of a solution with respect to its start, and behind it to ``parameters``: a matrix
+        for each time.
 
-        Rows and columns are all coordinates, then all momenta, arrays row after row. They are exact derivatives of the
-        maps of ``GaussNystrom8`` or ``Gauss8``, by dual numbers, with steps that are halved until the matrix between two
-        times changes by less than ``tolerance``, relative to its largest element. For the derivative with respect to a
-        parameter, declare it as a coordinate whose momentum does not appear in H: it is constant.
+        Rows and columns are all coordinates, then all momenta, arrays row after row. Then each parameter that is named has
+        a column, an array one for each element. They are exact derivatives of the maps of ``GaussNystrom8`` or
+        ``Gauss8``, by dual numbers, with steps that are halved until the matrix between two times changes by less than
+        ``tolerance``, relative to its largest element.
+
+        >>> spring = define("H(x; p) = p^2/2 + k*x^2/2", k=4.0)
+        >>> sol = spring.solve(q=1.0, p=0.0, t=[0, 1])
+        >>> by_k = spring.sensitivity(sol, parameters="k")[-1, 0, 2]
+        >>> bool(abs(by_k + np.sin(2)/4) < 1e-9)  # x = cos(√k·t)
+        True
         """
-        return sensitivities(solution, tolerance)
+        return sensitivities(solution, tolerance, parameters)
 
     def _unknown(self, name: str) -> str:
         """The text of a ``KeyError`` for an observable that is not declared."""

@@ -273,7 +273,7 @@ fn of_function(
         _ => Kind::Plain,
     };
     let (steps, results) = (&function.evaluation, &function.results);
-    let (evaluation, read) = stage(setting, kind, steps, &coefficients, results)?;
+    let (mut evaluation, read) = stage(setting, kind, steps, &coefficients, results)?;
     let (coefficient, _) = stage(setting, Kind::Plain, &function.coefficient, &[], &read)?;
     let flow = match function.purpose {
         Purpose::Kick | Purpose::Drift | Purpose::Piece(_) if results.is_empty() => {
@@ -293,12 +293,11 @@ fn of_function(
         }
         _ => Err("derivatives by parameters".to_owned()),
     });
-    let cleared = cleared.collect::<Result<_, String>>()?;
+    evaluation.cleared = cleared.collect::<Result<_, String>>()?;
     let code = FunctionCode {
         coefficient,
         evaluation,
         framed: None,
-        cleared,
     };
     Ok((code, flow))
 }

@@ -171,24 +171,10 @@ impl<T: Real> Dynamics<T> for Prepared<T> {
 
     #[inline(always)]
     fn observable(&self, index: usize, t: T, q: &Flat<T>, p: &Flat<T>) -> T {
-        let mut before = 0;
-        for (number, (purpose, function)) in self.code.functions.iter().enumerate() {
-            if !matches!(purpose, Purpose::Observable(_)) {
-                continue;
-            }
-            let components = function.evaluation.results.len();
-            if index < before + components {
-                // Values of a vector have few components.
-                let mut results = [T::zero(); 64];
-                self.evaluate(number, &[], at(t, q, p), &mut results);
-                return match results.get(index - before) {
-                    Some(value) => *value,
-                    None => T::constant(f64::NAN, 0.0),
-                };
-            }
-            before += components;
-        }
-        panic!("observable {index} of {before}")
+        T::out_of_line(
+            #[inline(always)]
+            || self.component(index, at(t, q, p)),
+        )
     }
 
     fn field(&self, c: T) -> Field<T> {
@@ -246,5 +232,30 @@ impl<T: Real> Dynamics<T> for Prepared<T> {
         kernel: K,
     ) -> Option<K::Output> {
         gather::in_pack::<T, RuntimeSystem, P, K>(self, kept, kernel)
+    }
+}
+
+impl<T: Real> Prepared<T> {
+    /// A component of the observables.
+    #[inline(always)]
+    fn component(&self, index: usize, arrays: Arrays<'_, T>) -> T {
+        let mut before = 0;
+        for (number, (purpose, function)) in self.code.functions.iter().enumerate() {
+            if !matches!(purpose, Purpose::Observable(_)) {
+                continue;
+            }
+            let components = function.evaluation.results.len();
+            if index < before + components {
+                // Values of a vector have few components.
+                let mut results = [T::zero(); 64];
+                self.evaluate(number, &[], arrays, &mut results);
+                return match results.get(index - before) {
+                    Some(value) => *value,
+                    None => T::constant(f64::NAN, 0.0),
+                };
+            }
+            before += components;
+        }
+        panic!("observable {index} of {before}")
     }
 }

@@ -5,7 +5,7 @@
 //! first call.
 
 use crate::op::{Change, DEPTH, From, Op, Register, Stage, To};
-use crate::tabulated::Tabulated;
+use crate::tabulated::{Derivative, Tabulated};
 use hamiltonian_lanes::{Mask, Real};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -103,7 +103,7 @@ impl<T: Real> Arrays<'_, T> {
     }
 
     #[inline(always)]
-    pub(crate) fn clear(&mut self, (to, start, end): (To, usize, usize)) {
+    fn clear(&mut self, (to, start, end): (To, usize, usize)) {
         for element in &mut self.written(to)[start..end] {
             *element = T::zero();
         }
@@ -200,6 +200,8 @@ pub(crate) fn run<T: Real>(
     );
 }
 
+/// Runs a stage by the code for its length and its scalar. Each is compiled for every scalar, so dual numbers, whose
+/// operations take longer than finding them, have that for any length alone.
 #[inline(always)]
 fn run_here<T: Real>(
     stage: &Stage,
@@ -208,7 +210,10 @@ fn run_here<T: Real>(
     arrays: &mut Arrays<'_, T>,
     results: &mut [T],
 ) {
-    if stage.is_short {
+    for range in &stage.cleared {
+        arrays.clear(*range);
+    }
+    if const { T::DUALS == 0 } && stage.is_short {
         if let Home::Pool(_) = home
             && stage.registers <= SHORTEST[0]
             && stage.masks <= SHORTEST[1]
@@ -246,6 +251,24 @@ fn run_here<T: Real>(
     if let Some((pool, registers)) = taken {
         pool.give(registers);
     }
+}
+
+/// The sine and the cosine, compiled once for all loops over a scalar.
+#[inline(always)]
+fn sin_cos_apart<T: Real>(angle: T) -> (T, T) {
+    T::out_of_line(
+        #[inline(always)]
+        || angle.sin_cos(),
+    )
+}
+
+/// A derivative of a function with data, compiled likewise.
+#[inline(always)]
+fn derivative_apart<T: Real>(function: &Tabulated, derivative: Derivative, at: [T; 2]) -> T {
+    T::out_of_line(
+        #[inline(always)]
+        || function.derivative(derivative, at),
+    )
 }
 
 /// A loop that runs.
@@ -288,10 +311,7 @@ macro_rules! of_registers {
             }
             Op::SinCos(sin, cos, a) => {
                 let angle = $r[$index(a)];
-                let (s, c) = <$T>::out_of_line(
-                    #[inline(always)]
-                    || angle.sin_cos(),
-                );
+                let (s, c) = sin_cos_apart(angle);
                 $r[$index(sin)] = s;
                 $r[$index(cos)] = c;
             }
@@ -343,10 +363,7 @@ macro_rules! operation {
             Op::External(to, function, derivative, a, b) => {
                 let function = &$given.functions[usize::from(function)];
                 let at = [$r[$index(a)], $r[$index(b)]];
-                $r[$index(to)] = <$T>::out_of_line(
-                    #[inline(always)]
-                    || function.derivative(derivative, at),
-                );
+                $r[$index(to)] = derivative_apart(function, derivative, at);
             }
             Op::Store(to, at, change, a, b) => {
                 $arrays.change(to, at as usize, change, [$r[$index(a)], $r[$index(b)]]);

@@ -275,6 +275,8 @@ pub(crate) struct Stage {
     pub(crate) results: Vec<Register>,
     /// True if it is short and has no loops.
     pub(crate) is_short: bool,
+    /// The ranges of outputs that begin at 0.
+    pub(crate) cleared: Vec<(To, usize, usize)>,
 }
 
 /// A function of a system.
@@ -285,8 +287,6 @@ pub(crate) struct FunctionCode {
     pub(crate) evaluation: Stage,
     /// The evaluation in a frame, if it is the flow of a piece and short.
     pub(crate) framed: Option<Framed>,
-    /// The ranges of outputs that begin at 0.
-    pub(crate) cleared: Vec<(To, usize, usize)>,
 }
 
 /// A flow as straight code in a frame, whose registers hold the point and the numbers of all flows.

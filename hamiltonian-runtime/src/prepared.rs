@@ -263,9 +263,6 @@ impl<T: Real> Prepared<T> {
         mut arrays: Arrays<'_, T>,
         results: &mut [T],
     ) {
-        for range in &function.cleared {
-            arrays.clear(*range);
-        }
         let given = Given {
             numbers,
             data: &self.data,
@@ -274,14 +271,19 @@ impl<T: Real> Prepared<T> {
         run(&function.evaluation, given, home, &mut arrays, results);
     }
 
-    /// The value of a function that returns one.
+    /// The value of a function that returns one; compiled once, since runs of every scheme have it.
     #[inline(always)]
     pub(crate) fn value(&self, purpose: Purpose, arrays: Arrays<'_, T>) -> T {
-        let mut results = [T::constant(f64::NAN, 0.0)];
-        if let Some(number) = self.code.number(purpose) {
-            self.evaluate(number, &[], arrays, &mut results);
-        }
-        results[0]
+        T::out_of_line(
+            #[inline(always)]
+            || {
+                let mut results = [T::constant(f64::NAN, 0.0)];
+                if let Some(number) = self.code.number(purpose) {
+                    self.evaluate(number, &[], arrays, &mut results);
+                }
+                results[0]
+            },
+        )
     }
 
     /// Runs a function with a step coefficient, if it is there.

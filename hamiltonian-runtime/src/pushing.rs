@@ -86,9 +86,23 @@ impl<T: Real> Pushing<T> {
         })
     }
 
-    /// Moves the momenta.
+    /// Moves the momenta; compiled once for all flows.
     #[inline(always)]
     pub(crate) fn apply(
+        &self,
+        prepared: &Prepared<T>,
+        t: T,
+        x: &mut Point<Flat<T>>,
+        work: &mut PartWork<T>,
+    ) {
+        T::out_of_line(
+            #[inline(always)]
+            || self.apply_here(prepared, t, x, work),
+        );
+    }
+
+    #[inline(always)]
+    fn apply_here(
         &self,
         prepared: &Prepared<T>,
         t: T,

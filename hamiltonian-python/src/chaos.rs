@@ -129,7 +129,7 @@ fn rows<M: Scheme<RuntimeSystem>>(
 }
 
 /// Computes on another thread, and asks the hook meanwhile, which sets the flag.
-fn watched<A: Send>(
+pub fn watched<A: Send>(
     compute: impl FnOnce(&AtomicBool) -> A + Send,
     hook: impl Fn() -> bool,
 ) -> Option<A> {

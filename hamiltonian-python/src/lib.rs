@@ -11,6 +11,7 @@ mod layout;
 mod run;
 mod signals;
 mod swarm;
+mod sweep;
 mod system;
 
 use pyo3::prelude::*;
@@ -25,6 +26,7 @@ fn _hamiltonian(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<swarm::Swarm>()?;
     module.add_function(wrap_pyfunction!(chaos::derivative, module)?)?;
     module.add_function(wrap_pyfunction!(chaos::indicators, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(schemes, module)?)?;
     module.add_function(wrap_pyfunction!(command, module)?)?;
     Ok(())

@@ -15,6 +15,7 @@ use numpy::{
     PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use std::sync::{Mutex, MutexGuard};
 
 /// The systems of all members: one, or one for each.
@@ -129,6 +130,19 @@ pub struct Swarm {
 }
 
 impl Swarm {
+    fn of(swarm: hamiltonian_runtime::Swarm, members: Py<Members>, threads: Option<usize>) -> Self {
+        let swarm = match threads {
+            Some(threads) => swarm.with_threads(threads),
+            None => swarm,
+        };
+        let signals = Signals::default();
+        Swarm {
+            swarm: Mutex::new(swarm.with_cancel(signals.hook())),
+            members,
+            signals,
+        }
+    }
+
     fn own(&self) -> PyResult<MutexGuard<'_, hamiltonian_runtime::Swarm>> {
         errors::unused(self.swarm.try_lock())
     }
@@ -174,16 +188,35 @@ impl Swarm {
         let (q, p) = (own.read(&q)?, own.read(&p)?);
         let made =
             py.detach(|| hamiltonian_runtime::Swarm::new(&own.systems, scheme, &q, &p, t, step));
-        let mut swarm = made.map_err(|error| errors::of_run(py, &error))?;
-        if let Some(threads) = threads {
-            swarm = swarm.with_threads(threads);
-        }
-        let signals = Signals::default();
-        Ok(Swarm {
-            swarm: Mutex::new(swarm.with_cancel(signals.hook())),
-            members,
-            signals,
-        })
+        let swarm = made.map_err(|error| errors::of_run(py, &error))?;
+        Ok(Swarm::of(swarm, members, threads))
+    }
+
+    /// Saved members, from their starts and the bytes.
+    #[staticmethod]
+    #[pyo3(signature = (members, q, p, t, bytes, threads))]
+    fn resume(
+        py: Python<'_>,
+        members: Py<Members>,
+        q: PyReadonlyArray2<'_, f64>,
+        p: PyReadonlyArray2<'_, f64>,
+        t: f64,
+        bytes: &[u8],
+        threads: Option<usize>,
+    ) -> PyResult<Swarm> {
+        let own = members.get();
+        let (q, p) = (own.read(&q)?, own.read(&p)?);
+        let made = py.detach(|| hamiltonian_runtime::Swarm::resume(&own.systems, &q, &p, t, bytes));
+        let swarm = made.map_err(|error| errors::of_run(py, &error))?;
+        Ok(Swarm::of(swarm, members, threads))
+    }
+
+    /// The members as bytes.
+    fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let mut own = self.own()?;
+        let swarm = &mut *own;
+        let bytes = py.detach(move || swarm.save());
+        Ok(PyBytes::new(py, &bytes))
     }
 
     /// Makes steps, and calls `progress` with their number about ten times a second.

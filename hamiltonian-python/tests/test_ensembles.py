@@ -1,5 +1,7 @@
 """Ensembles: broadcasting, parameters of members, failures, indicators of chaos."""
 
+import pickle
+
 import hamiltonian as hm
 import numpy as np
 import pytest
@@ -155,3 +157,67 @@ def test_a_callback_that_fails_ends_the_call(henon, monkeypatch):
         swarm.advance(10**9, step=0.01, progress=True)
     assert swarm.t > 0
     swarm.advance(10)
+
+
+def test_pickles_continue_with_the_same_bits(henon):
+    # The first member leaves the well and fails; the others have parameters of their own.
+    q = np.array([[[30.0, 30.0], [0.1, 0.2]]])
+    swarm = henon.ensemble(q, 0.05, t=1.0, lam=np.array([[1.0], [0.5]]))
+    fresh = pickle.loads(pickle.dumps(swarm))
+    assert fresh.t == 1.0 and np.array_equal(fresh.state.q, swarm.state.q)
+    swarm.advance(40, step=0.05)
+    swarm.advance(30, scheme="Srkn6b")  # from states on the way
+    assert list(swarm.errors) == [(0, 0), (1, 0)]
+    other = pickle.loads(pickle.dumps(swarm))
+    assert other.shape == (2, 2) and other.errors == swarm.errors and other.t == swarm.t == 4.5
+    for one in (swarm, other):
+        one.advance(50)
+    assert other.t == swarm.t == 7.0
+    for a, b in zip(swarm.state, other.state):
+        assert np.array_equal(a, b, equal_nan=True)
+    with pytest.raises(ValueError, match="not the bytes of a saved run"):
+        other.__setstate__({**swarm.__getstate__(), "_own": b"scheme"})
+
+
+def test_sweeps_fill_stores(henon, tmp_path):
+    xr = pytest.importorskip("xarray")
+    pytest.importorskip("zarr")
+    q = np.array([[0.1, 0.2], [30.0, 30.0], [0.0, 0.3]])
+    swarm = henon.ensemble(q, 0.05, lam=np.array([1.0, 1.0, 0.5]))
+    swarm.advance_to(1.0, step=0.05)
+    columns = ["x", "py", "H", "drift"]
+    swarm.sweep(tmp_path / "map.zarr", t=[2.0, 3.51], record=columns)
+    assert swarm.t == 1.0
+    data = xr.open_zarr(tmp_path / "map.zarr")
+    assert data.x.dims == ("member", "t") and data.t.values.tolist() == [2.0, 3.51]
+    # Members that begin where the swarm stands.
+    others, state = [0, 2], swarm.state
+    again = henon.ensemble(state.q[others], state.p[others], t=1.0, lam=np.array([1.0, 0.5]))
+    for row, t in enumerate([2.0, 3.51]):
+        state = again.advance_to(t, step=0.05)
+        assert data.x.values[others, row].tolist() == state.q[:, 0].tolist()
+        assert data.py.values[others, row].tolist() == state.p[:, 1].tolist()
+    assert (data.drift.values[[0, 2]] > 0).all() and (data.drift.values[[0, 2]] < 1e-3).all()
+    # The member that has left is NaN, with a status above 2.
+    assert np.isnan(data.x.values[1]).all() and data.status.values[1] > 2
+    # One row for each member at the end; a run of the same sweep does nothing more.
+    for _ in range(2):
+        swarm.sweep(str(tmp_path / "end.zarr"), t=5.0, record="y", progress=True)
+    end = xr.open_zarr(tmp_path / "end.zarr")
+    assert end.y.dims == ("member",) and end.y.values[0] == again.advance_to(5.0).q[0, 1]
+
+
+def test_sweeps_refuse_what_they_cannot_record(henon, tmp_path):
+    swarm = henon.ensemble([[0.1, 0.2]], 0.05)
+    path = tmp_path / "map.zarr"
+    with pytest.raises(ValueError, match=r"nothing named `z` to record; there are `t`, `H`, `drift`, `x`, `px`, `y`, `py`"):
+        swarm.sweep(path, t=1.0, record=["z"], step=0.1)
+    with pytest.raises(ValueError, match="ensembles do not have `Gauss8`"):
+        swarm.sweep(path, t=1.0, record=["x"], step=0.1, scheme="Gauss8")
+    with pytest.raises(TypeError, match="needs a `step`"):
+        swarm.sweep(path, t=1.0, record=["x"])
+    with pytest.raises(ValueError, match="a time or a list of times"):
+        swarm.sweep(path, t=[], record=["x"], step=0.1)
+    swarm.sweep(path, t=1.0, record=["x"], step=0.1)
+    with pytest.raises(hm.RunError, match="map.zarr"):
+        swarm.sweep(path, t=2.0, record=["x"], step=0.1)

@@ -62,6 +62,14 @@ def test_indicators_stop(ctrl_c):
     assert time.monotonic() - start < 5
 
 
+def test_sweeps_continue_after_ctrl_c(ctrl_c, tmp_path):
+    swarm = SPRING.ensemble(np.linspace(0.1, 1, 2000)[:, None], 0.0)
+    path = tmp_path / "springs.zarr"
+    with pytest.raises(KeyboardInterrupt):
+        swarm.sweep(path, t=1e7, record=["x"], step=0.01)
+    assert (path / "zarr.json").exists() and swarm.t == 0
+
+
 def test_an_ignored_ctrl_c_is_ignored():
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:

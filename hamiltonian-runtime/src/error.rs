@@ -171,6 +171,14 @@ pub enum RunError {
         /// The length of the list.
         found: usize,
     },
+    /// A column of a sweep has the name of nothing.
+    #[non_exhaustive]
+    UnknownColumn {
+        /// Its name.
+        name: String,
+        /// The names that columns may have.
+        known: Vec<String>,
+    },
     /// Velocities are those of a Lagrangian, and the definition gives H.
     NoLagrangian,
     /// The cancel hook ended the call. The steps made so far are kept.
@@ -203,6 +211,11 @@ impl Display for RunError {
                 expected,
                 found,
             } => write!(f, "there must be {expected} {what}, found {found}"),
+            Self::UnknownColumn { name, known } => write!(
+                f,
+                "there is nothing named `{name}` to record; there are `{}`",
+                known.join("`, `")
+            ),
             Self::NoLagrangian => f.write_str(
                 "velocities begin a Lagrangian, and the definition gives H: give momenta",
             ),

@@ -10,7 +10,7 @@ use crate::system::RuntimeSystem;
 use crate::watching::Hook;
 use hamiltonian_core::errors::{StartError, SweepError};
 use hamiltonian_core::schemes::author::Clock;
-use hamiltonian_core::{Ensemble, Error, Member, State, Unfused};
+use hamiltonian_core::{Checkpoint, Ensemble, Error, Member, State, Unfused};
 use std::fmt::{self, Debug, Formatter};
 use std::time::{Duration, Instant};
 
@@ -35,6 +35,8 @@ use std::time::{Duration, Instant};
 /// ```
 pub struct Swarm {
     members: Box<dyn Members>,
+    /// The name of the scheme.
+    scheme: String,
     /// The number of members, and of coordinates of one.
     of: [usize; 2],
     clock: Clock<f64>,
@@ -74,37 +76,77 @@ impl Swarm {
         t: f64,
         step: f64,
     ) -> Result<Swarm, RunError> {
-        let none = RunError::Length {
-            what: "systems",
-            expected: 1,
-            found: 0,
-        };
-        let width = systems.first().ok_or(none)?.degrees_of_freedom();
-        let count = match systems.len() {
-            1 => q.len() / width.max(1),
-            count => count,
-        };
-        for (what, found) in [("coordinates", q.len()), ("momenta", p.len())] {
-            if found != count * width {
-                let expected = count * width;
-                return Err(RunError::Length {
-                    what,
-                    expected,
-                    found,
-                });
-            }
-        }
+        Self::of(systems, scheme, [q, p], t, (step, None))
+    }
+
+    /// Returns the members as bytes, for [`resume`](Swarm::resume): core's [`Checkpoint`] after a line with the scheme and the
+    /// step.
+    #[must_use]
+    pub fn save(&self) -> Vec<u8> {
+        let mut bytes = format!("ensemble {} {:e}\n", self.scheme, self.step).into_bytes();
+        bytes.extend(self.members.checkpoint().to_bytes());
+        bytes
+    }
+
+    /// Resumes saved members with the same bits, from the systems and the starts of [`new`](Swarm::new). Call
+    /// [`with_threads`](Swarm::with_threads) and [`with_cancel`](Swarm::with_cancel) again.
+    ///
+    /// ```
+    /// use hamiltonian_runtime::{Definition, Swarm, Values};
+    ///
+    /// let spring = [Definition::parse("H(x; p) = p^2/2 + x^2/2", "spring.txt")?.system(Values::new())?];
+    /// let (q, p) = ([1.0, 2.0], [0.0; 2]);
+    /// let mut swarm = Swarm::new(&spring, "BlanesMoan4", &q, &p, 0.0, 0.1)?;
+    /// swarm.advance(10)?;
+    /// let mut again = Swarm::resume(&spring, &q, &p, 0.0, &swarm.save())?;
+    /// swarm.advance(10)?;
+    /// again.advance(10)?;
+    /// assert_eq!((swarm.steps(), swarm.states()), (again.steps(), again.states()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RunError::NotSaved`], those of [`new`](Swarm::new), and those of
+    /// [`Ensemble::resume_reproducible`].
+    pub fn resume(
+        systems: &[RuntimeSystem],
+        q: &[f64],
+        p: &[f64],
+        t: f64,
+        bytes: &[u8],
+    ) -> Result<Swarm, RunError> {
+        let end = bytes.iter().position(|byte| *byte == b'\n');
+        let (line, rest) = bytes.split_at(end.ok_or(RunError::NotSaved)?);
+        let line = std::str::from_utf8(line).map_err(|_| RunError::NotSaved)?;
+        let words = line.strip_prefix("ensemble ");
+        let (scheme, step) = words
+            .and_then(|words| words.rsplit_once(' '))
+            .ok_or(RunError::NotSaved)?;
+        let step = step.parse().map_err(|_| RunError::NotSaved)?;
+        let saved = Checkpoint::from_bytes(&rest[1..])?;
+        Self::of(systems, scheme, [q, p], t, (step, Some(saved)))
+    }
+
+    /// Members at their starts, or saved ones.
+    fn of(
+        systems: &[RuntimeSystem],
+        scheme: &str,
+        [q, p]: [&[f64]; 2],
+        t: f64,
+        (step, saved): (f64, Option<Checkpoint>),
+    ) -> Result<Swarm, RunError> {
+        let starts = Starts { systems, q, p, t };
+        let (count, width) = (starts.count()?, systems[0].degrees_of_freedom());
         let begin = BeginMembers {
-            systems,
-            of: [count, width],
-            q,
-            p,
-            t,
+            starts,
+            count,
             step,
+            saved,
         };
         let (members, clock) = give_many(scheme, begin)??;
         Ok(Swarm {
             members,
+            scheme: scheme.to_owned(),
             of: [count, width],
             clock,
             step,
@@ -133,7 +175,11 @@ impl Swarm {
     /// # Errors
     /// [`RunError::Interrupted`] alone: the error of a member is in its place.
     pub fn advance(&mut self, steps: u64) -> Result<(), RunError> {
-        self.advance_watched(steps, &mut |_| {})
+        if self.hook.is_set() {
+            return self.advance_watched(steps, &mut |_| {});
+        }
+        self.members.advance(steps);
+        Ok(())
     }
 
     /// Makes `steps` steps as [`advance`](Swarm::advance) does, and calls `progress` about ten times a second, and at the end,
@@ -240,37 +286,77 @@ impl Debug for Swarm {
     }
 }
 
+/// The starts of members, those of a member together, and their systems: one, or one for each.
+#[derive(Clone, Copy)]
+pub(crate) struct Starts<'a> {
+    pub(crate) systems: &'a [RuntimeSystem],
+    pub(crate) q: &'a [f64],
+    pub(crate) p: &'a [f64],
+    pub(crate) t: f64,
+}
+
+impl Starts<'_> {
+    /// The number of members, for which all lists have their numbers.
+    pub(crate) fn count(&self) -> Result<usize, RunError> {
+        let none = RunError::Length {
+            what: "systems",
+            expected: 1,
+            found: 0,
+        };
+        let width = self.systems.first().ok_or(none)?.degrees_of_freedom();
+        let count = match self.systems.len() {
+            1 => self.q.len() / width.max(1),
+            count => count,
+        };
+        let expected = count * width;
+        for (what, found) in [("coordinates", self.q.len()), ("momenta", self.p.len())] {
+            if found != expected {
+                return Err(RunError::Length {
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
+        Ok(count)
+    }
+
+    /// The system and the start of a member.
+    pub(crate) fn member(&self, index: usize) -> (RuntimeSystem, FlatState) {
+        let system = self.systems.get(index).unwrap_or(&self.systems[0]);
+        let width = system.degrees_of_freedom();
+        let range = index * width..(index + 1) * width;
+        let [q, p] = [self.q, self.p].map(|all| all[range.clone()].to_vec());
+        (system.clone(), State::new(q, p).at(self.t))
+    }
+}
+
 /// Members before their scheme is known.
 struct BeginMembers<'a> {
-    systems: &'a [RuntimeSystem],
-    of: [usize; 2],
-    q: &'a [f64],
-    p: &'a [f64],
-    t: f64,
+    starts: Starts<'a>,
+    count: usize,
     step: f64,
+    saved: Option<Checkpoint>,
 }
 
 impl Make for BeginMembers<'_> {
     type Made = Result<(Box<dyn Members>, Clock<f64>), Error>;
 
     fn make<M: Runs>(self, scheme: M) -> Self::Made {
-        let [count, width] = self.of;
+        let (starts, count) = (self.starts, self.count);
         let duration = f64::from(scheme.entry().duration);
-        let make = |member: Member| {
-            let range = member.index * width..(member.index + 1) * width;
-            let [q, p] = [self.q, self.p].map(|all| all[range.clone()].to_vec());
-            let system = self.systems.get(member.index);
-            let system = system.unwrap_or(&self.systems[0]).clone();
-            (system, State::new(q, p).at(self.t))
+        let make = |member: Member| starts.member(member.index);
+        let ensemble = match self.saved {
+            None => Ensemble::new(count, make, scheme, self.step)?.reproducible(),
+            Some(saved) => Ensemble::resume_reproducible(count, make, scheme, saved)?,
         };
-        let ensemble = Ensemble::new(count, make, scheme, self.step)?.reproducible();
         // A structure that one member lacks, all lack.
         if let Some(Err(Error::Sweep(SweepError::Member { error, .. }))) = ensemble.state_of(0)
             && let Error::Start(StartError::Structure { .. }) = *error
         {
             return Err(*error);
         }
-        let clock = Clock::new(self.t, self.step * duration);
+        let clock = Clock::new(starts.t, self.step * duration);
         Ok((Box::new(ensemble), clock))
     }
 }
@@ -283,6 +369,7 @@ trait Members: Send {
     fn steps(&self) -> u64;
     fn states(&self, of: [usize; 2]) -> MemberStates;
     fn advance_until(&mut self, t: f64, of: [usize; 2]) -> Result<MemberStates, Error>;
+    fn checkpoint(&self) -> Checkpoint;
     fn describe(&self) -> String;
 }
 
@@ -304,6 +391,9 @@ impl<M: Runs> Members for Ensemble<RuntimeSystem, M, (), Unfused> {
     }
     fn advance_until(&mut self, t: f64, of: [usize; 2]) -> Result<MemberStates, Error> {
         Ok(MemberStates::of(&mut self.advance_until(t)?, of))
+    }
+    fn checkpoint(&self) -> Checkpoint {
+        self.checkpoint()
     }
     fn describe(&self) -> String {
         format!("{self:?}")

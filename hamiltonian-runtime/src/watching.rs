@@ -32,6 +32,12 @@ impl Hook {
         *self.cancel.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::new(cancel));
     }
 
+    /// True if there is a function to ask.
+    pub(crate) fn is_set(&self) -> bool {
+        let cancel = self.cancel.lock().unwrap_or_else(PoisonError::into_inner);
+        cancel.is_some()
+    }
+
     /// Asks whether to stop.
     pub(crate) fn stops(&self) -> bool {
         let cancel = self.cancel.lock().unwrap_or_else(PoisonError::into_inner);

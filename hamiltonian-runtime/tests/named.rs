@@ -5,7 +5,9 @@
 use crate::allocator::allocations;
 use hamiltonian::prelude::State;
 use hamiltonian::schemes::author::{Needs, catalogue};
-use hamiltonian_runtime::{Definition, Run, RunError, RuntimeSystem, Swarm, Values, schemes};
+use hamiltonian_runtime::{
+    Definition, NamedSweep, Run, RunError, RuntimeSystem, Swarm, Values, schemes,
+};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -259,4 +261,71 @@ fn wrong_lengths_are_refused() {
     assert_eq!(none.to_string(), "there must be 1 systems, found 0");
     let run = Run::new(&spring, "Strang", State::new(vec![1.0; 2], vec![0.0]), 0.1);
     assert!(run.is_err());
+}
+
+#[test]
+fn members_are_saved_and_recorded_by_name() {
+    let text = "struct Spring { k = 1.0 } H(q; p) = p^2/2 + k*q^2/2; invariant twice = p^2 + k*q^2";
+    let definition = Definition::parse(text, "text").unwrap_or_else(|errors| panic!("{errors}"));
+    let system = |k: f64| definition.system([("k", k)]).expect("a number");
+    let springs = [system(1.0), system(4.0)];
+    let (q, p) = ([1.0, 2.0], [0.5; 2]);
+    let mut swarm = Swarm::new(&springs, "BlanesMoan4", &q, &p, 1.0, 0.1).expect("starts");
+    swarm.advance(30).expect("no hook");
+    let saved = swarm.save();
+    let again =
+        |systems: &[RuntimeSystem], bytes: &[u8]| Swarm::resume(systems, &q, &p, 1.0, bytes);
+    let mut resumed = again(&springs, &saved).expect("the same members");
+    assert_eq!((resumed.t(), resumed.step()), (swarm.t(), 0.1));
+    swarm.advance(30).expect("no hook");
+    resumed.advance(30).expect("no hook");
+    assert_eq!(resumed.states(), swarm.states());
+    // Other members, and other bytes.
+    assert!(again(&[system(1.0), system(5.0)], &saved).is_err());
+    for bytes in [
+        &b"scheme BlanesMoan4\n"[..],
+        b"ensemble",
+        b"ensemble BlanesMoan4 x\n",
+    ] {
+        assert_eq!(again(&springs, bytes).err(), Some(RunError::NotSaved));
+    }
+
+    // The rows of a sweep are the states of the members.
+    let path = std::env::temp_dir().join(format!("named-{}.zarr", std::process::id()));
+    let sweep = |columns: &[&str]| {
+        NamedSweep::new(&springs, "BlanesMoan4", &q, &p, 1.0, 0.1)
+            .record(columns.iter().copied())
+            .with_end(7.0)
+    };
+    let names = ["q", "p", "t", "H", "twice", "drift"];
+    let stored = sweep(&names).store(&path).expect("a folder");
+    assert!(stored.is_complete());
+    let value = |name: &str| {
+        let bytes = std::fs::read(path.join(name).join("c").join("0")).expect("one chunk");
+        let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().expect("eight bytes"));
+        bytes[..16]
+            .chunks_exact(8)
+            .map(number)
+            .collect::<Vec<f64>>()
+    };
+    let states = swarm.states();
+    assert_eq!(
+        [value("q"), value("p"), value("t")],
+        [states.q, states.p, states.t]
+    );
+    for (energy, twice) in value("H").iter().zip(value("twice")) {
+        assert!((2.0 * energy - twice).abs() < 1e-12);
+    }
+    assert!(
+        value("drift")
+            .iter()
+            .all(|drift| (1e-16..1e-4).contains(drift))
+    );
+    std::fs::remove_dir_all(&path).expect("it was written");
+    let refused = sweep(&["r"]).store(&path).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "there is nothing named `r` to record; there are `t`, `H`, `drift`, `q`, `p`, `twice`"
+    );
+    assert!(!path.exists());
 }

@@ -66,7 +66,7 @@ pub(crate) enum EndPoint<'a> {
 /// | in this order | methods |
 /// |---|---|
 /// | attach observers, if any | [`observe`](Sweep::observe) |
-/// | choose what is recorded: one of these, once | [`record`](Sweep::record), [`record_at`](Sweep::record_at), [`record_rows`](Sweep::record_rows) |
+/// | choose what is recorded: one of these, once | [`record`](Sweep::record), [`record_at`](Sweep::record_at), [`record_rows`](Sweep::record_rows), [`record_columns`](Sweep::record_columns) |
 /// | run, on all cores | [`collect`](Sweep::collect) to a table, [`fold`](Sweep::fold) and [`try_fold`](Sweep::try_fold) row by row, `store` to a Zarr directory |
 ///
 /// The other methods set options, anywhere before the run. The closure that records a member receives an
@@ -281,6 +281,40 @@ impl<'a, S: System, M: Scheme<S>, O, A: Rounding> Sweep<'a, S, M, O, (), A> {
             to.extend(rows(end).into_iter().flatten());
         };
         self.recorded(&columns, true, None, Box::new(write))
+    }
+
+    /// Records one row per member at its end, or one per member and time, in columns whose names are known at run time
+    /// alone. The closure appends a number for each column. A number that it leaves out is NaN, and one too many is left
+    /// out.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |member: Member| (Oscillator {}, State::new([member.index as f64], [0.0]));
+    /// let columns: Vec<String> = (1..=2).map(|power| format!("q^{power}")).collect();
+    /// let table = Sweep::new(3, start, ImplicitMidpoint::default(), 0.01)
+    ///     .with_steps(10)
+    ///     .record_columns(&columns, None, |end, numbers| {
+    ///         numbers.extend((1..=2).map(|power| end.state.q[0].powi(power)));
+    ///     })
+    ///     .collect()?;
+    /// assert_eq!(table.columns(), ["member", "q^1", "q^2", "status"]);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn record_columns<N: AsRef<str>>(
+        self,
+        columns: &[N],
+        times: Option<Vec<f64>>,
+        record: impl Fn(&End<'_, S, O>, &mut Vec<f64>) + Send + Sync + 'a,
+    ) -> Sweep<'a, S, M, O, Record<'a, S, O>, A> {
+        let columns: Vec<&str> = columns.iter().map(AsRef::as_ref).collect();
+        let width = columns.len();
+        let write = move |end: &End<'_, S, O>, to: &mut Vec<f64>| {
+            let before = to.len();
+            record(end, to);
+            to.resize(before + width, f64::NAN);
+        };
+        self.recorded(&columns, times.is_some(), times, Box::new(write))
     }
 
     fn recorded(

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import arrays
-from ._hamiltonian import Members, Swarm, indicators
+from ._hamiltonian import Members, Swarm, indicators, sweep
 from .runs import State
 
 if TYPE_CHECKING:
@@ -20,7 +23,8 @@ class Ensemble:
 
     Members advance together, in SIMD lanes and on all cores, with the interpreter's lock released. A member that fails is
     NaN from then on, and the others continue. Ctrl-C raises `KeyboardInterrupt` at a whole number of steps of all members:
-    `state` has what is done, and the next call continues.
+    `state` has what is done, and the next call continues. An ensemble that is pickled and read back continues with the same
+    bits.
     """
 
     system: System
@@ -54,10 +58,12 @@ class Ensemble:
         rows = [
             (name, not known[name], arrays.rows(value, self.shape, tuple(known[name]))) for name, value in own.items()
         ]
+        self._values = rows
         self._members = Members(system._definition, system._own, system._flat(), rows)
         self._own: Swarm | None = None
         self._scheme: str | None = None
         self._step: float | None = None
+        # Where the members of `_own` began.
         self._start = arrays.number("t", t), arrays.rows(q, self.shape, system.shape), arrays.rows(p, self.shape, system.shape)
 
     @property
@@ -123,6 +129,54 @@ class Ensemble:
         chaos with the Lyapunov exponent λ. The members do not advance."""
         return self._indicators(t, step, 0, every).reshape(self.shape)
 
+    def sweep(
+        self,
+        path: str | os.PathLike[str],
+        t: ArrayLike,
+        record: Iterable[str],
+        step: float | None = None,
+        scheme: str | None = None,
+        progress: bool = False,
+    ) -> None:
+        """Runs each member from its current state to the time t, and writes numbers of it into a Zarr store, which xarray
+        opens. The members do not advance.
+
+        ``record`` has the names of columns: a coordinate or a momentum, such as ``x`` or ``q[0][2]``, ``t``, ``H``, an
+        observable, or ``drift``, the largest relative change of H at a whole step. With a list of times for ``t``, each
+        column has the dimensions ``member`` and ``t``, and ``t`` is no column. Members are numbered along the shape of the
+        ensemble, the last axis fastest. A member that fails is NaN, and ``status`` has the kind of its failure. ``step``
+        and ``scheme`` are those of `advance_to`.
+
+        Memory does not grow with the number of times. After Ctrl-C the same call continues with the members that are
+        missing. Each has the bits of a run that begins at its current state.
+
+        >>> import tempfile, xarray
+        >>> spring = define("H(x; p) = p^2/2 + k*x^2/2", k=1.0)
+        >>> swarm = spring.ensemble(q=1.0, p=0.0, k=np.array([1.0, 4.0, 9.0]))
+        >>> path = tempfile.mkdtemp() + "/springs.zarr"
+        >>> swarm.sweep(path, t=[0.5, 1.0], record=["x", "drift"], step=0.01)
+        >>> data = xarray.open_zarr(path)
+        >>> bool(abs(data.x.sel(t=1.0) - np.cos([1, 2, 3])).max() < 1e-6)
+        True
+
+        Raises:
+            ValueError: There is nothing of that name, the scheme does not fit H, or t lies behind.
+            RunError: The store has members of another sweep, or cannot be written.
+        """
+        step, scheme = self._of_steps(step, scheme)
+        columns = [record] if isinstance(record, str) else list(record)
+        times = arrays.finite("t", t)
+        if times.ndim > 1 or times.size == 0:
+            raise ValueError(f"`t` must be a time or a list of times, found an array of shape {times.shape}")
+        _, q, p = self._rows()
+        at = None if times.ndim == 0 else np.ascontiguousarray(times)
+        bar = _bar(len(self), "member") if progress else None
+        own = self._members, q, p, float(self.t), scheme, step, float(times.ravel()[-1]), at, columns, os.fspath(path)
+        if bar is None:
+            return sweep(*own, self._threads)
+        with bar:
+            sweep(*own, self._threads, lambda made: bar.update(made - bar.n))
+
     def _indicators(self, t, step, deviations: int, every) -> np.ndarray:
         step = self._step if step is None else arrays.number("step", step)
         if step is None:
@@ -137,8 +191,8 @@ class Ensemble:
         self._keep(errors)
         return numbers
 
-    def _begin(self, step, scheme) -> Swarm:
-        """The members, with another step or scheme from their current states."""
+    def _of_steps(self, step, scheme) -> tuple[float, str]:
+        """A step and a scheme, by default the last ones."""
         if step is None and self._step is None:
             raise TypeError("the first call needs a `step`")
         step = self._step if step is None else arrays.number("step", step)
@@ -146,11 +200,17 @@ class Ensemble:
             scheme = self._scheme or ("BlanesMoan4" if "Split" not in self.system.missing else "Gauss4")
         if not isinstance(scheme, str):
             raise TypeError(f"`scheme` must be a name such as 'BlanesMoan4', found {type(scheme).__name__}")
+        return step, scheme
+
+    def _begin(self, step, scheme) -> Swarm:
+        """The members, with another step or scheme from their current states."""
+        step, scheme = self._of_steps(step, scheme)
         if self._own is not None and (step, scheme) == (self._step, self._scheme):
             return self._own
         _, q, p = self._rows()
+        start = self.t, q, p
         self._own = Swarm(self._members, q, p, self.t, scheme, step, self._threads)
-        self._step, self._scheme = step, scheme
+        self._step, self._scheme, self._start = step, scheme, start
         return self._own
 
     def _advance(self, own: Swarm, steps: int, progress: bool) -> None:
@@ -180,6 +240,18 @@ class Ensemble:
             index = tuple(int(i) for i in np.unravel_index(member, self.shape))
             self.errors.setdefault(index, text)
 
+    def __getstate__(self) -> dict:
+        kept = {name: value for name, value in vars(self).items() if name != "_members"}
+        kept["_own"] = None if self._own is None else self._own.save()
+        return kept
+
+    def __setstate__(self, kept: dict) -> None:
+        saved = kept.pop("_own")
+        vars(self).update(kept)
+        system, (t, q, p) = self.system, self._start
+        self._members = Members(system._definition, system._own, system._flat(), self._values)
+        self._own = None if saved is None else Swarm.resume(self._members, q, p, t, saved, self._threads)
+
     def __len__(self) -> int:
         return math.prod(self.shape)
 
@@ -188,10 +260,10 @@ class Ensemble:
         return f"{len(self)} members of {self.system.name} at t = {self.t:.6g}{failed}"
 
 
-def _bar(steps: int):
+def _bar(steps: int, unit: str = "step"):
     """A bar of tqdm; none if it is not installed."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
         return None
-    return tqdm(total=steps, unit="step")
+    return tqdm(total=steps, unit=unit)

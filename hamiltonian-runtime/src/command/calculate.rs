@@ -5,6 +5,7 @@
 
 use super::places::Word;
 use super::study::{Assignment, Number, Stepping, Study};
+use crate::names::elements;
 use crate::{
     Coordinates, Definition, Diagnostic, FlatState, Run, RunError, RuntimeSystem, Value, Values,
 };
@@ -25,21 +26,6 @@ struct Group<'a> {
     name: &'a str,
     is_coordinate: bool,
     of: &'a Coordinates,
-}
-
-impl Group<'_> {
-    /// The names of all elements, the last index fastest, with their places.
-    fn elements(&self) -> Vec<(String, usize)> {
-        let mut names = vec![self.name.to_owned()];
-        for extent in self.of.extents() {
-            let with = |name: &String| {
-                let name = name.clone();
-                (0..*extent).map(move |index| format!("{name}[{index}]"))
-            };
-            names = names.iter().flat_map(with).collect();
-        }
-        names.into_iter().zip(self.of.places()).collect()
-    }
 }
 
 /// The coordinates, then the momenta, or the velocities of a Lagrangian.
@@ -231,7 +217,7 @@ pub(super) fn calculate(study: &Study) -> Result<(Tables, Result<(), String>), S
 
     let groups = groups(system.coordinates(), false);
     let elements = groups.iter().flat_map(|group| {
-        let elements = group.elements().into_iter();
+        let elements = elements(group.name, group.of).into_iter();
         elements.map(|(name, place)| (name, place, group.is_coordinate))
     });
     let elements: Vec<(String, usize, bool)> = elements.collect();

@@ -47,7 +47,7 @@ with l = 2.0              // metres
 start theta = 0.5, p = 0
 run t = 0..2, every = 0.25, scheme = BlanesMoan6, step = 0.1
 
-write orbit.csv, orbit.npy
+write orbit.csv, orbit.npy, orbit.zarr, orbit.svg
 events crossings.csv
 ";
     let output = command(&folder, &format!("{DEFINITION}{lines}"));
@@ -82,6 +82,32 @@ events crossings.csv
             .expect("it is written")
             .starts_with(b"\x93NUMPY")
     );
+    // A store of one member, with the dimension of the time.
+    let bytes = |name: &str| fs::read(folder.join("orbit.zarr").join(name)).expect("it is written");
+    let numbers =
+        |all: &mut dyn Iterator<Item = f64>| all.flat_map(f64::to_le_bytes).collect::<Vec<u8>>();
+    assert_eq!(bytes("t/c/0"), numbers(&mut times.iter().copied()));
+    assert_eq!(
+        bytes("p/c/0/0"),
+        numbers(&mut states.iter().map(|state| state.p[0]))
+    );
+    // The picture has one curve, from the left to the right; its lowest point is the least angle.
+    let svg = fs::read_to_string(folder.join("orbit.svg")).expect("it is written");
+    let curve = svg.rsplit_once("<path d=\"M80.00 ");
+    let (_, curve) = curve.expect("it begins on the left");
+    let (curve, rest) = curve.split_once('"').expect("it ends");
+    let place = |point: &str| -> f64 {
+        let y = point.split_whitespace().next_back().expect("two numbers");
+        y.parse().expect("a number")
+    };
+    let places: Vec<f64> = curve.split('L').map(place).collect();
+    assert_eq!(places.len(), times.len());
+    assert!(curve.contains("L780.00 ") && rest.contains("<title>theta</title>"));
+    assert_eq!(svg.matches("<title>").count(), 1);
+    let least = |all: &[f64]| (0..all.len()).min_by(|a, b| all[*a].total_cmp(&all[*b]));
+    let angles: Vec<f64> = states.iter().map(|state| -state.q[0]).collect();
+    assert_eq!(least(&places), least(&angles));
+    assert!(places.contains(&400.0) && places.contains(&20.0));
 }
 
 #[test]

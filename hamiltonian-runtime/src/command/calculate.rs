@@ -17,6 +17,8 @@ use hamiltonian_core::{System, Table};
 pub(super) struct Tables {
     /// t, coordinates, momenta, H, monitors, invariants and events, at the times of rows.
     pub orbit: Table,
+    /// The number of its columns of coordinates.
+    pub coordinates: usize,
     /// The number of each event that is crossed, 1 if its function increases, and the state.
     pub events: Table,
 }
@@ -288,5 +290,11 @@ pub(super) fn calculate(study: &Study) -> Result<(Tables, Result<(), String>), S
         state(crossing.state, &mut row);
         events.push(&row).map_err(failed)?;
     }
-    Ok((Tables { orbit, events }, ended))
+    let coordinates = elements.iter().filter(|(.., is_coordinate)| *is_coordinate);
+    let tables = Tables {
+        coordinates: coordinates.count(),
+        orbit,
+        events,
+    };
+    Ok((tables, ended))
 }

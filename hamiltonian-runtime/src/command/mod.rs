@@ -4,6 +4,7 @@
 //! standard output. Invariant: an error has its place in the file and a remedy; states before a failed step are written.
 
 mod calculate;
+mod picture;
 mod places;
 mod study;
 mod tables;
@@ -23,10 +24,11 @@ Runs the definition in FILE, a text in the language of `hamiltonian!`, as the li
     with l = 2.0
     start theta = 0.5, p = 0
     run t = 0..100, every = 0.1, tolerance = 1e-10
-    write pendulum.csv
+    write pendulum.csv, pendulum.svg
     events bottom.csv
 
-Instead of `tolerance`, `scheme = GaussNystrom8, step = 0.1`. Without `write`, the table goes to the standard output.
+Instead of `tolerance`, `scheme = GaussNystrom8, step = 0.1`. A file ends in `.csv`, `.npy` (NumPy), `.zarr` (a store, for
+xarray) or `.svg` (a picture of the coordinates). Without `write`, the table goes to the standard output.
 
     hamiltonian-run --schemes    the names of all schemes";
 

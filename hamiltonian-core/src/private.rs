@@ -48,7 +48,8 @@ pub use crate::loops::calls::*;
 pub use crate::loops::pairs::{TILED, TileRow, Triangle, pairs};
 pub use crate::loops::slabs::rows;
 pub use crate::loops::stretch::{
-    Body, Change, ColumnStore, LONG, Mode, Nest, STRIDE, Stretch, nest, total, worth, wrapped,
+    AddedTo, Body, Change, ColumnStore, LONG, Mode, Nest, STRIDE, Stretch, nest, total, worth,
+    wrapped,
 };
 pub use crate::schemes::{Gauss, GaussNystrom, ToTolerance};
 pub use crate::systems::fit::ListOf;

@@ -104,6 +104,9 @@ impl ColumnStore {
     }
 }
 
+/// The number of a sum, and that of the result that is added to it.
+pub type AddedTo = (usize, usize);
+
 /// The arithmetic of one iteration: of `G` numbers that are the same in all of them, `R` elements that are
 /// read, and the number of the iteration where it counts as a real.
 pub trait Body<const G: usize, const R: usize, const W: usize> {
@@ -111,8 +114,8 @@ pub trait Body<const G: usize, const R: usize, const W: usize> {
     const COUNTS: bool = false;
     /// The stores, in order.
     const STORES: &'static [ColumnStore] = &[];
-    /// The sums that results are added to, in order: number of the sum, number of the result.
-    const SUMS: &'static [(usize, usize)] = &[];
+    /// The sums that results are added to, in order.
+    const SUMS: &'static [AddedTo] = &[];
 
     /// The results.
     fn compute<T: Real>(given: [T; G], read: [T; R], number: T) -> [T; W];

@@ -7,6 +7,7 @@
 use super::vectors;
 use crate::emit::functions::externals;
 use crate::emit::names::context::Context;
+use crate::emit::statements::stretch;
 use crate::emit::tokens::lex;
 use crate::emit::traits::{dynamics, markers, observables};
 use crate::emit::types::{declared, mixed, reach};
@@ -34,6 +35,7 @@ pub fn generate(context: Context) -> TokenStream {
     text.push_str(&implementations);
     text.push_str(&functions);
     text.push_str(&markers::implementations(context));
+    let bodies = lex(stretch::named([&text, "", ""]));
     let implementations = lex(&text);
     let externals = externals::wrappers(context);
     let inherent = inherent(context);
@@ -45,6 +47,7 @@ pub fn generate(context: Context) -> TokenStream {
             #[allow(clippy::approx_constant)]
             const _: () = {
                 use #root::private as __h;
+                #bodies
                 #externals
                 #implementations
                 #checks

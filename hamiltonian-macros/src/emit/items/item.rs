@@ -8,6 +8,7 @@ use super::vectors;
 use crate::emit::functions::externals;
 use crate::emit::names::context::Context;
 use crate::emit::names::index::Indices;
+use crate::emit::statements::stretch;
 use crate::emit::tokens::{allowances, documented, is_doc, lex, located, piece_type};
 use crate::emit::traits::{dynamics, markers, observables};
 use crate::emit::types::{construct, declared, mixed, reach, record};
@@ -39,8 +40,10 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     if record::IS_ON && context.definition.piece.is_none() {
         text.push_str(&record::system(context));
     }
+    let bodies = stretch::named([&text, &functions, &gradient]);
     let implementations = located(lex(&text), name.span(), SIGNATURES);
     let functions = lex(&functions);
+    let bodies = lex(bodies);
     let externals = externals::wrappers(context);
     let inherent = inherent(context, item, &gradient);
     let checks = reach::compiled(context);
@@ -49,6 +52,7 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
         #[allow(clippy::approx_constant)]
         const _: () = {
             use #root::private as __h;
+            #bodies
             #externals
             #implementations
             #functions

@@ -68,7 +68,8 @@ impl Writer<'_> {
         );
         line!(
             self,
-            "let __h::TileRow {{ number: _i{row}, columns: _r{column}, is_first: _o{row}, own: [{}], others: [{}] }} = _y{row};",
+            "let __h::TileRow {{ number: _i{row}, columns: _r{column}, is_first: _o{row}, own: _own, others: _others }} = _y{row};\n\
+             let [{}] = _own;\nlet [{}] = _others;",
             list(&|name| format!("_y{name}")),
             list(&str::to_owned),
         );

@@ -77,6 +77,14 @@ fn sums(inner: &Loop) -> Vec<Value> {
     sums
 }
 
+/// The import of the trait by which bodies are called, if these texts call any.
+pub fn named(texts: [&str; 3]) -> &'static str {
+    match texts.iter().any(|text| text.contains("::compute([")) {
+        true => "use __h::Body as _;",
+        false => "",
+    }
+}
+
 impl Writer<'_> {
     /// The loop for core, if it has the form.
     pub(super) fn stretch(&self, inner: &Loop, found: &Accesses) -> Option<Stretch> {
@@ -271,12 +279,11 @@ impl Writer<'_> {
             return;
         }
         let d = inner.domain.0;
-        for (at, sum) in sums(inner).into_iter().enumerate() {
-            let sum = name(sum);
-            line!(
-                self,
-                "if _long{d} {{ {sum} += __h::total(&_sums{d}[{at}]); }}"
-            );
+        let totals: Vec<String> = (sums(inner).into_iter().enumerate())
+            .map(|(at, sum)| format!("{} += __h::total(&_sums{d}[{at}]);", name(sum)))
+            .collect();
+        if !totals.is_empty() {
+            line!(self, "if _long{d} {{\n{}\n}}", totals.join("\n"));
         }
     }
 
@@ -314,22 +321,30 @@ impl Writer<'_> {
             line!(self, "];");
         }
         if !stretch.added.is_empty() {
-            let number = "__h::core::primitive::usize";
             line!(
                 self,
-                "const SUMS: &'static [({number}, {number})] = &{:?};",
+                "const SUMS: &'static [__h::AddedTo] = &{:?};",
                 stretch.added
             );
         }
+        // As patterns of arguments they would take a line each.
+        let pattern = match stretch.given.is_empty() {
+            true => "_",
+            false => "_given",
+        };
         line!(
             self,
             "#[inline(always)]\n\
-             fn compute<T: __h::Real>([{given}]: [T; {}], [{reads}]: [T; {}], {}: T) -> [T; {}] {{",
+             fn compute<T: __h::Real>({pattern}: [T; {}], _read: [T; {}], {}: T) -> [T; {}] {{",
             stretch.given.len(),
             stretch.reads.len(),
             stretch.number.map_or("_".to_owned(), name),
             stretch.results.len(),
         );
+        if !stretch.given.is_empty() {
+            line!(self, "let [{given}] = _given;");
+        }
+        line!(self, "let [{reads}] = _read;");
         for (other, value) in &stretch.same {
             line!(self, "let {} = {};", name(*other), name(*value));
         }
@@ -421,10 +436,9 @@ impl Writer<'_> {
                 .collect();
             line!(
                 self,
-                "let [{}] = <{} as __h::Body<{}>>::compute([{}], [{}], {});",
+                "let [{}] = {}::compute([{}], [{}], {});",
                 results.join(", "),
                 stretch.name,
-                stretch.counts(),
                 names(&stretch.given),
                 stretch.read_names(),
                 stretch.number.map_or(ZERO.to_owned(), name),

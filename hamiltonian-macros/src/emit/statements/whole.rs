@@ -70,16 +70,17 @@ impl Writer<'_> {
         line!(
             self,
             "struct {own};\nimpl<T: __h::Real> __h::Nest<T, {counts}> for {own} {{\n\
-             #[inline(always)]\n#[allow(unused_variables)]\nfn run<__M: __h::Mode>([{given}]: [T; {}], \
-             [{}]: [&[T]; {}], [{}]: [&mut [T]; {}], [{}]: [__h::core::primitive::usize; {}], \
-             _arithmetic: __h::Arithmetic) {{",
+             #[inline(always)]\n#[allow(unused_variables)]\nfn run<__M: __h::Mode>(_given: [T; {}], \
+             _read: [&[T]; {}], _written: [&mut [T]; {}], _sizes: [__h::core::primitive::usize; {}], \
+             _arithmetic: __h::Arithmetic) {{\nlet [{given}] = _given;\nlet [{}] = _read;\n\
+             let [{}] = _written;\nlet [{}] = _sizes;",
             scan.reads.len(),
-            list(&read),
             read.len(),
-            list(&written),
             written.len(),
-            sizes.join(", "),
             sizes.len(),
+            list(&read),
+            list(&written),
+            sizes.join(", "),
         );
         if let Some(slab) = slab {
             let d = slab.0;

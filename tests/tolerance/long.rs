@@ -10,7 +10,7 @@ use hamiltonian::schemes::BlanesMoan6;
 /// with one twice as long, as a negative control, the error is above it.
 #[test]
 fn the_error_of_the_energy_stays_below_a_tolerance() {
-    let n = if is_heavy() { 2_000_000 } else { 20_000 };
+    let n = if is_heavy() { 300_000 } else { 20_000 };
     for tolerance in [1e-5, 1e-8, 1e-11] {
         let drift = |step: f64| {
             let start = State::new([-3.0], [0.0]);

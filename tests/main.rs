@@ -12,7 +12,6 @@ mod circles;
 mod common;
 pub mod compiled;
 mod compositions;
-pub mod coordinates;
 mod corpus;
 mod counting;
 pub mod dynamics;
@@ -39,10 +38,8 @@ pub mod order;
 mod pages;
 pub mod paper;
 mod periodic;
-pub mod planets;
 mod plot;
 mod potentials;
-mod processed;
 mod products;
 #[path = "../hamiltonian-core/tests/common/python.rs"]
 mod python;
@@ -52,7 +49,6 @@ pub mod sizes;
 mod source;
 pub mod splits;
 mod stack;
-mod stages;
 mod switched;
 #[allow(dead_code)]
 #[path = "../hamiltonian-symbolic/tests/common/mod.rs"]

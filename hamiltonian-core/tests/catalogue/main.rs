@@ -1,6 +1,6 @@
 //! Every scheme of the catalogue: its order and form, its adjoint, parts of its steps, its saved runs, its events, its
-//! tangents, and that no step allocates. `cargo test` leaves this out, since rustc takes minutes for the schemes, and
-//! `.ci/run` does not: `cargo test --profile optimised -p hamiltonian-core --test catalogue`.
+//! tangents, and that no step allocates. `cargo test` leaves this out, since it takes a minute, and
+//! `.ci/run` does not: `cargo test -p hamiltonian-core --test catalogue`.
 
 mod adjoints;
 mod allocation;

@@ -1,5 +1,5 @@
 //! Loops over pairs and loops on threads, of systems that the macro makes: what takes many steps. `cargo test` leaves this
-//! out, and `.ci/run` does not: `cargo test --profile optimised -p hamiltonian-core --test loops`. The tests of the facade
+//! out, and `.ci/run` does not: `cargo test --release -p hamiltonian-core --test loops`. The tests of the facade
 //! have the shapes of loops.
 
 #[path = "../common/allocator.rs"]

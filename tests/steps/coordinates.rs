@@ -2,7 +2,8 @@
 
 use hamiltonian::prelude::*;
 
-use crate::common::canonical::{close, equal, same_system};
+use crate::canonical::same_system;
+use crate::common::canonical::{close, equal};
 
 hamiltonian! {
     /// A planet in the plane.

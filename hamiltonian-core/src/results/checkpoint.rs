@@ -64,8 +64,10 @@ const MAGIC: &[u8; 8] = b"HAMILTON";
 /// Version 2: implicit schemes add their stages in another order, sums of 32 terms or more are
 /// trees, sums over the pairs of 4096 points or more are computed in tiles, a run has flags for its
 /// arithmetic, and matrices among the parameters are written row after row. Version 3: the state of a run may have been
-/// changed. Version 4: the formulas of the pieces are apart from that of H, in their order.
-const VERSION: u64 = 4;
+/// changed. Version 4: the formulas of the pieces are apart from that of H, in their order. Version 5: parameters of an H with
+/// loops may be multiplied in another order, a part of a Gauss step begins at the polynomial of the step, and each member of
+/// an ensemble has a count of steps.
+const VERSION: u64 = 5;
 
 impl Checkpoint {
     /// The number of steps made.

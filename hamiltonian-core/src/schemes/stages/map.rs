@@ -15,6 +15,7 @@ use crate::systems::system::Dynamics;
 use crate::systems::system::gather::in_lanes;
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::Real;
+
 impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, S> {
     type Unknowns = Point<P::Vector>;
     #[cfg_attr(not(unoptimised), inline(always))]

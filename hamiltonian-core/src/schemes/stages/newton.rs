@@ -30,11 +30,9 @@ pub(super) struct Entries<T> {
 /// The matrix of the linear equations, its right-hand side, and vectors of the system's shape.
 #[derive(Debug, Clone)]
 pub(super) struct LinearSystem<V: Vector> {
-    /// Empty until the first step that needs it: few do, and it is large.
-    matrix: Vec<V::Scalar>,
+    /// None where there are too many unknowns.
+    matrix: Option<Vec<V::Scalar>>,
     right: Vec<V::Scalar>,
-    /// The number of unknowns.
-    size: usize,
     unit: Point<V>,
     column: Point<V>,
 }
@@ -42,10 +40,12 @@ pub(super) struct LinearSystem<V: Vector> {
 impl<V: Vector> LinearSystem<V> {
     /// For `stages` points like this one.
     pub(super) fn new(like: &Point<V>, stages: usize) -> Self {
+        let size = stages * like.len();
+        let fits = size <= LARGEST;
+        let zero = V::Scalar::zero();
         LinearSystem {
-            matrix: Vec::new(),
-            right: Vec::new(),
-            size: stages * like.len(),
+            matrix: fits.then(|| alloc::vec![zero; size * size]),
+            right: alloc::vec![zero; if fits { size } else { 0 }],
             unit: like.zeros_like(),
             column: like.zeros_like(),
         }
@@ -53,7 +53,7 @@ impl<V: Vector> LinearSystem<V> {
 
     /// Returns true if Newton's method can be used.
     pub(super) fn fits(&self) -> bool {
-        self.size <= LARGEST
+        self.matrix.is_some()
     }
 
     /// Puts the derivative of `(dq/dt, dp/dt) − J∇H(z)` at stage `i` into its rows, where `entries(j)`
@@ -68,13 +68,11 @@ impl<V: Vector> LinearSystem<V> {
         stages: usize,
         entries: impl Fn(usize) -> Entries<V::Scalar>,
     ) {
-        if !self.fits() {
+        let Some(matrix) = &mut self.matrix else {
             return;
-        }
-        let (n, size) = (z.len(), self.size);
-        let half = n / 2;
-        self.matrix.resize(size * size, V::Scalar::zero());
-        let matrix = &mut self.matrix;
+        };
+        let n = z.len();
+        let (half, size) = (n / 2, stages * n);
         // Coordinates first: the part of P that depends on x is added to their columns.
         for k in 0..n {
             self.unit.set_zero();
@@ -111,17 +109,16 @@ impl<V: Vector> LinearSystem<V> {
     /// Solves for the right-hand side `residual` and adds the solution to it in place.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn solve<const S: usize>(&mut self, residual: &mut Stages<Point<V>, S>) {
-        if !self.fits() {
+        let Some(matrix) = &mut self.matrix else {
             return;
-        }
-        self.right.resize(self.size, V::Scalar::zero());
+        };
         let n = residual.0.first().map_or(0, Vector::len);
         for (i, stage) in residual.0.iter().enumerate() {
             for k in 0..n {
                 self.right[i * n + k] = stage.component(k);
             }
         }
-        eliminate(&mut self.matrix, &mut self.right);
+        eliminate(matrix, &mut self.right);
         for (i, stage) in residual.0.iter_mut().enumerate() {
             for k in 0..n {
                 *stage.component_mut(k) = self.right[i * n + k];

@@ -41,6 +41,8 @@ fn sought(member: Member) -> Events<hamiltonian::private::SVector<f64, 1>> {
 #[test]
 #[ignore = "many steps: `.ci/run` makes them"]
 fn events_of_members_are_those_of_single_runs() {
+    // More than the lanes of a level, and not a multiple of them.
+    const COUNT: usize = 67;
     // Long steps: functions come near 0 and turn within two of them. Closing pieces move momenta, or coordinates.
     let (kicks, drifts) = (StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift);
     for (scheme, step) in [(kicks, 0.03), (kicks, 0.9), (drifts, 0.7), (drifts, -0.2)] {
@@ -73,7 +75,7 @@ fn events_of_members_are_those_of_single_runs() {
                 assert_eq!(swarm.steps_of(index), Some(single.3), "{place}");
                 found += events.located().len();
             }
-            assert!(found > 1_000, "{found} events");
+            assert!(found > 300, "{found} events");
         });
     }
 }
@@ -109,6 +111,7 @@ fn closing_pieces_and_observables_are_of_the_halves_they_name() {
 #[test]
 #[ignore = "many steps: `.ci/run` makes them"]
 fn neighbours_of_events_change_no_bit() {
+    const COUNT: usize = 67;
     let sweep = || {
         Sweep::new(COUNT, swinging, BlanesMoan4, 0.05)
             .with_end_each(|member| 20.0 + 30.0 * part(member.index))
@@ -125,7 +128,7 @@ fn neighbours_of_events_change_no_bit() {
     at_each_level(|cpu| {
         let all = rows(&sweep());
         let stopped = all.iter().filter(|row| row.1 == Status::Stopped).count();
-        assert!(all.len() > 1_000 && stopped > 50, "{} {stopped}", all.len());
+        assert!(all.len() > 300 && stopped > 15, "{} {stopped}", all.len());
         for chunk in [1, 7] {
             assert_eq!(all, rows(&sweep().with_chunk(chunk)), "{cpu:?}");
         }

@@ -346,12 +346,7 @@ macro_rules! __computed_as_chosen {
     (@gradient_by_field $scalar:ident $system:ty) => {
         #[inline(always)]
         fn gradient(
-            &self,
-            _t: $scalar,
-            _q: &Self::Vector,
-            _p: &Self::Vector,
-            _by_q: &mut Self::Vector,
-            _by_p: &mut Self::Vector,
+            &self, _t: $scalar, _q: &Self::Vector, _p: &Self::Vector, _by_q: &mut Self::Vector, _by_p: &mut Self::Vector,
         ) {
             $crate::private::gradient_by_field(self, _t, [_q, _p], [_by_q, _by_p]);
         }
@@ -367,14 +362,8 @@ macro_rules! __computed_as_chosen {
     (@hessian_by_gradient $scalar:ident $system:ty) => {
         #[inline(always)]
         fn hessian_vector(
-            &self,
-            _t: $scalar,
-            _q: &Self::Vector,
-            _p: &Self::Vector,
-            _vq: &Self::Vector,
-            _vp: &Self::Vector,
-            _oq: &mut Self::Vector,
-            _op: &mut Self::Vector,
+            &self, _t: $scalar, _q: &Self::Vector, _p: &Self::Vector, _vq: &Self::Vector, _vp: &Self::Vector,
+            _oq: &mut Self::Vector, _op: &mut Self::Vector,
         ) {
             let _lifted: <$system as $crate::private::System>::Prepared<$crate::private::Varied<$scalar>> =
                 __Prepared($crate::private::LaneValue::<$scalar>::lifted(&self.0));
@@ -394,12 +383,7 @@ macro_rules! __computed_as_chosen {
         }
         #[inline(always)]
         fn add_field(
-            &self,
-            _c: $scalar,
-            _t: $scalar,
-            _q: &Self::Vector,
-            _p: &Self::Vector,
-            _into_q: &mut Self::Vector,
+            &self, _c: $scalar, _t: $scalar, _q: &Self::Vector, _p: &Self::Vector, _into_q: &mut Self::Vector,
             _into_p: &mut Self::Vector,
         ) {
             let _held = $crate::private::FieldBody::<$field, $scalar>::fold(self, _c);

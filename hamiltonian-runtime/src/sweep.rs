@@ -16,7 +16,7 @@ use std::fmt::{self, Debug, Formatter};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-/// What a column has of a member.
+/// The quantity in a column.
 #[derive(Debug, Clone, PartialEq)]
 enum Column {
     Time,
@@ -166,7 +166,7 @@ impl Debug for NamedSweep<'_> {
     }
 }
 
-/// What the columns of these names have.
+/// The quantities of these names.
 fn columns(system: &RuntimeSystem, names: &[String]) -> Result<Vec<Column>, RunError> {
     let mut known = vec![
         ("t".to_owned(), Column::Time),
@@ -187,7 +187,7 @@ fn columns(system: &RuntimeSystem, names: &[String]) -> Result<Vec<Column>, RunE
         )
     }));
     let found = |name: &String| {
-        // What the definition declares comes before what every system has.
+        // A name that the definition declares comes before a name that every system has.
         let column = known.iter().rev().find(|(known, _)| known == name);
         column
             .map(|(_, column)| column.clone())

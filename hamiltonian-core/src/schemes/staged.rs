@@ -55,7 +55,7 @@ impl<T: Real, V: Vector<Scalar = T>, const S: usize> Inspect<T, V, S> for Uninsp
 
 /// A map whose steps are computed stage by stage, or with several stages in the lanes of a pack.
 pub(super) trait StagedMap<const S: usize>: Map + Sized {
-    /// What a step is solved for at each stage.
+    /// The unknowns of a step at one stage.
     type Unknowns: Vector<Scalar = ScalarOf<Self>>;
     /// The unknowns of the last step.
     fn unknowns(z: &mut Self::Carried) -> &mut [Self::Unknowns; S];

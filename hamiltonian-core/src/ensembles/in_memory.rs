@@ -517,9 +517,12 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
             // Members that have ended are loaded too, since their observers have saved data. Restoring takes a view,
             // from which an observer reads the shape of states.
             let finished = core::mem::take(&mut chunk.finished);
-            let failed = |one: &(&usize, &Finished<_>)| matches!(one.1, Finished::Failed(..));
-            let failed = finished.iter().filter(failed);
-            chunk.finished = failed.map(|(key, one)| (*key, one.clone())).collect();
+            for (key, one) in &finished {
+                if let Finished::Failed(..) = one {
+                    // One by one: to collect them would sort them, and the code that sorts is long.
+                    chunk.finished.insert(*key, one.clone());
+                }
+            }
             let mut host = ChunkHost {
                 chunk,
                 common: &self.common,

@@ -101,7 +101,7 @@ pub(super) trait StagedMap<const S: usize>: Map + Sized {
         let first = ScalarOf::<Self>::select(is_early, zero, one);
         interpolate((h, times, weights), (first, by / last), Self::unknowns(z));
         let part = self.part_of_size(by);
-        part.steps(Clock::between(from, from + by * h), 0, 1, z, work);
+        part.body(from, from + by * h, z, work);
     }
 
     /// True if the stages may lie beside each other.

@@ -7,10 +7,10 @@ use crate::errors;
 use crate::run;
 use crate::swarm::Members;
 use crate::system::System;
-use hamiltonian_core::schemes::{BlanesMoan4, Gauss, GaussNystrom};
+use hamiltonian_core::schemes::{Gauss, GaussNystrom};
 use hamiltonian_core::{Error, Integrator, Lyapunov, Member, Scheme, State};
 use hamiltonian_lanes::Dual;
-use hamiltonian_runtime::{FlatState, RunError, RuntimeSystem};
+use hamiltonian_runtime::{FlatState, RunError, RuntimeSystem, scheme_of_members};
 use numpy::{
     IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
     PyUntypedArrayMethods,
@@ -181,10 +181,12 @@ pub fn indicators<'py>(
     };
     let signals = crate::signals::Signals::default();
     let steps = (step, steps, every);
-    let compute = |cancel: &AtomicBool| match splitting {
-        true => rows(BlanesMoan4, make, count, steps, indicator, cancel),
-        false => rows(Gauss::<4>::default(), make, count, steps, indicator, cancel),
+    let scheme = match splitting {
+        true => "BlanesMoan4",
+        false => "Gauss4",
     };
+    let scheme = scheme_of_members(scheme).map_err(|error| errors::of_run(py, &error))?;
+    let compute = |cancel: &AtomicBool| rows(scheme, make, count, steps, indicator, cancel);
     let made = py.detach(|| watched(compute, signals.hook()));
     if let Some(error) = signals.take() {
         return Err(error);

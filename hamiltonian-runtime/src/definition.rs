@@ -191,7 +191,10 @@ impl Definition {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn system(&self, values: impl Into<Values>) -> Result<RuntimeSystem, SystemError> {
-        let values = values.into();
+        self.system_of(&values.into())
+    }
+
+    fn system_of(&self, values: &Values) -> Result<RuntimeSystem, SystemError> {
         if let Some((feature, place)) = &self.not_carried {
             return Err(SystemError::NotCarried {
                 feature: feature.clone(),
@@ -221,10 +224,10 @@ impl Definition {
             sizes::elements(&group.coordinate, &group.shape.of_parameter(), &sizes)?;
         }
         let parameters = self.parameters.iter();
-        let numbers = parameters.map(|parameter| filled(parameter, &values, &sizes));
+        let numbers = parameters.map(|parameter| filled(parameter, values, &sizes));
         let numbers = numbers.collect::<Result<Vec<Vec<f64>>, SystemError>>()?;
         let functions = self.functions.iter();
-        let functions = functions.map(|(name, arguments)| function(name, *arguments, &values));
+        let functions = functions.map(|(name, arguments)| function(name, *arguments, values));
         let functions = functions.collect::<Result<Vec<Tabulated>, SystemError>>()?;
         Ok(RuntimeSystem::new(self.code(&sizes)?, numbers, functions))
     }

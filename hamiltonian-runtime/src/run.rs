@@ -5,13 +5,13 @@
 
 use crate::error::RunError;
 use crate::prepared::Flat;
-use crate::schemes::{Make, Runs, give};
+use crate::schemes::any;
 use crate::system::RuntimeSystem;
 use crate::watching::{Hook, Watching};
 use hamiltonian_core::observers::{Event, Events};
 use hamiltonian_core::schemes::author::{Carried, Entry, Map, MapOf, Needs, ObservableKind};
 use hamiltonian_core::schemes::{Adaptive, Estimates, Gauss, GaussNystrom, Tolerance};
-use hamiltonian_core::{Checkpoint, Error, Integrator, State, System};
+use hamiltonian_core::{Checkpoint, Error, Integrator, Scheme, State, System};
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
@@ -186,7 +186,7 @@ impl Run {
     fn of(begin: BeginRun<'_>, origin: Origin) -> Result<Run, RunError> {
         let (hook, events) = (begin.hook.clone(), events(begin.system));
         let steps = match &origin {
-            Origin::Scheme(name) => give(name, begin)??,
+            Origin::Scheme(name) => begin.begin(any(name)?)?,
             Origin::Tolerance(tolerance) => begin.tolerated(*tolerance)?,
         };
         Ok(Run {
@@ -380,10 +380,11 @@ struct BeginRun<'a> {
     hook: Arc<Hook>,
 }
 
-impl Make for BeginRun<'_> {
-    type Made = Result<Box<dyn Steps>, Error>;
-
-    fn make<M: Runs>(self, scheme: M) -> Self::Made {
+impl BeginRun<'_> {
+    fn begin<M>(self, scheme: M) -> Result<Box<dyn Steps>, Error>
+    where
+        M: Scheme<RuntimeSystem, Map<f64>: Send + Map<Carried: Send, Work: Send>>,
+    {
         let BeginRun { system, from, hook } = self;
         let run = match from {
             Basis::Start(start, step) => Integrator::new(system, scheme, start, step)?,
@@ -406,9 +407,7 @@ impl Make for BeginRun<'_> {
             every,
         })))
     }
-}
 
-impl BeginRun<'_> {
     /// The run with steps from a tolerance, by the scheme that the structure of H has.
     fn tolerated(self, tolerance: Tolerance) -> Result<Box<dyn Steps>, Error> {
         #[inline(never)]
@@ -417,9 +416,9 @@ impl BeginRun<'_> {
             tolerance: Tolerance,
         ) -> Result<Box<dyn Steps>, Error>
         where
-            Adaptive<M>: Runs,
+            Adaptive<M>: Scheme<RuntimeSystem, Map<f64>: Send + Map<Carried: Send, Work: Send>>,
         {
-            begin.make(Adaptive::new(M::default(), tolerance))
+            begin.begin(Adaptive::new(M::default(), tolerance))
         }
         let needs = Needs::SEPARABLE
             .and(Needs::QUADRATIC_KINETIC)

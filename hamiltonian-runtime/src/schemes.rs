@@ -1,15 +1,17 @@
 //! The schemes by name.
 //!
-//! Input: a name. Output: the scheme, given to a [`Make`], or the names nearest to it. Invariant: every scheme of core's
+//! Input: a name. Output: the scheme, or the name nearest to it. Invariant: every scheme of core's
 //! catalogue is here by its name and variant, but for those that need another type of system; splittings, Nyström and
 //! processed schemes are values of one type each.
 
 use crate::by_table::Named;
 use crate::by_table::{ByTable, Moves, Table, Weights};
+use crate::erased::AnyScheme;
 use crate::error::RunError;
+use crate::many::Many;
 use crate::system::RuntimeSystem;
 use hamiltonian_core::Scheme;
-use hamiltonian_core::schemes::author::{Entry, Listed, Map, Splitting};
+use hamiltonian_core::schemes::author::{Entry, Listed, Splitting};
 use hamiltonian_core::schemes::{self as core, SecondPoint};
 use hamiltonian_language::names::nearest;
 use std::sync::LazyLock;
@@ -41,35 +43,14 @@ pub fn schemes() -> impl Iterator<Item = NamedScheme> {
     ALL.iter().map(|(name, scheme)| NamedScheme {
         name: name.clone(),
         entry: scheme.entry(),
-        in_ensembles: scheme.is_for_many(),
+        in_ensembles: matches!(scheme, Known::Many(_)),
     })
 }
 
-/// A scheme of a [`RuntimeSystem`] whose runs may go to another thread.
-pub(crate) trait Runs:
-    Scheme<RuntimeSystem, Map<f64>: Send + Map<Carried: Send, Work: Send>>
-{
-}
-
-impl<M: Scheme<RuntimeSystem, Map<f64>: Send + Map<Carried: Send, Work: Send>>> Runs for M {}
-
-/// What is made of a scheme.
-pub(crate) trait Make {
-    type Made;
-    fn make<M: Runs>(self, scheme: M) -> Self::Made;
-}
-
-/// Makes it in a function of its own: one function with all schemes has too large a frame for the stack.
-#[inline(never)]
-fn apart<M: Runs, K: Make>(to: K, scheme: M) -> K::Made {
-    to.make(scheme)
-}
-
-/// The schemes by their types, of which those of splittings are tables: first those that ensembles have too.
+/// The schemes by their types, of which those of splittings are tables.
 macro_rules! known {
-    (@each $($type:ident: $of:ty;)+ @many $($many:ident)+) => {
+    ($($type:ident: $of:ty;)+) => {
         /// A scheme.
-        #[derive(Clone)]
         enum Known {
             $($type($of),)+
         }
@@ -81,55 +62,34 @@ macro_rules! known {
                 }
             }
 
-            fn give<K: Make>(&self, to: K) -> K::Made {
+            fn any(&self) -> AnyScheme {
                 match self {
-                    $(Known::$type(scheme) => apart(to, scheme.clone()),)+
+                    $(Known::$type(scheme) => AnyScheme::new(scheme.clone()),)+
                 }
-            }
-
-            /// Gives it to what is made of a scheme that ensembles have.
-            fn give_many<K: Make>(&self, to: K) -> Option<K::Made> {
-                match self {
-                    $(Known::$many(scheme) => Some(apart(to, scheme.clone())),)+
-                    _ => None,
-                }
-            }
-
-            const fn is_for_many(&self) -> bool {
-                matches!(self, $(Known::$many(_))|+)
             }
         }
-    };
-    (ensembles { $($many:ident: $of_many:ty;)+ } runs { $($type:ident: $of:ty;)+ }) => {
-        known! { @each $($many: $of_many;)+ $($type: $of;)+ @many $($many)+ }
     };
 }
 
 known! {
-    ensembles {
-        Table: ByTable;
-        ImplicitMidpoint: core::ImplicitMidpoint;
-        Gauss4: core::Gauss<4>;
-    }
-    runs {
-        Processed: core::Processed<Weights, Weights>;
-        MidpointProjected: core::MidpointProjected<Weights>;
-        Semiexplicit: core::Semiexplicit<Weights>;
-        RungeKutta4: core::RungeKutta4;
-        Gauss2: core::Gauss<2>;
-        Gauss8: core::Gauss<8>;
-        GaussNystrom4: core::GaussNystrom<4>;
-        GaussNystrom8: core::GaussNystrom<8>;
-        Line: core::Variational<1, 2>;
-        Parabola: core::Variational<2, 2>;
-        Momentum: core::MomentumVariational<2>;
-        DiscreteGradient: core::DiscreteGradient;
-        Tao: core::Tao;
-        Pihajoki: core::Pihajoki;
-        TwoStep: core::TwoStepMidpoint;
-        Consecutive: core::ConsecutiveSubTrajectories;
-        Intersecting: core::IntersectingSubTrajectories;
-    }
+    Many: Many;
+    Processed: core::Processed<Weights, Weights>;
+    MidpointProjected: core::MidpointProjected<Weights>;
+    Semiexplicit: core::Semiexplicit<Weights>;
+    RungeKutta4: core::RungeKutta4;
+    Gauss2: core::Gauss<2>;
+    Gauss8: core::Gauss<8>;
+    GaussNystrom4: core::GaussNystrom<4>;
+    GaussNystrom8: core::GaussNystrom<8>;
+    Line: core::Variational<1, 2>;
+    Parabola: core::Variational<2, 2>;
+    Momentum: core::MomentumVariational<2>;
+    DiscreteGradient: core::DiscreteGradient;
+    Tao: core::Tao;
+    Pihajoki: core::Pihajoki;
+    TwoStep: core::TwoStepMidpoint;
+    Consecutive: core::ConsecutiveSubTrajectories;
+    Intersecting: core::IntersectingSubTrajectories;
 }
 
 /// The name without spaces and without the signs of Rust's generics.
@@ -152,7 +112,7 @@ fn all() -> Vec<(String, Known)> {
         ($($moves:ident: $($scheme:expr),+;)+) => {
             $($(
                 let table = weights(&$scheme);
-                add(Known::Table(ByTable { weights: table, moves: Moves::$moves }));
+                add(Known::Many(Many::Table(ByTable { weights: table, moves: Moves::$moves })));
                 if Moves::$moves == Moves::Pieces && table.0.is_general() {
                     on_copies.push(table);
                 }
@@ -183,7 +143,9 @@ fn all() -> Vec<(String, Known)> {
         WisdomHolman11,
         WisdomHolman17
     );
-    add(Known::ImplicitMidpoint(core::ImplicitMidpoint::default()));
+    add(Known::Many(Many::ImplicitMidpoint(
+        core::ImplicitMidpoint::default(),
+    )));
     add(Known::RungeKutta4(core::RungeKutta4));
     add(Known::Line(core::Variational::lobatto()));
     add(Known::Parabola(core::Variational::lobatto()));
@@ -210,21 +172,19 @@ fn all() -> Vec<(String, Known)> {
         add(Known::MidpointProjected(core::MidpointProjected(*table)));
         add(Known::Semiexplicit(core::Semiexplicit::new(*table)));
     }
-    let mut staged = |stages: usize, known: Known| {
-        all.push((format!("{}{stages}", known.entry().name), known));
-    };
     macro_rules! staged {
-        ($($type:ident: $scheme:ident<$stages:literal>;)+) => {
-            $(staged($stages, Known::$type(core::$scheme::<$stages>::default()));)+
-        };
+        ($($known:expr, $scheme:ident<$stages:literal>;)+) => {$(
+            let scheme = core::$scheme::<$stages>::default();
+            all.push((format!("{}{}", scheme.entry().name, $stages), $known(scheme)));
+        )+};
     }
     staged! {
-        Gauss2: Gauss<2>;
-        Gauss4: Gauss<4>;
-        Gauss8: Gauss<8>;
-        GaussNystrom4: GaussNystrom<4>;
-        GaussNystrom8: GaussNystrom<8>;
-        Momentum: MomentumVariational<2>;
+        Known::Gauss2, Gauss<2>;
+        |scheme| Known::Many(Many::Gauss4(scheme)), Gauss<4>;
+        Known::Gauss8, Gauss<8>;
+        Known::GaussNystrom4, GaussNystrom<4>;
+        Known::GaussNystrom8, GaussNystrom<8>;
+        Known::Momentum, MomentumVariational<2>;
     }
     all
 }
@@ -250,14 +210,35 @@ fn known(name: &str) -> Result<&'static (String, Known), RunError> {
     })
 }
 
-/// Gives the scheme of a name to what is made of it.
-pub(crate) fn give<K: Make>(name: &str, to: K) -> Result<K::Made, RunError> {
-    Ok(known(name)?.1.give(to))
+/// The scheme of a name, for single runs.
+pub(crate) fn any(name: &str) -> Result<AnyScheme, RunError> {
+    Ok(known(name)?.1.any())
 }
 
-/// Gives the scheme of a name to what is made of one that ensembles have.
-pub(crate) fn give_many<K: Make>(name: &str, to: K) -> Result<K::Made, RunError> {
-    let (name, scheme) = known(name)?;
-    let made = scheme.give_many(to);
-    made.ok_or_else(|| RunError::SingleRuns { name: name.clone() })
+/// The scheme of a name, for ensembles.
+pub(crate) fn many(name: &str) -> Result<Many, RunError> {
+    match known(name)? {
+        (_, Known::Many(scheme)) => Ok(scheme.clone()),
+        (name, _) => Err(RunError::SingleRuns { name: name.clone() }),
+    }
+}
+
+/// The scheme of a name, for what takes a scheme with its type: `Lyapunov`, an `Ensemble` with observers, a `Sweep`. It is one
+/// that [`Swarm`](crate::Swarm) takes.
+///
+/// ```
+/// use hamiltonian::prelude::*;
+/// use hamiltonian_runtime::{Definition, Values, scheme_of_members};
+///
+/// let spring = Definition::parse("H(x; p) = p^2/2 + x^2/2", "spring.txt")?.system(Values::new())?;
+/// let start = |member: Member| (spring.clone(), State::new(vec![1.0 + member.index as f64], vec![0.0]));
+/// let all = Lyapunov::new(8, start, scheme_of_members("BlanesMoan4")?, 0.1).with_steps(1000).collect()?;
+/// assert!(all.into_iter().all(|rates| rates.is_ok_and(|rates| rates[0].abs() < 1e-2)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError::UnknownScheme`] and [`RunError::SingleRuns`].
+pub fn scheme_of_members(name: &str) -> Result<impl Scheme<RuntimeSystem> + use<>, RunError> {
+    many(name)
 }

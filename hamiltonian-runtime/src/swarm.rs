@@ -4,12 +4,13 @@
 //! `Ensemble` without fused products, so each member has the bits of its [`Run`](crate::Run).
 
 use crate::error::RunError;
+use crate::many::Many;
 use crate::run::FlatState;
-use crate::schemes::{Make, Runs, give_many};
+use crate::schemes::many;
 use crate::system::RuntimeSystem;
 use crate::watching::Hook;
 use hamiltonian_core::errors::{StartError, SweepError};
-use hamiltonian_core::schemes::author::Clock;
+use hamiltonian_core::schemes::author::{Clock, Listed};
 use hamiltonian_core::{Checkpoint, Ensemble, Error, Member, State, Unfused};
 use std::fmt::{self, Debug, Formatter};
 use std::time::{Duration, Instant};
@@ -34,7 +35,7 @@ use std::time::{Duration, Instant};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Swarm {
-    members: Box<dyn Members>,
+    members: Ensemble<RuntimeSystem, Many, (), Unfused>,
     /// The name of the scheme.
     scheme: String,
     /// The number of members, and of coordinates of one.
@@ -137,13 +138,20 @@ impl Swarm {
     ) -> Result<Swarm, RunError> {
         let starts = Starts { systems, q, p, t };
         let (count, width) = (starts.count()?, systems[0].degrees_of_freedom());
-        let begin = BeginMembers {
-            starts,
-            count,
-            step,
-            saved,
+        let of = many(scheme)?;
+        let duration = f64::from(of.entry().duration);
+        let make = |member: Member| starts.member(member.index);
+        let members = match saved {
+            None => Ensemble::new(count, make, of, step)?.reproducible(),
+            Some(saved) => Ensemble::resume_reproducible(count, make, of, saved)?,
         };
-        let (members, clock) = give_many(scheme, begin)??;
+        // A structure that one member lacks, all lack.
+        if let Some(Err(Error::Sweep(SweepError::Member { error, .. }))) = members.state_of(0)
+            && let Error::Start(StartError::Structure { .. }) = *error
+        {
+            return Err((*error).into());
+        }
+        let clock = Clock::new(starts.t, step * duration);
         Ok(Swarm {
             members,
             scheme: scheme.to_owned(),
@@ -200,10 +208,11 @@ impl Swarm {
             let begin = Instant::now();
             self.members.advance(some);
             made += some;
-            // Members are loaded and stored for each block: it is as long as the time allows.
+            // Members are loaded and stored for each block, which takes as long as some 60 steps of a pendulum: it is as long
+            // as the time allows.
             block = match begin.elapsed() {
                 time if time < SOON / 4 => block.saturating_mul(4),
-                time if time < SOON / 2 => block.saturating_mul(2),
+                time if time < SOON => block.saturating_mul(2),
                 time if time > SOON * 2 => (block / 2).max(1),
                 _ => block,
             };
@@ -259,7 +268,7 @@ impl Swarm {
     /// The current states.
     #[must_use]
     pub fn states(&self) -> MemberStates {
-        self.members.states(self.of)
+        MemberStates::of(&mut self.members.states(), self.of)
     }
 
     /// Advances all members by the whole steps up to `t`, any later time, and returns their states at `t`.
@@ -274,14 +283,17 @@ impl Swarm {
         if (2.0..MOST).contains(&left) {
             self.advance(left as u64 - 1)?;
         }
-        Ok(self.members.advance_until(t, self.of)?)
+        Ok(MemberStates::of(
+            &mut self.members.advance_until(t)?,
+            self.of,
+        ))
     }
 }
 
 impl Debug for Swarm {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Swarm")
-            .field("members", &self.members.describe())
+            .field("members", &self.members)
             .finish_non_exhaustive()
     }
 }
@@ -328,75 +340,6 @@ impl Starts<'_> {
         let range = index * width..(index + 1) * width;
         let [q, p] = [self.q, self.p].map(|all| all[range.clone()].to_vec());
         (system.clone(), State::new(q, p).at(self.t))
-    }
-}
-
-/// Members before their scheme is known.
-struct BeginMembers<'a> {
-    starts: Starts<'a>,
-    count: usize,
-    step: f64,
-    saved: Option<Checkpoint>,
-}
-
-impl Make for BeginMembers<'_> {
-    type Made = Result<(Box<dyn Members>, Clock<f64>), Error>;
-
-    fn make<M: Runs>(self, scheme: M) -> Self::Made {
-        let (starts, count) = (self.starts, self.count);
-        let duration = f64::from(scheme.entry().duration);
-        let make = |member: Member| starts.member(member.index);
-        let ensemble = match self.saved {
-            None => Ensemble::new(count, make, scheme, self.step)?.reproducible(),
-            Some(saved) => Ensemble::resume_reproducible(count, make, scheme, saved)?,
-        };
-        // A structure that one member lacks, all lack.
-        if let Some(Err(Error::Sweep(SweepError::Member { error, .. }))) = ensemble.state_of(0)
-            && let Error::Start(StartError::Structure { .. }) = *error
-        {
-            return Err(*error);
-        }
-        let clock = Clock::new(starts.t, self.step * duration);
-        Ok((Box::new(ensemble), clock))
-    }
-}
-
-/// The methods of an ensemble without the type of its scheme.
-trait Members: Send {
-    fn with_threads(self: Box<Self>, threads: usize) -> Box<dyn Members>;
-    fn advance(&mut self, n: u64);
-    fn steps_to(&self, t: f64) -> Result<u64, Error>;
-    fn steps(&self) -> u64;
-    fn states(&self, of: [usize; 2]) -> MemberStates;
-    fn advance_until(&mut self, t: f64, of: [usize; 2]) -> Result<MemberStates, Error>;
-    fn checkpoint(&self) -> Checkpoint;
-    fn describe(&self) -> String;
-}
-
-impl<M: Runs> Members for Ensemble<RuntimeSystem, M, (), Unfused> {
-    fn with_threads(self: Box<Self>, threads: usize) -> Box<dyn Members> {
-        Box::new((*self).with_threads(threads))
-    }
-    fn advance(&mut self, n: u64) {
-        self.advance(n);
-    }
-    fn steps_to(&self, t: f64) -> Result<u64, Error> {
-        self.steps_to(t)
-    }
-    fn steps(&self) -> u64 {
-        self.steps()
-    }
-    fn states(&self, of: [usize; 2]) -> MemberStates {
-        MemberStates::of(&mut self.states(), of)
-    }
-    fn advance_until(&mut self, t: f64, of: [usize; 2]) -> Result<MemberStates, Error> {
-        Ok(MemberStates::of(&mut self.advance_until(t)?, of))
-    }
-    fn checkpoint(&self) -> Checkpoint {
-        self.checkpoint()
-    }
-    fn describe(&self) -> String {
-        format!("{self:?}")
     }
 }
 

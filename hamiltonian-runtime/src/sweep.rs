@@ -4,9 +4,10 @@
 //! without fused products, so a row has the bits of a single [`Run`](crate::Run), and a store continues where it ended.
 
 use crate::error::RunError;
+use crate::many::Many;
 use crate::names::elements;
 use crate::prepared::Flat;
-use crate::schemes::{Make, Runs, give_many};
+use crate::schemes::many;
 use crate::swarm::Starts;
 use crate::system::RuntimeSystem;
 use hamiltonian_core::observers::{EnergyDrift, Every, every};
@@ -140,17 +141,21 @@ impl<'a> NamedSweep<'a> {
     /// [`RunError::UnknownColumn`], [`RunError::UnknownScheme`], [`RunError::SingleRuns`], [`RunError::Length`], and those of
     /// [`Sweep::store`].
     pub fn store(self, path: impl AsRef<Path>) -> Result<Completeness, RunError> {
+        self.store_at(path.as_ref())
+    }
+
+    /// The same without a type parameter, so that this crate compiles all sweeps, and not each crate that calls it.
+    fn store_at(self, path: &Path) -> Result<Completeness, RunError> {
         let count = self.starts.count()?;
         let columns = columns(&self.starts.systems[0], &self.columns)?;
-        let path = path.as_ref();
-        let scheme = self.scheme.clone();
+        let scheme = many(&self.scheme)?;
         let store = StoreSweep {
             sweep: self,
             count,
             columns,
             path,
         };
-        Ok(give_many(&scheme, store)??)
+        Ok(store.run(scheme)?)
     }
 }
 
@@ -207,10 +212,8 @@ struct StoreSweep<'a, 'p> {
     path: &'p Path,
 }
 
-impl Make for StoreSweep<'_, '_> {
-    type Made = Result<Completeness, Error>;
-
-    fn make<M: Runs>(self, scheme: M) -> Self::Made {
+impl StoreSweep<'_, '_> {
+    fn run(self, scheme: Many) -> Result<Completeness, Error> {
         let StoreSweep {
             sweep,
             count,

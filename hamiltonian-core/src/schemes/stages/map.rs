@@ -162,10 +162,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
 
     #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        T::out_of_line(
-            #[cfg_attr(not(unoptimised), inline(always))]
-            || self.steps(Clock::between(t, end), 0, 1, z, work),
-        );
+        self.run(Clock::between(t, end), 0, 1, z, work);
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn run(
@@ -176,7 +173,10 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
         z: &mut Self::Carried,
         work: &mut Self::Work,
     ) {
-        self.steps(clock, made, n, z, work);
+        T::out_of_line(
+            #[cfg_attr(not(unoptimised), inline(always))]
+            || self.steps(clock, made, n, z, work),
+        );
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn has_parts(&self) -> bool {

@@ -50,8 +50,8 @@ mod proofs;
 pub use algebra::ball::Ball;
 pub use algebra::dag::op;
 pub use algebra::{
-    dag, diff, index, loops, model, normal_form, overflow, print, product, ranges, rational, set,
-    sort,
+    dag, diff, index, list, loops, model, normal_form, overflow, print, product, ranges, rational,
+    set, sort,
 };
 pub use flows::split;
 pub use programs::{

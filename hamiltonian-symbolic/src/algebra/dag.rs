@@ -430,25 +430,25 @@ impl Dag {
     /// All nodes the roots need, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[Node]) -> Vec<Node> {
-        self.reached(roots, |node, worklist| {
+        self.reached(roots, &mut |node, worklist| {
             self.for_children(node, |child| worklist.add(child));
         })
     }
     /// Returns true if the roots need a node of a kind.
-    pub(crate) fn has(&self, roots: &[Node], is_asked: impl Fn(&Kind) -> bool) -> bool {
+    pub(crate) fn has(&self, roots: &[Node], is_asked: &dyn Fn(&Kind) -> bool) -> bool {
         let nodes = self.reachable(roots);
         nodes.iter().any(|node| is_asked(self.kind(*node)))
     }
     /// Returns true if there are sums over loops below the roots.
     pub(crate) fn has_loops(&self, roots: &[Node]) -> bool {
-        self.has(roots, |kind| matches!(kind, Kind::Reduce(..)))
+        self.has(roots, &|kind| matches!(kind, Kind::Reduce(..)))
     }
     /// All nodes that are reached from the roots by going from a node to those that `next` adds, some
     /// of its children: children before parents.
     pub(crate) fn reached(
         &self,
         roots: &[Node],
-        mut next: impl FnMut(Node, &mut Worklist),
+        next: &mut dyn FnMut(Node, &mut Worklist),
     ) -> Vec<Node> {
         let Some(top) = roots.iter().max() else {
             return Vec::new();

@@ -8,6 +8,7 @@
 
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node};
 use crate::index::Domain;
+use crate::list::Listed;
 use crate::op::Op;
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -102,7 +103,7 @@ fn sweep(
         }
     }
     // Leaves that only the sums of branches have.
-    let mut inside: Vec<(Node, Vec<Node>)> = contributions.into_iter().collect();
+    let mut inside: Vec<(Node, Vec<Node>)> = contributions.into_iter().listed();
     inside.arrange_by_key(|(leaf, _)| *leaf);
     for (leaf, mut parts) in inside {
         parts.reverse();
@@ -159,7 +160,7 @@ impl Branches {
             swept.insert((branch, here), adjoints.clone());
             adjoints
         });
-        let mut leaves: Vec<Node> = from_yes.iter().chain(&from_no).map(|(l, _)| *l).collect();
+        let mut leaves: Vec<Node> = from_yes.iter().chain(&from_no).map(|(l, _)| *l).listed();
         leaves.arrange();
         leaves.dedup();
         let by = |list: &Adjoints, leaf: Node| {
@@ -180,7 +181,7 @@ impl Branches {
                 };
                 (leaf, value)
             })
-            .collect()
+            .listed()
     }
 }
 
@@ -275,7 +276,7 @@ pub fn forward(
     let tangents = dag.map(nodes, |dag, node, tangents| match dag.kind(node).clone() {
         _ if !dag.dependence(node).on(what) => zero,
         Kind::Sum(_, terms) => {
-            let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, tangents[&n])).collect();
+            let terms = terms.into_iter().map(|(k, n)| (k, tangents[&n])).listed();
             dag.linear(&Rational::ZERO, &terms)
         }
         Kind::Call(Op::Min | Op::Max, _) | Kind::Select(..) => {
@@ -286,7 +287,7 @@ pub fn forward(
             let parts: Vec<_> = partials(dag, node, what)
                 .into_iter()
                 .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
-                .collect();
+                .listed();
             dag.add(&parts)
         }
         Kind::Reduce(domain, body) => dag.reduce(domain, tangents[&body]),

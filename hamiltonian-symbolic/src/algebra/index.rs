@@ -4,6 +4,7 @@
 //! Input: what the front end resolved. Output: [`Affine`], [`Index`], [`Domain`] ids. Invariant:
 //! terms sorted by variable, no zero coefficients, so that equal indices are equal values.
 
+use crate::list::Listed;
 use crate::set::{MEMBERS, Member, Set};
 use crate::sort::Arrange;
 use num_integer::Integer;
@@ -122,7 +123,7 @@ impl Affine {
             let sizes = form.sizes.iter().map(|(size, k)| (vec![*size], *k));
             let constant = (form.constant != 0).then(|| (Vec::new(), form.constant));
             let products = form.products.iter().cloned();
-            constant.into_iter().chain(sizes).chain(products).collect()
+            constant.into_iter().chain(sizes).chain(products).listed()
         };
         let (a, b): (Vec<(Vec<Size>, i64)>, Vec<_>) = (terms(self), terms(other));
         let mut product = Affine::default();
@@ -250,6 +251,9 @@ impl Affine {
     /// The form with each loop variable replaced.
     #[must_use]
     pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Affine {
+        self.substituted(&mut replace)
+    }
+    fn substituted(&self, replace: &mut dyn FnMut(Domain) -> Affine) -> Affine {
         let rest = Affine {
             loops: Vec::new(),
             ..self.clone()
@@ -476,13 +480,13 @@ impl Index {
     pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Index {
         self.substituted(&mut replace)
     }
-    fn substituted(&self, replace: &mut impl FnMut(Domain) -> Affine) -> Index {
+    fn substituted(&self, replace: &mut dyn FnMut(Domain) -> Affine) -> Index {
         // The arena numbers loops as they are met: outer axes first.
         let before = (self.outer.as_ref())
             .map(|outer| (outer.index.substituted(replace), outer.extent.clone()));
-        let affine = self.affine.substitute(&mut *replace);
+        let affine = self.affine.substituted(replace);
         let last = match &self.modulo {
-            Some(modulo) => Index::wrapped(affine, modulo.substitute(&mut *replace)),
+            Some(modulo) => Index::wrapped(affine, modulo.substituted(replace)),
             None => Index::plain(affine),
         };
         match before {

@@ -10,6 +10,7 @@ pub mod dag;
 pub mod diff;
 pub(crate) mod formula;
 pub mod index;
+pub mod list;
 pub mod loops;
 pub mod model;
 pub mod normal_form;

@@ -16,7 +16,7 @@ impl Model {
     pub(crate) fn with_rooms(&self, roots: &[Node]) -> Cow<'_, Model> {
         let read = self
             .dag
-            .reached(roots, |node, ahead| match self.dag.kind(node) {
+            .reached(roots, &mut |node, ahead| match self.dag.kind(node) {
                 Kind::Reduce(..) | Kind::Select(..) => {}
                 _ => self.dag.for_children(node, |child| ahead.add(child)),
             });

@@ -8,6 +8,7 @@
 //! (`normal_form::polynomial`): there equal expressions must be equal values.
 
 use crate::dag::{Dag, Kind, Map, Node};
+use crate::list::Listed;
 use crate::rational::Rational;
 use std::hash::Hash;
 
@@ -41,7 +42,7 @@ pub(crate) fn exponent_ranges<'a, B: Copy + Hash + Eq + 'a>(
     let lengths = ranges
         .values()
         .map(|(least, most)| most.abs_diff(*least).into());
-    lengths.collect()
+    lengths.listed()
 }
 
 impl<B: Copy + PartialEq> Product<B> {

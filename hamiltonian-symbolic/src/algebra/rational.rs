@@ -92,7 +92,7 @@ impl Rational {
     }
 
     fn reduce(mut n: i128, mut d: i128) -> Rational {
-        debug_assert!(d != 0);
+        assert!(d != 0);
         if d != 1 {
             let g = gcd(n.unsigned_abs(), d.unsigned_abs());
             if g > 1 {

@@ -5,6 +5,10 @@
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain};
+use crate::list::Listed;
+
+/// Makes the image of a node, for which those of its children are there.
+type Image<'a> = dyn FnMut(&mut Dag, Node, &mut Map<Node, Node>) -> Option<Node> + 'a;
 
 impl Dag {
     /// The node over other children; the node itself if no child differs.
@@ -31,19 +35,19 @@ impl Dag {
     pub(crate) fn construct(&mut self, kind: Kind, new: &dyn Fn(Node) -> Node) -> Node {
         match kind {
             Kind::Sum(c, terms) => {
-                let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new(n))).collect();
+                let terms = terms.into_iter().map(|(k, n)| (k, new(n))).listed();
                 self.linear(&c, &terms)
             }
             Kind::Product(k, factors) => {
-                let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new(n), e)).collect();
+                let factors = factors.into_iter().map(|(n, e)| (new(n), e)).listed();
                 self.product(&k, &factors)
             }
             Kind::Call(op, arguments) => {
-                let arguments: Vec<_> = arguments.into_iter().map(new).collect();
+                let arguments = arguments.into_iter().map(new).listed();
                 self.call(op, &arguments)
             }
             Kind::External(function, part, arguments) => {
-                let arguments: Vec<_> = arguments.into_iter().map(new).collect();
+                let arguments = arguments.into_iter().map(new).listed();
                 self.external(function, part, &arguments)
             }
             Kind::Reduce(domain, body) => self.reduce(domain, new(body)),
@@ -63,6 +67,14 @@ impl Dag {
         root: Node,
         mut leaf: impl FnMut(&mut Dag, Node) -> Option<Node>,
     ) -> Node {
+        self.substituted(root, &mut leaf)
+    }
+
+    fn substituted(
+        &mut self,
+        root: Node,
+        leaf: &mut dyn FnMut(&mut Dag, Node) -> Option<Node>,
+    ) -> Node {
         let nodes = self.reachable(&[root]);
         self.map(nodes, |dag, node, new| match leaf(dag, node) {
             Some(image) => image,
@@ -76,8 +88,8 @@ impl Dag {
         nodes: Vec<Node>,
         mut image: impl FnMut(&mut Dag, Node, &mut Map<Node, Node>) -> Node,
     ) -> Map<Node, Node> {
-        let images = self.try_map(nodes, |dag, node, new| Some(image(dag, node, new)));
-        images.expect("every node has an image")
+        self.mapped(nodes, &mut |dag, node, new| Some(image(dag, node, new)))
+            .expect("every node has an image")
     }
 
     /// Maps nodes like [`map`](Dag::map); `None` if a node has no image.
@@ -86,6 +98,10 @@ impl Dag {
         nodes: Vec<Node>,
         mut image: impl FnMut(&mut Dag, Node, &mut Map<Node, Node>) -> Option<Node>,
     ) -> Option<Map<Node, Node>> {
+        self.mapped(nodes, &mut image)
+    }
+
+    fn mapped(&mut self, nodes: Vec<Node>, image: &mut Image<'_>) -> Option<Map<Node, Node>> {
         let mut new = Map::default();
         for node in nodes {
             let made = image(self, node, &mut new)?;

@@ -40,12 +40,13 @@ impl<T> Arrange<T> for [T] {
     }
 }
 
-/// The places that elements come from, in their new order.
+/// The places that elements come from, in their new order; nothing for elements in order, which most lists are.
 fn places(count: usize, compare: &mut dyn FnMut(usize, usize) -> Ordering) -> Vec<usize> {
-    let mut places: Vec<usize> = (0..count).collect();
-    if count > 1 {
-        places.sort_by(|a, b| compare(*a, *b));
+    if (1..count).all(|next| compare(next - 1, next).is_le()) {
+        return Vec::new();
     }
+    let mut places: Vec<usize> = (0..count).collect();
+    places.sort_by(|a, b| compare(*a, *b));
     places
 }
 

@@ -4,6 +4,7 @@
 //! loops as text. Invariant: the whole is the sum of its loops, each body counted once.
 
 use crate::index::Domain;
+use crate::list::Listed;
 use crate::model::Model;
 use crate::op::Op;
 use crate::print;
@@ -125,7 +126,7 @@ pub fn operations(model: &Model, program: &Program, function: &Function) -> Vec<
             continue;
         }
         let loops = model.dag.path(domain);
-        let heads: Vec<String> = loops.iter().map(|d| print::range(model, *d)).collect();
+        let heads: Vec<String> = loops.iter().map(|d| print::range(model, *d)).listed();
         counts.push(Count {
             place: heads.join(", "),
             operations,

@@ -5,6 +5,7 @@
 
 use crate::dag::{Array, Column, Parameter, Partial, Relation, Side};
 use crate::index::{Affine, Index};
+use crate::list::Listed;
 use crate::program::{Instruction, Program, Step, Target, Update, Value};
 use core::fmt::{Display, Formatter, Result, Write};
 
@@ -23,7 +24,7 @@ impl Display for Affine {
         let loops = self.loops.iter().map(|(d, k)| (format!("i{}", d.0), *k));
         let sizes = self.sizes.iter().map(|(s, k)| (format!("n{}", s.0), *k));
         let products = self.products.iter().map(|(sizes, k)| {
-            let names: Vec<String> = sizes.iter().map(|s| format!("n{}", s.0)).collect();
+            let names: Vec<String> = sizes.iter().map(|s| format!("n{}", s.0)).listed();
             (names.join("*"), *k)
         });
         let mut is_first = true;
@@ -208,6 +209,6 @@ impl Program {
 
 /// `a, b, c`
 fn listed(values: &[Value]) -> String {
-    let values: Vec<String> = values.iter().map(Value::to_string).collect();
+    let values: Vec<String> = values.iter().map(Value::to_string).listed();
     values.join(", ")
 }

@@ -7,6 +7,7 @@ use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::forces;
 use crate::index::{Affine, Index};
+use crate::list::Listed;
 use crate::model::{ExactFlow, Model, Motion, Piece, VectorEntry};
 use crate::op::Op;
 use crate::program::{Purpose, Target};
@@ -37,11 +38,7 @@ pub(crate) fn request(
             Side::Q => sides.0,
             Side::P => sides.1,
         };
-        entries
-            .iter()
-            .filter(is_wanted)
-            .cloned()
-            .collect::<Vec<_>>()
+        entries.iter().filter(is_wanted).cloned().listed()
     };
     match purpose {
         Purpose::Energy => request.results.push(h),
@@ -131,7 +128,7 @@ fn driven(model: &mut Model, gradient: &[VectorEntry]) -> Vec<Store> {
         let value = model.dag.mul(&[c, entry.value]);
         added(VectorEntry { value, ..entry })
     };
-    let stores = slopes.map(scaled).collect();
+    let stores = slopes.map(scaled).listed();
     at_sites(&mut model.dag, stores)
 }
 
@@ -143,7 +140,7 @@ fn flow(model: &mut Model, piece: &Piece) -> Vec<Store> {
         ExactFlow::Loop { motions, .. } => {
             let each = motions.iter();
             each.flat_map(|motion| updates(&mut model.dag, motion))
-                .collect()
+                .listed()
         }
     }
 }
@@ -189,7 +186,7 @@ fn rates(model: &mut Model, h: Node) -> Vec<Store> {
 /// The stores that add c·J∇H, from the entries of ∇H.
 fn sums(dag: &mut Dag, entries: Vec<VectorEntry>) -> Vec<Store> {
     let entries = entries.into_iter();
-    let stores = entries.map(|entry| added(scaled(dag, entry))).collect();
+    let stores = entries.map(|entry| added(scaled(dag, entry))).listed();
     at_sites(dag, stores)
 }
 
@@ -216,7 +213,7 @@ fn vector(
         let columns = model.columns(side).into_iter().filter(|_| wanted);
         outputs.extend(columns.map(|(column, rows)| (Target::Phase(column), rows)));
     }
-    let stores = entries.into_iter().map(added).collect();
+    let stores = entries.into_iter().map(added).listed();
     let stores = at_sites(&mut model.dag, stores);
     overwritten(&mut model.dag, stores, outputs, request);
 }
@@ -296,7 +293,7 @@ fn overwrite(
         } if dag.variables(*value).is_empty() => row.as_constant(),
         _ => None,
     };
-    let mut elements: Vec<i64> = own.iter().filter_map(element).collect();
+    let mut elements: Vec<i64> = own.iter().filter_map(element).listed();
     elements.arrange();
     elements.dedup();
     if elements.len() == own.len() {
@@ -327,9 +324,9 @@ fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
             add: true,
         }
     };
-    let stores = adjoints.map(store).collect();
+    let stores = adjoints.map(store).listed();
     let rows = model.parameters.iter().map(|p| p.shape.rows().cloned());
     let outputs = (0..).map(|number| Target::Parameter(Parameter(number)));
-    let outputs = outputs.zip(rows).collect();
+    let outputs = outputs.zip(rows).listed();
     overwritten(&mut model.dag, stores, outputs, request);
 }

@@ -10,6 +10,7 @@ mod instruct;
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
 use crate::hoist::Hoisted;
 use crate::index::{Domain, Index};
+use crate::list::Listed;
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 use crate::programs::factor::count_uses;
@@ -58,7 +59,7 @@ impl Request {
             .iter()
             .copied()
             .chain(self.stores.iter().map(|s| s.value))
-            .collect()
+            .listed()
     }
     /// Puts other expressions in their places, in the order of [`Request::roots`].
     pub fn replace_roots(&mut self, roots: &[Node]) {
@@ -102,7 +103,7 @@ pub fn schedule(
         value: hoisted.value,
         add: false,
     };
-    let fills: Vec<Store> = hoisted.iter().zip(0..).map(fill).collect();
+    let fills: Vec<Store> = hoisted.iter().zip(0..).map(fill).listed();
     let (prepare, computed) = stage(
         dag,
         &mut program,
@@ -144,7 +145,7 @@ pub fn schedule(
             carried,
         );
         let results = request.results.iter();
-        let results = results.map(|n| value_of(&values, *n)).collect();
+        let results = results.map(|n| value_of(&values, *n)).listed();
         program.functions.push(Function {
             purpose: request.purpose,
             coefficient,
@@ -168,7 +169,7 @@ fn stage_of(dag: &Dag, node: Node, now: Stage) -> Stage {
 /// The nodes of the coefficient stage and of preparation that the roots need in stage `now`.
 fn frontier(dag: &Dag, roots: &[Node], now: Stage) -> (Vec<Node>, Vec<Node>) {
     let is_later = |node: &Node| stage_of(dag, *node, now) == now;
-    let mut known = dag.reached(roots, |node, ahead| {
+    let mut known = dag.reached(roots, &mut |node, ahead| {
         if is_later(&node) {
             dag.for_children(node, |child| ahead.add(child));
         }
@@ -192,7 +193,7 @@ fn stage(
         .iter()
         .copied()
         .chain(stores.iter().map(|s| s.value))
-        .collect();
+        .listed();
     let uses = count_uses(dag, &roots, &dag.reachable(&roots));
     let mut placer = Placer {
         dag,
@@ -204,7 +205,7 @@ fn stage(
         open: Vec::new(),
         pinned,
     };
-    let stores: Vec<&Store> = stores.iter().collect();
+    let stores: Vec<&Store> = stores.iter().listed();
     let steps = placer.block(None, wanted, &stores);
     (steps, placer.known)
 }
@@ -331,9 +332,9 @@ impl Placer<'_> {
     /// The nodes of this stage not yet computed that the wanted ones need, bottom-up.
     fn needed(&self, wanted: &[Node], stores: &[&Store]) -> Vec<Node> {
         let stored = stores.iter().map(|store| store.value);
-        let roots: Vec<Node> = wanted.iter().copied().chain(stored).collect();
+        let roots: Vec<Node> = wanted.iter().copied().chain(stored).listed();
         let is_needed = |node: Node| !self.is_computed(node) && self.stage_of(node) == self.stage;
-        let mut needed = self.dag.reached(&roots, |node, ahead| {
+        let mut needed = self.dag.reached(&roots, &mut |node, ahead| {
             if is_needed(node) {
                 self.dag.for_children(node, |child| ahead.add(child));
             }
@@ -357,7 +358,7 @@ impl Placer<'_> {
                 Kind::Reduce(_, body) => *body,
                 _ => *sum,
             })
-            .collect();
+            .listed();
         let mut body = self.block(Some(nest.domain), &bodies, &nest.stores);
         for (accumulator, term) in accumulators.iter().zip(&bodies) {
             let term = self.value(*term);
@@ -460,7 +461,7 @@ impl Placer<'_> {
 
     /// Notes a node's value in the innermost block.
     fn define(&mut self, node: Node, value: Value) {
-        debug_assert!(!self.known.has(node), "{node:?} is computed twice");
+        assert!(!self.known.has(node), "{node:?} is computed twice");
         self.known.set(node, value.0);
         if let Some(scope) = self.scopes.last_mut() {
             scope.push(node);

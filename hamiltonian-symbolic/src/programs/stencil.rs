@@ -136,7 +136,7 @@ fn is_cheap(dag: &Dag, value: Node) -> bool {
         _ => false,
     };
     // Values that are the same at all sites are computed once.
-    let varying = dag.reached(&[value], |node, ahead| {
+    let varying = dag.reached(&[value], &mut |node, ahead| {
         if !dag.variables(node).is_empty() {
             dag.for_children(node, |child| ahead.add(child));
         }

@@ -7,6 +7,7 @@
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::index::Domain;
+use crate::list::Listed;
 use crate::op::Op;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
@@ -52,7 +53,7 @@ fn facts(dag: &mut Dag, root: Node, known: &mut Map<Node, Vanishing>) -> Vanishi
     if let Some(facts) = known.get(&root) {
         return *facts;
     }
-    let order = dag.reached(&[root], |node, worklist| {
+    let order = dag.reached(&[root], &mut |node, worklist| {
         dag.for_children(node, |child| {
             if !known.contains_key(&child) {
                 worklist.add(child);
@@ -152,7 +153,7 @@ fn support_of(dag: &mut Dag, node: Node, known: &Map<Node, Vanishing>) -> Option
         }
         Kind::Product(_, factors) => {
             let own = factors.iter().filter(|(_, n)| *n > 0);
-            let supports: Vec<Node> = own.filter_map(|(node, _)| of(node)).collect();
+            let supports: Vec<Node> = own.filter_map(|(node, _)| of(node)).listed();
             supports.into_iter().reduce(|all, next| dag.and(all, next))
         }
         _ => None,
@@ -168,15 +169,15 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
     let own: Vec<Vanishing> = factors
         .iter()
         .map(|(factor, _)| facts(dag, *factor, known))
-        .collect();
+        .listed();
     let vanishes = |at: usize| factors[at].1 > 0 && own[at].support.is_some();
     let is_singular: Vec<bool> = (factors.iter().zip(&own))
         .map(|((factor, n), own)| {
             own.is_singular || *n < 0 && dag.dependence(*factor).on(Dependence::MOVING)
         })
-        .collect();
+        .listed();
     let is_other_singular = |at: usize| (0..own.len()).any(|k| k != at && is_singular[k]);
-    let places: Vec<usize> = (0..own.len()).filter(|at| vanishes(*at)).collect();
+    let places: Vec<usize> = (0..own.len()).filter(|at| vanishes(*at)).listed();
     if places.iter().any(|at| is_other_singular(*at)) {
         let supports = places.iter().filter_map(|at| own[*at].support);
         let condition = supports.reduce(|all, next| dag.and(all, next));
@@ -186,7 +187,7 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
                 Some(inner) => (inner, n),
                 None => (factor, n),
             })
-            .collect();
+            .listed();
         let product = dag.product(&Rational::ONE, &taken);
         let zero = dag.integer(0);
         let Some(condition) = condition else {
@@ -215,7 +216,7 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
                 false => outside.push(*power),
             }
         }
-        let nodes: Vec<Node> = inside.iter().skip(1).map(|(node, _)| *node).collect();
+        let nodes: Vec<Node> = inside.iter().skip(1).map(|(node, _)| *node).listed();
         if sums.len() > 1 || factors[at].1 > 1 || dag.has_loops(&nodes) {
             return where_terms_count(dag, &sums, node, known);
         }

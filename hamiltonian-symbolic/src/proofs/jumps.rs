@@ -7,6 +7,7 @@
 use crate::bracket::agree;
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::facts::{Facts, Given, comparisons};
+use crate::list::Listed;
 use crate::op::Break;
 
 /// Returns true if a part of H may jump at times that do not depend on the state. Terms that do not depend on the state
@@ -14,13 +15,13 @@ use crate::op::Break;
 #[must_use]
 pub fn jumps(dag: &mut Dag, h: Node) -> bool {
     let terms = match dag.kind(h) {
-        Kind::Sum(_, terms) => terms.iter().map(|(_, term)| *term).collect(),
+        Kind::Sum(_, terms) => terms.iter().map(|(_, term)| *term).listed(),
         _ => vec![h],
     };
     let moving: Vec<Node> = terms
         .into_iter()
         .filter(|term| reads_state(dag, *term))
-        .collect();
+        .listed();
     force_jumps(dag, &moving)
 }
 
@@ -48,7 +49,7 @@ fn switches(dag: &mut Dag, node: Node) -> bool {
     match *dag.kind(node) {
         Kind::Select(condition, yes, no) => {
             let timed = comparisons(dag, condition).into_iter();
-            let timed: Vec<_> = timed.filter(|(a, b)| is_timed(dag, &[*a, *b])).collect();
+            let timed = timed.filter(|(a, b)| is_timed(dag, &[*a, *b])).listed();
             timed.into_iter().any(|sides| !agree(dag, sides, yes, no))
         }
         Kind::Call(op, ref x) if matches!(op.row().regularity.breaks, Break::Jump(_)) => {

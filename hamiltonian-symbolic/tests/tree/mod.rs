@@ -134,7 +134,7 @@ impl Part {
             Part::IfBoth(one, two, either, a, b) => {
                 let (one, two) = (holds(one), holds(two));
                 let mask = if either { one | two } else { one & two };
-                debug_assert!(mask.any() == mask.all());
+                assert!(mask.any() == mask.all());
                 T::select(mask, v(a), v(b))
             }
         }

@@ -115,7 +115,7 @@ impl Values {
         if let Some(known) = self.known[place(node)] {
             return known;
         }
-        let unknown = dag.reached(&[node], |node, ahead| {
+        let unknown = dag.reached(&[node], &mut |node, ahead| {
             dag.for_children(node, |child| {
                 if self.known[place(child)].is_none() {
                     ahead.add(child);

@@ -6,6 +6,7 @@
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index, LOOPS, Size};
+use crate::list::Listed;
 use std::rc::Rc;
 
 /// The meaning of nodes to a walk.
@@ -94,7 +95,7 @@ pub(crate) fn walk<M: Meaning>(
     let outside: Vec<Node> = order
         .into_iter()
         .filter(|n| dag.variables(*n).is_empty())
-        .collect();
+        .listed();
     let mut walk = Walk {
         dag,
         meaning,
@@ -117,7 +118,7 @@ pub(crate) fn walk<M: Meaning>(
 /// inside it.
 fn block(dag: &Dag, body: Node, domain: Domain, homes: &Map<Node, Domain>) -> Vec<Node> {
     let is_inside = |node: Node| dag.variables(node).has(domain);
-    let mut found = dag.reached(&[body], |node, ahead| {
+    let mut found = dag.reached(&[body], &mut |node, ahead| {
         dag.for_children(node, |child| {
             if is_inside(child) {
                 ahead.add(child);

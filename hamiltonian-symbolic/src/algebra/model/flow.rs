@@ -5,6 +5,7 @@
 
 use crate::dag::{Dag, Map, Node};
 use crate::index::Domain;
+use crate::list::Listed;
 
 /// A part of H with its flow.
 #[derive(Clone, PartialEq, Debug)]
@@ -165,7 +166,7 @@ impl Motion {
             true => (m.leaf, dag.add(&[m.leaf, m.value])),
             false => (m.leaf, m.value),
         };
-        self.moves.iter().map(image).collect()
+        self.moves.iter().map(image).listed()
     }
 
     /// This motion, then another.

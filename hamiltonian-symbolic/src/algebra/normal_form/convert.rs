@@ -7,6 +7,7 @@ use super::atoms::{Algebra, Key, Scope};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
 use crate::dag::{Dag, Kind, Map, Node, Relation};
 use crate::index::Domain;
+use crate::list::Listed;
 use crate::op::Op;
 use crate::rational::Rational;
 use std::rc::Rc;
@@ -14,7 +15,7 @@ use std::rc::Rc;
 impl Algebra {
     /// The polynomial of a node.
     pub(crate) fn convert(&mut self, dag: &Dag, root: Node) -> Result<Poly, Undecided> {
-        self.has_conditions |= dag.has(&[root], |kind| match kind {
+        self.has_conditions |= dag.has(&[root], &|kind| match kind {
             Kind::Select(..) => true,
             Kind::Call(Op::Sign, _) => self.scope == Scope::Everywhere,
             _ => false,
@@ -43,7 +44,7 @@ impl Algebra {
 
     fn all(&self, nodes: &[Node]) -> Vec<Poly> {
         let poly = |node: &Node| self.of(*node).as_ref().clone();
-        nodes.iter().map(poly).collect()
+        nodes.iter().map(poly).listed()
     }
 
     fn convert_one(&mut self, dag: &Dag, node: Node) -> Result<Poly, Undecided> {
@@ -160,7 +161,7 @@ impl Algebra {
                 dag.call(op, &[x])
             };
             let all = |dag: &mut Dag, polys: &[Poly]| -> Vec<Node> {
-                polys.iter().map(|x| assemble(dag, x, &nodes)).collect()
+                polys.iter().map(|x| assemble(dag, x, &nodes)).listed()
             };
             let node = match &self.entry(atom).key {
                 Key::Leaf(node) => *node,
@@ -201,7 +202,7 @@ fn assemble(dag: &mut Dag, poly: &Poly, nodes: &Map<Atom, Node>) -> Node {
             .0
             .iter()
             .map(|(atom, n)| (nodes[atom], *n))
-            .collect();
+            .listed();
         terms.push((k.clone(), dag.product(&Rational::ONE, &factors)));
     }
     dag.linear(&Rational::ZERO, &terms)

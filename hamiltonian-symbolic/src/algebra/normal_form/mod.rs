@@ -29,6 +29,7 @@ pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_po
 
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::index::{Affine, LOOPS, Size, TRIED};
+use crate::list::Listed;
 use crate::loops::{Sample, SamplePoint, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
@@ -244,15 +245,15 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
             }
         }
     }
-    let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).collect();
+    let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).listed();
     if (4..TRIED - 3).contains(&last) {
         trials.push(vec![last + 3; count]);
     }
     if count > 1 {
-        trials.push((3..).take(count).collect());
-        trials.push((3..3 + count as i64).rev().collect());
-        trials.push((1..).map(|n| 2 << n).take(count).collect());
-        trials.push((1..=count).rev().map(|n| 2 << n).collect());
+        trials.push((3..).take(count).listed());
+        trials.push((3..3 + count as i64).rev().listed());
+        trials.push((1..).map(|n| 2 << n).take(count).listed());
+        trials.push((1..=count).rev().map(|n| 2 << n).listed());
     }
     let mut fitting: Vec<Vec<i64>> = Vec::new();
     for sizes in trials {
@@ -340,7 +341,7 @@ pub(crate) fn witness(
         ..Sample::default()
     };
     let is_power = |kind: &Kind| matches!(kind, Kind::Call(Op::Pow, _));
-    if effort == Effort::Search && model.dag.has(&[node], is_power) {
+    if effort == Effort::Search && model.dag.has(&[node], &is_power) {
         let signs = std::iter::once(Signs::default()).chain(Signs::negative());
         let found = (0..64).zip(signs.cycle()).find_map(|(seed, signs)| {
             let how = Sample {
@@ -362,7 +363,7 @@ pub(crate) fn witness(
 /// Sizes with their names, as the beginning of a point.
 pub(crate) fn named(model: &Model, sizes: &[i64]) -> SamplePoint {
     let names = model.sizes.iter().cloned();
-    names.zip(sizes.iter().map(|n| *n as f64)).collect()
+    names.zip(sizes.iter().map(|n| *n as f64)).listed()
 }
 
 /// T and V of an expression that its normal form separates; not where they would be made of the
@@ -398,7 +399,7 @@ pub(crate) fn separated(model: &mut Model, h: Node) -> Result<(Node, Node), Opti
     let is_condition = |kind: &Kind| matches!(kind, Kind::Select(..));
     let is_sign = |kind: &Kind| matches!(kind, Kind::Call(Op::Sign, _));
     let dag = &model.dag;
-    match dag.has(&[h], is_condition) && dag.has(&[kinetic, potential], is_sign) {
+    match dag.has(&[h], &is_condition) && dag.has(&[kinetic, potential], &is_sign) {
         true => Err(None),
         false => Ok((kinetic, potential)),
     }

@@ -8,6 +8,7 @@
 //! [`Product`](crate::product::Product)s.
 
 use crate::dag::Map;
+use crate::list::Listed;
 use crate::product::{exponent, exponent_ranges};
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -107,7 +108,7 @@ impl Monomial {
             self.0
                 .iter()
                 .map(|(atom, m)| (*atom, m.saturating_mul(n)))
-                .collect(),
+                .listed(),
         )
     }
     /// The exponent of an atom.
@@ -116,7 +117,7 @@ impl Monomial {
     }
     /// The monomial without an atom.
     pub(crate) fn without(&self, atom: Atom) -> Monomial {
-        Monomial(self.0.iter().filter(|(a, _)| *a != atom).copied().collect())
+        Monomial(self.0.iter().filter(|(a, _)| *a != atom).copied().listed())
     }
     /// The order by exponents of the newest atom first, which products keep.
     pub(super) fn newest_first(&self, other: &Monomial) -> Ordering {
@@ -214,7 +215,7 @@ impl Poly {
                 .terms
                 .iter()
                 .map(|(m, c)| (m.clone(), c.mul(k)))
-                .collect(),
+                .listed(),
         }
     }
     /// The sum.
@@ -254,7 +255,7 @@ impl Poly {
             .terms
             .iter()
             .map(|(m, k)| (m.mul(monomial), k.clone()))
-            .collect();
+            .listed();
         terms.arrange_by(|a, b| a.0.cmp(&b.0));
         Poly { terms }
     }
@@ -309,7 +310,7 @@ impl Poly {
         (0..occurs.len())
             .filter(|at| occurs[*at])
             .map(|at| at as Atom)
-            .collect()
+            .listed()
     }
     /// The coefficients of the powers of an atom, ascending.
     pub(crate) fn by_power(&self, atom: Atom) -> Vec<(i32, Poly)> {
@@ -329,7 +330,7 @@ impl Poly {
                 terms.arrange_by(|a, b| a.0.cmp(&b.0));
                 (n, Poly { terms })
             })
-            .collect()
+            .listed()
     }
 }
 
@@ -411,7 +412,7 @@ impl Sum {
             .terms
             .into_iter()
             .filter(|(_, k)| !k.is_zero())
-            .collect();
+            .listed();
         terms.arrange_by(|a, b| a.0.cmp(&b.0));
         Ok(Poly { terms })
     }

@@ -10,6 +10,7 @@ use super::{Notation, write_within};
 use crate::dag::{Array, Column, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
+use crate::list::Listed;
 use crate::loops::field;
 use crate::model::{Model, Shape};
 use crate::rational::Rational;
@@ -35,7 +36,7 @@ impl Equations {
         let equations = self.list.iter();
         equations
             .map(|equation| equation.written(&self.model, notation))
-            .collect()
+            .listed()
     }
 }
 
@@ -234,11 +235,11 @@ fn elements(
             let place = model.dag.phase_place(*leaf);
             place.is_some_and(|(_, row)| !is_numbered(row))
         });
-        let looped: Vec<_> = looped.collect();
+        let looped = looped.listed();
         if let Some(looped) = field::field(&mut model.dag, &looped, array, rows) {
             let of_row = |row: i64| {
                 let own = own.iter().filter(|(at, _)| at.as_constant() == Some(row));
-                let mut parts: Vec<Node> = own.map(|(_, adjoint)| *adjoint).collect();
+                let mut parts: Vec<Node> = own.map(|(_, adjoint)| *adjoint).listed();
                 parts.push(model.dag.replace(looped, domain, &Affine::constant(row)));
                 let sum = model.dag.add(&parts);
                 (
@@ -246,7 +247,7 @@ fn elements(
                     Some(signed(model, at.side, Some(sum))),
                 )
             };
-            return (0..count).map(of_row).collect();
+            return (0..count).map(of_row).listed();
         }
     }
     // A long one read at many numbers would be a list of conditions nobody reads.
@@ -266,11 +267,11 @@ impl Equation {
         let group = &model.groups[usize::from(at.group)];
         let (own, conjugate) = (group.name(at.side), group.name(at.side.other()));
         let mut indices: Vec<String> = match group.shape.axes().len() {
-            0 => self.row.iter().map(|row| row.name.clone()).collect(),
+            0 => self.row.iter().map(|row| row.name.clone()).listed(),
             count => (index_names(model).chain(std::iter::repeat("index")))
                 .take(count)
                 .map(str::to_owned)
-                .collect(),
+                .listed(),
         };
         if matches!(group.shape, Shape::Matrix(..)) {
             indices.push(at.column.to_string());
@@ -289,7 +290,7 @@ impl Equation {
             .row
             .iter()
             .filter_map(|row| row.domain.map(|domain| (domain, row.name.as_str())))
-            .collect();
+            .listed();
         let right = match self.value {
             Some(value) => write_within(model, value, notation, &bound),
             None => {

@@ -2,6 +2,7 @@
 
 use crate::dag::{Array, Column, Dag, Kind, Node, Parameter, Side, StandIn};
 use crate::index::{Affine, Domain, Index, Size};
+use crate::list::Listed;
 use crate::rational::Rational;
 
 impl Dag {
@@ -70,7 +71,7 @@ impl Dag {
             terms.push((Rational::integer(k), node));
         }
         for (sizes, k) in &affine.products {
-            let factors: Vec<Node> = sizes.iter().map(|size| self.extent(*size)).collect();
+            let factors: Vec<Node> = sizes.iter().map(|size| self.extent(*size)).listed();
             let node = self.mul(&factors);
             terms.push((Rational::integer(*k), node));
         }

@@ -9,6 +9,7 @@ use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::flows::limits::{REFINED, TERMS};
 use crate::flows::space::Space;
 use crate::index::Domain;
+use crate::list::Listed;
 use crate::rational::Rational;
 use crate::sort::Arrange;
 use crate::structure::expand;
@@ -132,7 +133,7 @@ fn fewer(space: &mut Space, units: Units) -> Units {
         }
     }
     for side in sides {
-        let nodes: Vec<Node> = side.iter().map(|unit| unit.node).collect();
+        let nodes: Vec<Node> = side.iter().map(|unit| unit.node).listed();
         let node = space.dag().add(&nodes);
         fewer
             .units
@@ -225,7 +226,7 @@ fn opened(dag: &mut Dag, node: Node) -> (Node, Node) {
             && matches!(dag.kind(inner), Kind::Sum(..) | Kind::Reduce(..))
         {
             let rest = factors.iter().filter(|(n, _)| *n != inner).copied();
-            let rest: Vec<(Node, i32)> = rest.collect();
+            let rest: Vec<(Node, i32)> = rest.listed();
             return (dag.product(&k, &rest), inner);
         }
     }
@@ -286,7 +287,7 @@ fn out(space: &mut Space, node: Node) -> Option<Vec<Node>> {
     if terms.len() > 16 {
         return None;
     }
-    let parts: Vec<Node> = terms.iter().map(|term| term.node(space.dag())).collect();
+    let parts: Vec<Node> = terms.iter().map(|term| term.node(space.dag())).listed();
     (loss(space, &parts, node) <= LOSS).then_some(parts)
 }
 

@@ -74,7 +74,7 @@ impl Space {
         of: Option<Node>,
         answer: impl FnOnce(&mut Space) -> Option<T>,
     ) -> (Option<T>, Option<Limit>) {
-        debug_assert!(
+        assert!(
             self.questions.open.is_none(),
             "a question within a question"
         );

@@ -7,6 +7,7 @@
 
 use super::Variables;
 use crate::dag::{Array, Dag, Kind, Node, Numbers, Relation};
+use crate::list::Listed;
 use crate::op::Op;
 use crate::rational::Rational;
 
@@ -64,15 +65,12 @@ impl Tape {
                 }
                 Kind::Sum(c, terms) => TapeStep::Sum(
                     number(c),
-                    terms.iter().map(|(k, n)| (number(k), at(n))).collect(),
+                    terms.iter().map(|(k, n)| (number(k), at(n))).listed(),
                 ),
-                Kind::Product(c, factors) => TapeStep::Product(
-                    number(c),
-                    factors.iter().map(|(n, k)| (at(n), *k)).collect(),
-                ),
-                Kind::Call(op, arguments) => {
-                    TapeStep::Call(*op, arguments.iter().map(at).collect())
+                Kind::Product(c, factors) => {
+                    TapeStep::Product(number(c), factors.iter().map(|(n, k)| (at(n), *k)).listed())
                 }
+                Kind::Call(op, arguments) => TapeStep::Call(*op, arguments.iter().map(at).listed()),
                 Kind::Compare(relation, a, b) => TapeStep::Compare(*relation, at(a), at(b)),
                 Kind::Not(a) => TapeStep::Not(at(a)),
                 Kind::And(a, b) => TapeStep::And(at(a), at(b)),

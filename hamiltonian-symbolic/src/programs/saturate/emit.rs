@@ -8,6 +8,7 @@
 use super::form::{Form, Polynomial, Powers};
 use super::{Exponentials, is_positive};
 use crate::dag::{Dag, Kind, Map, Node};
+use crate::list::Listed;
 use crate::op::Op;
 use crate::product::Factors;
 use crate::rational::Rational;
@@ -139,10 +140,10 @@ impl Axis {
             let own = polynomial.0.iter();
             let own = own.filter(|(power, _)| power.steps(&self.powers) == Some(n));
             let terms: Vec<(Rational, Node)> =
-                own.map(|(_, product)| product.clone().split(dag)).collect();
+                own.map(|(_, product)| product.clone().split(dag)).listed();
             dag.linear(&Rational::ZERO, &terms)
         };
-        all.map(coefficient).collect()
+        all.map(coefficient).listed()
     }
 }
 
@@ -194,7 +195,7 @@ impl Exponentials {
 
     fn axis(&self, dag: &mut Dag, powers: Powers, new: &Map<Node, Node>) -> Axis {
         let exponent = self.exponent(dag, &powers, new);
-        let directions = match powers.all().collect::<Vec<_>>().as_slice() {
+        let directions = match powers.all().listed().as_slice() {
             [(at, 1)] => self.all[*at].directions.clone(),
             _ => vec![1, -1],
         };
@@ -218,7 +219,7 @@ impl Exponentials {
         let places = |dag: &Dag, sign: i32| -> Vec<usize> {
             let all = parts.iter().enumerate();
             let own = all.filter(|(_, part)| changes(dag, part, sign));
-            own.map(|(at, _)| at).collect()
+            own.map(|(at, _)| at).listed()
         };
         let (grows, vanishes) = (places(dag, 1), places(dag, -1));
         let clashes = grows
@@ -375,10 +376,10 @@ fn parts(form: &Form) -> Vec<Form> {
                 None => number == 0,
             }
         });
-        part.factors = own.cloned().collect();
+        part.factors = own.cloned().listed();
         part
     };
-    groups.into_iter().enumerate().map(part).collect()
+    groups.into_iter().enumerate().map(part).listed()
 }
 
 /// The e of which a form consists.

@@ -5,6 +5,7 @@
 //! derivative of x/exp_m1(x) as a quotient has an error of 2ε/x. Invariant: what has no such quotient is left as it is.
 
 use crate::dag::{Dag, Kind, Node};
+use crate::list::Listed;
 use crate::op::Op;
 use crate::product::Product;
 use crate::rational::Rational;
@@ -14,7 +15,7 @@ const POWERS: usize = 14;
 
 /// Replaces the quotients in the expressions that the roots stand for.
 pub(super) fn series_near_zero(dag: &mut Dag, roots: &mut [Node]) {
-    if !dag.has(roots, |kind| matches!(kind, Kind::Call(Op::ExpM1, _))) {
+    if !dag.has(roots, &|kind| matches!(kind, Kind::Call(Op::ExpM1, _))) {
         return;
     }
     let nodes = dag.reachable(roots);
@@ -23,7 +24,7 @@ pub(super) fn series_near_zero(dag: &mut Dag, roots: &mut [Node]) {
         let divisors: Vec<Node> = match dag.kind(node) {
             Kind::Product(_, factors) => {
                 let below = factors.iter().filter(|(_, n)| *n < 0);
-                below.map(|(x, _)| *x).collect()
+                below.map(|(x, _)| *x).listed()
             }
             _ => return node,
         };

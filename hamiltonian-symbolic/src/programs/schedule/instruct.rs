@@ -6,6 +6,7 @@
 
 use super::Placer;
 use crate::dag::{Kind, Node};
+use crate::list::Listed;
 use crate::program::{Instruction, Step, Value};
 use crate::programs::factor::is_prepared;
 use crate::rational::Rational;
@@ -85,9 +86,9 @@ impl Placer<'_> {
             }
             Kind::Sum(c, terms) => return self.sum(steps, c, terms),
             Kind::Product(k, factors) => return self.product(steps, k, factors),
-            Kind::Call(op, x) => Instruction::Call(*op, x.iter().map(|n| self.value(*n)).collect()),
+            Kind::Call(op, x) => Instruction::Call(*op, x.iter().map(|n| self.value(*n)).listed()),
             Kind::External(function, part, x) => {
-                Instruction::External(*function, *part, x.iter().map(|n| self.value(*n)).collect())
+                Instruction::External(*function, *part, x.iter().map(|n| self.value(*n)).listed())
             }
             // The accumulator was defined when its loop was placed.
             Kind::Reduce(..) => return self.value(node),
@@ -110,7 +111,7 @@ impl Placer<'_> {
 
     fn sum(&mut self, steps: &mut Vec<Step>, c: &Rational, terms: &[(Rational, Node)]) -> Value {
         let first = first_term(c, terms, &|node| !self.is_computed(node));
-        let mut rest: Vec<&(Rational, Node)> = terms.iter().collect();
+        let mut rest: Vec<&(Rational, Node)> = terms.iter().listed();
         let mut sum = match first.map(|at| rest.remove(at)) {
             None => self.constant(steps, c.clone()),
             Some((k, node)) => {

@@ -17,6 +17,7 @@ use super::certificate::{Certificate, Place, Reason, Rule};
 use super::{branches, derivative};
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::facts::{Facts, Given, Locus, Regular, comparisons};
+use crate::list::Listed;
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::{Break, Op, SingularSet};
@@ -130,7 +131,7 @@ fn has_continuous_flow(dag: &mut Dag, h: Node, everywhere: &Facts, given: &Given
             dag.for_children(**user, |child| is_read |= child == node);
             is_read
         };
-        nodes.iter().filter(reads).copied().collect()
+        nodes.iter().filter(reads).copied().listed()
     };
     let is_only_divisor = |dag: &Dag, node: Node| {
         let mut users = users(dag, node).into_iter();
@@ -144,7 +145,7 @@ fn has_continuous_flow(dag: &mut Dag, h: Node, everywhere: &Facts, given: &Given
         .iter()
         .copied()
         .filter(|node| !everywhere.get(*node).is_analytic && is_rough(dag, *node))
-        .collect();
+        .listed();
     rough.into_iter().all(|node| {
         is_vanishing_alone(dag, node)
             && (is_only_divisor(dag, node)
@@ -212,7 +213,7 @@ impl Claim {
     /// The expressions the rules read: the statement, H, the force.
     fn roots(&self, model: &Model) -> Vec<Node> {
         let force = model.force.iter().map(|entry| entry.value);
-        [self.expression, self.h].into_iter().chain(force).collect()
+        [self.expression, self.h].into_iter().chain(force).listed()
     }
 
     /// The rule that applies. In each the derivative vanishes at least at points near every point,
@@ -295,7 +296,7 @@ impl Claim {
         for locus in &facts.loci {
             zeros.extend(zero(&mut model.dag, *locus));
         }
-        let meeting: Vec<Node> = given.meeting.keys().copied().collect();
+        let meeting: Vec<Node> = given.meeting.keys().copied().listed();
         for node in meeting {
             if let Kind::Select(condition, ..) = *model.dag.kind(node)
                 && !facts.get(condition).is_still
@@ -310,7 +311,7 @@ impl Claim {
             let count = model.externals.len();
             let is_unnamed =
                 |kind: &Kind| matches!(kind, Kind::External(at, ..) if usize::from(*at) >= count);
-            let is_named = !model.dag.has(&[zero], is_unnamed);
+            let is_named = !model.dag.has(&[zero], &is_unnamed);
             if is_named && model.dag.dependence(zero).on(Dependence::MOVING) {
                 places.push(Place::of(model, zero, Reason::BothSidesAgree));
             }
@@ -360,7 +361,7 @@ impl Claim {
         let places: Vec<Place> = steps
             .into_iter()
             .map(|step| Place::of(model, step, Reason::StepOfH))
-            .collect();
+            .listed();
         Some(smooth.certificate(model, vec![Rule::SmoothedSteps, rule], &given, &places))
     }
 

@@ -19,6 +19,7 @@ pub use pair::bracket;
 use crate::dag::{Dependence, Kind, Node};
 use crate::diff;
 use crate::legendre::Legendre;
+use crate::list::Listed;
 use crate::loops::{SamplePoint, unroll_nodes};
 use crate::model::Model;
 use crate::normal_form::{self, Algebra, Answer, BUDGET, Effort, Scope, named, trials, witness};
@@ -156,7 +157,7 @@ pub fn is_invariant_of_lagrangian(
 fn crossed(model: &Model, expression: Node, verdict: Verdict, is_on_shell: bool) -> Verdict {
     let h = model.h();
     let is_rust = |kind: &Kind| matches!(kind, Kind::External(..));
-    let has_rust = model.dag.has(&[h, expression], is_rust);
+    let has_rust = model.dag.has(&[h, expression], &is_rust);
     match verdict {
         // A point refutes for the function that was tried, which is not the one in Rust.
         Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided {
@@ -275,7 +276,7 @@ fn derivative(model: &mut Model, expression: Node, h: Node) -> Option<Node> {
     let explicit = diff::gradient(&mut model.dag, expression, Dependence::TIME);
     let parts: Vec<Node> = std::iter::once(flow)
         .chain(explicit.into_iter().map(|(_, adjoint)| adjoint))
-        .collect();
+        .listed();
     let sum = model.dag.add(&parts);
     (!model.dag.has_too_many_loops()).then_some(sum)
 }

@@ -3,6 +3,7 @@
 
 use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
 use crate::index::Domain;
+use crate::list::Listed;
 use crate::op::Break;
 
 /// A coordinate, a momentum, the time.
@@ -125,8 +126,5 @@ fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
         Kind::Element(array @ Array::Phase(_), row, _) => Some(Some((*array, row.as_constant()))),
         _ => None,
     };
-    dag.reachable(&[node])
-        .into_iter()
-        .filter_map(leaf)
-        .collect()
+    dag.reachable(&[node]).into_iter().filter_map(leaf).listed()
 }

@@ -6,6 +6,7 @@
 
 use super::{Facts, Points, Regular, STEP, comparisons};
 use crate::dag::{Dag, Kind, Node, Partial};
+use crate::list::Listed;
 use crate::op::{Op, SingularSet};
 use crate::rational::Rational;
 
@@ -74,7 +75,7 @@ impl Facts {
         };
         let below = |node: Node| -> Vec<Node> {
             match dag.kind(node) {
-                Kind::Product(_, factors) => factors.iter().map(|(factor, _)| *factor).collect(),
+                Kind::Product(_, factors) => factors.iter().map(|(factor, _)| *factor).listed(),
                 _ => vec![node],
             }
         };

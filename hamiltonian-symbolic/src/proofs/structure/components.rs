@@ -4,6 +4,7 @@
 //! all elements of its column; a term in which nothing moves is in the first group.
 
 use crate::dag::{Column, Dag, Map, Node, Side};
+use crate::list::Listed;
 
 /// The groups, in the order of their first terms.
 pub(crate) fn components(dag: &Dag, terms: &[Node]) -> Vec<Vec<Node>> {
@@ -42,7 +43,7 @@ pub(crate) fn components(dag: &Dag, terms: &[Node]) -> Vec<Vec<Node>> {
             None => groups.push((class, vec![term])),
         }
     }
-    let mut groups: Vec<Vec<Node>> = groups.into_iter().map(|(_, group)| group).collect();
+    let mut groups: Vec<Vec<Node>> = groups.into_iter().map(|(_, group)| group).listed();
     match groups.first_mut() {
         Some(first) => first.extend(at_rest),
         None => groups.push(at_rest),

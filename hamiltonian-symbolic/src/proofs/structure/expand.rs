@@ -81,7 +81,7 @@ pub(crate) fn expand_within(dag: &mut Dag, root: Node, most: usize) -> Option<Ve
 /// The nodes of a root that are multiplied out, children first: arguments of functions and
 /// divisors are not.
 fn spine(dag: &Dag, root: Node) -> Vec<Node> {
-    dag.reached(&[root], |node, ahead| match dag.kind(node) {
+    dag.reached(&[root], &mut |node, ahead| match dag.kind(node) {
         Kind::Sum(_, terms) => ahead.extend(terms.iter().map(|(_, n)| n)),
         Kind::Product(_, factors) => {
             let above = factors.iter().filter(|(_, n)| *n > 0);

@@ -18,7 +18,7 @@ const LARGEST: f64 = (1_u64 << 50) as f64;
 #[must_use]
 pub fn growth(dag: &Dag, root: Node) -> Option<u32> {
     // What a condition has hidden at the start may show later.
-    let seen = dag.reached(&[root], |node, ahead| match *dag.kind(node) {
+    let seen = dag.reached(&[root], &mut |node, ahead| match *dag.kind(node) {
         Kind::Select(condition, ..) if moves(dag, condition) => ahead.add(condition),
         _ => dag.for_children(node, |child| ahead.add(child)),
     });

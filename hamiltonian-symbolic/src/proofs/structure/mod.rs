@@ -20,6 +20,7 @@ pub use quadratic::kick_beside;
 
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::index::Affine;
+use crate::list::Listed;
 use crate::model::Model;
 use crate::print;
 use std::collections::HashSet;
@@ -195,7 +196,7 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
             None => {
                 // `i`, or `i][j` between the brackets.
                 let names = ["i", "j", "k"].into_iter().chain(std::iter::repeat("l"));
-                let names: Vec<&str> = names.take(group.shape.axes().len().max(1)).collect();
+                let names: Vec<&str> = names.take(group.shape.axes().len().max(1)).listed();
                 found.push(element(&names.join("][")));
                 continue;
             }

@@ -6,6 +6,7 @@
 
 use super::{Coupling, Separation, components, expand};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
+use crate::list::Listed;
 use crate::model::Model;
 use crate::normal_form;
 use crate::print;
@@ -69,7 +70,7 @@ fn resolved(model: &mut Model, parts: Separated) -> Result<Separated, (Node, Opt
     let terms = match model.dag.kind(parts.coupling).clone() {
         Kind::Sum(_, terms) => {
             let terms = terms.iter().map(|(k, term)| model.dag.scale(k, *term));
-            terms.collect()
+            terms.listed()
         }
         _ => vec![parts.coupling],
     };
@@ -86,8 +87,8 @@ fn resolved(model: &mut Model, parts: Separated) -> Result<Separated, (Node, Opt
             found.extend(resolved_group(model, coupling)?);
         }
     }
-    let kinetic: Vec<Node> = found.iter().map(|part| part.kinetic).collect();
-    let potential: Vec<Node> = found.iter().map(|part| part.potential).collect();
+    let kinetic: Vec<Node> = found.iter().map(|part| part.kinetic).listed();
+    let potential: Vec<Node> = found.iter().map(|part| part.potential).listed();
     Ok(Separated {
         kinetic: model.dag.add(&kinetic),
         potential: model.dag.add(&potential),
@@ -116,7 +117,7 @@ fn resolved_group(
             coupling,
         }),
     }
-    let couplings: Vec<Node> = found.iter().map(|part| part.coupling).collect();
+    let couplings: Vec<Node> = found.iter().map(|part| part.coupling).listed();
     if let Some(first) = couplings.iter().find(|node| !model.dag.is_zero(**node)) {
         let coupling = model.dag.add(&couplings);
         let (kinetic, potential) =
@@ -166,7 +167,7 @@ fn apart(model: &mut Model, root: Node) -> Separated {
             Kind::Sum(c, terms) => {
                 let mut sum = |constant: &Rational, part: fn(&Separated) -> Node| {
                     let terms = terms.iter().map(|(k, n)| (k.clone(), part(&parts[n])));
-                    let terms: Vec<(Rational, Node)> = terms.collect();
+                    let terms: Vec<(Rational, Node)> = terms.listed();
                     model.dag.linear(constant, &terms)
                 };
                 Separated {
@@ -207,7 +208,7 @@ fn apart(model: &mut Model, root: Node) -> Separated {
 
 /// The nodes that are looked into, children first: coupled ones, and their children.
 fn spine(dag: &Dag, root: Node) -> Vec<Node> {
-    dag.reached(&[root], |node, ahead| match dag.kind(node) {
+    dag.reached(&[root], &mut |node, ahead| match dag.kind(node) {
         _ if !couples(dag, node) => {}
         Kind::Sum(_, terms) => ahead.extend(terms.iter().map(|(_, n)| n)),
         Kind::Product(_, factors) => ahead.extend(factors.iter().map(|(n, _)| n)),

@@ -13,6 +13,7 @@ use super::reduce::{self, Rules};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Index};
+use crate::list::Listed;
 use crate::loops;
 use crate::model::{Model, REPLACING, VectorEntry};
 use crate::sort::Arrange;
@@ -51,7 +52,7 @@ impl Transformed {
         for of in &bodies {
             let force = std::mem::take(&mut source.force);
             let parts = force.iter().flat_map(|f| of.apart(&mut source.dag, f));
-            source.force = parts.collect();
+            source.force = parts.listed();
         }
         let model = &source.clone();
         let (mut new, roots) = written_out(model, &layout, &bodies)?;
@@ -112,7 +113,7 @@ impl Transformed {
             .iter()
             .zip(&layout.places)
             .flat_map(|(chart, place)| placements(model, chart, place.first))
-            .collect();
+            .listed();
         places.extend(layout.kept.iter().map(|&(old, new)| Placement {
             old: (old, None),
             new,
@@ -162,7 +163,7 @@ impl Transformed {
     /// `places` says they stand.
     pub fn forward_placed(&mut self) -> Vec<VectorEntry> {
         let mut images: Map<Node, Node> = Map::default();
-        let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).collect();
+        let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).listed();
         for node in self.source.dag.reachable(&values) {
             let image = match self.source.dag.kind(node) {
                 Kind::Element(Array::Phase(column), row, _) => {
@@ -180,7 +181,7 @@ impl Transformed {
             value: images[&entry.value],
             ..entry.clone()
         };
-        self.forward.iter().map(with_image).collect()
+        self.forward.iter().map(with_image).listed()
     }
 
     /// The map to the old coordinates, written where `places` says they stand.
@@ -191,7 +192,7 @@ impl Transformed {
             let value = entry.value;
             VectorEntry { at, row, value }
         };
-        self.inverse.iter().map(moved).collect()
+        self.inverse.iter().map(moved).listed()
     }
 
     /// A force on the old momenta, ṗ += f, becomes one on the new ones, Ṗ += (∂q/∂Q)ᵀ f, because
@@ -241,7 +242,7 @@ fn masses_of(model: &Model, dag: &mut Dag, parameter: crate::dag::Parameter) -> 
     let rows = shape.rows().and_then(Affine::as_constant);
     let each = (0..rows.into_iter().sum())
         .map(|row| dag.element(Array::Parameter(parameter), Index::constant(row), None))
-        .collect();
+        .listed();
     Masses::new(dag, each)
 }
 
@@ -314,7 +315,7 @@ fn bodies(model: &mut Model, charts: &[Chart], layout: &GroupLayout) -> Vec<Size
             Chart::Heliocentric(bodies) => SizedBodies::new(model, bodies.group, place.first),
             _ => None,
         })
-        .collect()
+        .listed()
 }
 
 /// The model whose arena the new system is built in, with all its expressions, unrolled where a loop
@@ -326,7 +327,7 @@ fn written_out(
 ) -> Result<(Model, Vec<Node>), NoTransform> {
     let roots = model.roots();
     let is_looped = |group: &u16| !bodies.iter().any(|b| b.old == *group);
-    let written: Vec<u16> = layout.replaced.iter().copied().filter(is_looped).collect();
+    let written: Vec<u16> = layout.replaced.iter().copied().filter(is_looped).listed();
     if model.sizes.is_empty() {
         let looped =
             model

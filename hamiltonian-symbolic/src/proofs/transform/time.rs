@@ -18,6 +18,7 @@ use super::NoTransform;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::Index;
+use crate::list::Listed;
 use crate::loops::field::{elements, field};
 use crate::loops::guarded;
 use crate::model::{Group, Model, VectorEntry};
@@ -183,7 +184,7 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
     let factors: Vec<Node> = factors
         .filter(|(_, n)| *n > 0)
         .map(|(node, _)| node)
-        .collect();
+        .listed();
     let mut cancelled: Vec<(Rational, Node)> = Vec::new();
     let mut bracket: Vec<(Rational, Node)> = Vec::new();
     let mut stack = vec![(Rational::ONE, h)];
@@ -196,7 +197,7 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
         match dag.kind(node) {
             Kind::Sum(c, terms) => {
                 let inner = terms.iter().map(|(own, n)| (k.mul(own), *n));
-                let mut inner: Vec<_> = inner.collect();
+                let mut inner = inner.listed();
                 if !c.is_zero() {
                     let constant = k.mul(c);
                     inner.push((constant, dag.integer(1)));
@@ -224,7 +225,7 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
 fn meets(dag: &Dag, root: Node, factors: &[Node]) -> bool {
     let is_met = |part: &(Node, i32)| part.1 < 0 && factors.contains(&part.0);
     let mut meets = false;
-    dag.reached(&[root], |node, ahead| match dag.kind(node) {
+    dag.reached(&[root], &mut |node, ahead| match dag.kind(node) {
         Kind::Sum(_, terms) => ahead.extend(terms.iter().map(|(_, n)| n)),
         Kind::Product(_, parts) => match parts.as_slice() {
             [(inner, 1)] => ahead.add(*inner),

@@ -26,6 +26,7 @@
 //! - A number that would underflow f64 to 0 is refused like one that overflows.
 
 use crate::report::Spans;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::ObservableKind;
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -128,7 +129,7 @@ impl Size {
         match self {
             Size::Literal(..) => Vec::new(),
             Size::Name(name) => vec![name],
-            Size::Product(factors) => factors.iter().flat_map(Size::names).collect(),
+            Size::Product(factors) => factors.iter().flat_map(Size::names).into_list(),
         }
     }
     /// The place of the number, the name or the product.

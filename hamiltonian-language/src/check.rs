@@ -23,6 +23,7 @@ use crate::checked::{Checked, Extent, FunctionId, GroupId, NodeId, ParameterId, 
 use crate::names::listed;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::index::{self, Affine, Domain, LOOPS};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::REPLACING;
 use proc_macro2::{Ident, Span};
 
@@ -238,7 +239,7 @@ impl<'a> Checker<'a> {
     /// The extent that a product of sizes is. It is in no type, so one of them is set at run time.
     fn product(&mut self, spans: Spans, factors: &[Size]) -> Option<Extent> {
         // All unknown sizes are reported.
-        let extents: Vec<Option<Extent>> = factors.iter().map(|size| self.extent(size)).collect();
+        let extents: Vec<Option<Extent>> = factors.iter().map(|size| self.extent(size)).into_list();
         let mut extents = extents.into_iter().collect::<Option<Vec<_>>>()?.into_iter();
         let form = extents.try_fold(Affine::constant(1), |product, extent| {
             product.checked_times(&extent.affine())
@@ -279,7 +280,7 @@ impl<'a> Checker<'a> {
             return Some(Extent::Size(index::Size(index as u16)));
         }
         let sizes = self.out.sizes.iter().map(|size| size.name.to_string());
-        let sizes: Vec<String> = sizes.collect();
+        let sizes: Vec<String> = sizes.into_list();
         if self.unknown_sizes.contains(&text) {
             return None;
         }

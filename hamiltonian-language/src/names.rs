@@ -4,6 +4,7 @@
 //! stands here once, except elementary functions, which are in the engine's operation table.
 //! Parser, checker and messages read these tables.
 
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::op::Op;
 
 /// A function of the language.
@@ -218,14 +219,14 @@ pub fn synonym(name: &str) -> Option<&'static str> {
 
 /// The names with commas between them.
 pub fn listed(names: impl IntoIterator<Item = impl ToString>) -> String {
-    let names: Vec<String> = names.into_iter().map(|name| name.to_string()).collect();
+    let names: Vec<String> = names.into_iter().map(|name| name.to_string()).into_list();
     names.join(", ")
 }
 
 /// The candidate nearest to a name: equal except for case, or at most one edit per three letters
 /// away. The first of equally near ones.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let letters: Vec<char> = name.chars().collect();
+    let letters: Vec<char> = name.chars().into_list();
     let allowed = if letters.len() < 2 {
         0
     } else {
@@ -239,7 +240,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         let distance = if candidate.to_lowercase() == name.to_lowercase() {
             0
         } else {
-            let other: Vec<char> = candidate.chars().collect();
+            let other: Vec<char> = candidate.chars().into_list();
             if other.len().abs_diff(letters.len()) > allowed || letters.len() > 64 {
                 continue;
             }
@@ -255,7 +256,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 /// The number of insertions, deletions, replacements and swaps of neighbours between two words.
 fn edits(a: &[char], b: &[char]) -> usize {
     let mut before: Vec<usize> = Vec::new();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
+    let mut row: Vec<usize> = (0..=b.len()).into_list();
     for i in 1..=a.len() {
         let mut next = vec![i];
         for j in 1..=b.len() {

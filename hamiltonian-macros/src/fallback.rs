@@ -11,6 +11,7 @@ use hamiltonian_language::ast::{Ast, Header, Item, ParameterEntry, ParameterKind
 use hamiltonian_language::names;
 use hamiltonian_language::report::Report;
 use hamiltonian_language::tokens::is_attribute;
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -20,7 +21,7 @@ pub fn stub(ast: &Ast, report: &Report) -> TokenStream {
         .errors()
         .iter()
         .map(|error| error.to_compile_error())
-        .collect();
+        .into_list();
     match &ast.item {
         Some(item) if is_name(&item.header.name) => {
             let last = errors.pop();
@@ -53,7 +54,7 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
     let functions = parameters.iter().filter(is_function);
     let functions: Vec<Ident> = functions
         .map(|parameter| format_ident!("__F{}", parameter.name))
-        .collect();
+        .into_list();
     let scalar = parameters
         .iter()
         .any(|parameter| is_number(&parameter.kind));

@@ -14,6 +14,7 @@ mod expand;
 mod fallback;
 mod unused;
 
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::{TokenStream, TokenTree};
 use std::process::ExitCode;
 use std::str::FromStr;
@@ -30,8 +31,8 @@ enum Task {
 }
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let arguments: Vec<String> = std::env::args().skip(1).into_list();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).into_list();
     let task = match words[..] {
         [_] => Some(Task::Print),
         [_, "--time"] => Some(Task::Time),
@@ -95,7 +96,7 @@ fn read(path: &str) -> Result<Vec<TokenStream>, String> {
 }
 
 fn find(tokens: TokenStream, definitions: &mut Vec<TokenStream>) {
-    let trees: Vec<TokenTree> = tokens.into_iter().collect();
+    let trees: Vec<TokenTree> = tokens.into_iter().into_list();
     for (at, tree) in trees.iter().enumerate() {
         let TokenTree::Group(group) = tree else {
             continue;

@@ -8,6 +8,7 @@ use super::structure::Text;
 use hamiltonian_symbolic::bracket::{Place, Reason};
 use hamiltonian_symbolic::count::{self, Count, Operations};
 use hamiltonian_symbolic::legendre::Readable;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::print::{self, Notation};
 use hamiltonian_symbolic::program::{Program, Purpose};
@@ -88,7 +89,7 @@ fn equations<const N: usize>(
         let lines = equations.written(notation).into_iter();
         lines
             .map(|(left, right)| format!("{left} = {right}"))
-            .collect()
+            .into_list()
     })
 }
 
@@ -155,7 +156,7 @@ fn signature(model: &Model) -> String {
             .groups
             .iter()
             .map(|group| format!("{}{}", name(group), shape(&group.shape)));
-        names.collect::<Vec<_>>().join(", ")
+        names.into_list().join(", ")
     };
     let (coordinates, momenta) = (
         list(|group| &group.coordinate),
@@ -227,7 +228,7 @@ pub fn proofs(certificates: &Certificates, assumed: &[bool]) -> Vec<Vec<String>>
         }
         sentences
     })
-    .collect()
+    .into_list()
 }
 
 /// `` `q - 1` = 0 ``, or `` `q[i] - q[j]` = 0 (i in 0..n, j in 0..i) ``; of a constant without `= 0`

@@ -21,6 +21,7 @@ use hamiltonian_symbolic::dag::{Kind, Node};
 use hamiltonian_symbolic::halves::are_apart;
 use hamiltonian_symbolic::index::LOOPS;
 use hamiltonian_symbolic::legendre::Readable;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::{self, CAP, NoProgram};
 use hamiltonian_symbolic::program::{Program, Purpose};
@@ -89,7 +90,7 @@ pub fn analyse(checked: &Checked, report: &mut Report) -> Option<Analysis> {
         return None;
     }
     let defaults = surface::defaults(checked, report)?;
-    let assumed: Vec<bool> = checked.observables.iter().map(|of| of.assumed).collect();
+    let assumed: Vec<bool> = checked.observables.iter().map(|of| of.assumed).into_list();
     let proofs = docs::proofs(&certificates, &assumed);
     let beyond = std::mem::take(&mut lowered.beyond);
     let Changed {

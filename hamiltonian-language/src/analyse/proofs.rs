@@ -11,6 +11,7 @@ use hamiltonian_symbolic::bracket::{
     Certificate, Verdict, is_invariant, is_invariant_of_lagrangian,
 };
 use hamiltonian_symbolic::dag::{Dependence, Node};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::loops::SamplePoint;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use hamiltonian_symbolic::transform::check_split;
@@ -35,7 +36,7 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) -> Cert
     let mut in_velocities = lowered.in_velocities.iter().copied();
     for (at, observable) in checked.observables.iter().enumerate() {
         let components = &lowered.model.observables[at].components;
-        let in_velocities: Vec<Node> = in_velocities.by_ref().take(components.len()).collect();
+        let in_velocities: Vec<Node> = in_velocities.by_ref().take(components.len()).into_list();
         if observable.kind != ObservableKind::Invariant {
             continue;
         }

@@ -11,6 +11,7 @@ use crate::checked::{self, Checked, NodeKind, Variable};
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::jumps::jumps;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::{Model, Piece};
 use hamiltonian_symbolic::split::{self, Decomposition, NoFlow, PIECES};
 use hamiltonian_symbolic::structure::Structure;
@@ -61,7 +62,7 @@ pub(super) fn decide(
         alone.unwrap_or_else(|| split::find(model).map_err(|refusal| (0, refusal)))
     } else {
         let parts = declared.iter().map(|(name, h)| (name.to_string(), *h));
-        let parts: Vec<(String, Node)> = parts.collect();
+        let parts: Vec<(String, Node)> = parts.into_list();
         split::declared(model, &parts)
     };
     let mut is_carried_over = false;
@@ -227,7 +228,7 @@ fn facts(splitting: &Decomposition) -> Vec<String> {
         [] => format!("`{}`", piece.name),
         forms => format!("`{}` ({})", piece.name, forms.join(", ")),
     };
-    let pieces: Vec<String> = splitting.pieces.iter().map(piece).collect();
+    let pieces: Vec<String> = splitting.pieces.iter().map(piece).into_list();
     let mut facts = match pieces.as_slice() {
         [] => return Vec::new(),
         [one] if splitting.pieces[0].flow.merges() => {

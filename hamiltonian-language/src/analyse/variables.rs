@@ -12,6 +12,7 @@ use crate::lower::Lowered;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::{
     Group, Model, ObservableKind, VectorEntry, VectorFunction, VectorUse,
 };
@@ -68,7 +69,7 @@ pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
     let clock = checked.time_factor.map(|(_, span)| Ident::new(CLOCK, span));
     let names = checked.split.iter().map(|(name, _)| name.clone());
     let pieces = std::mem::take(&mut system.model.split);
-    system.pieces = names.chain(clock).zip(pieces).collect();
+    system.pieces = names.chain(clock).zip(pieces).into_list();
     Some(system)
 }
 
@@ -104,7 +105,7 @@ impl Changed {
             );
             return None;
         }
-        let charts: Vec<Chart> = checked.charts.iter().map(|chart| chart.kind).collect();
+        let charts: Vec<Chart> = checked.charts.iter().map(|chart| chart.kind).into_list();
         let mut transformed = match transform::apply(&self.model, &charts) {
             Ok(transformed) => transformed,
             Err(reason) => {
@@ -140,7 +141,7 @@ impl Changed {
         let groups = self.model.groups.len() as u16;
         let declared = self.declared.get_or_insert_with(|| Declared {
             groups: self.model.groups.clone(),
-            places: (0..groups).map(whole).collect(),
+            places: (0..groups).map(whole).into_list(),
             time: None,
         });
         declared.time = Some(groups);
@@ -200,7 +201,7 @@ fn remedy(reason: &NoTransform) -> &'static str {
 
 /// The images of a change of coordinates, and the variables it keeps.
 fn map(transformed: &mut transform::Transformed, images: Vec<VectorEntry>) -> Vec<VectorEntry> {
-    let kept: Vec<u16> = transformed.kept.iter().map(|(_, new)| *new).collect();
+    let kept: Vec<u16> = transformed.kept.iter().map(|(_, new)| *new).into_list();
     let kept = |group: u16| kept.contains(&group);
     let mut all = identity(&mut transformed.model, Side::Q, &kept);
     all.extend(identity(&mut transformed.model, Side::P, &kept));

@@ -8,6 +8,7 @@ use super::structure::{Jumping, Kick, Nystrom, Verdicts};
 use hamiltonian_symbolic::dag::{Array, Column, Kind, Node, Side};
 use hamiltonian_symbolic::forces;
 use hamiltonian_symbolic::jumps::{force_jumps, jumps};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure::{Coupling, Structure, kick_beside};
@@ -99,7 +100,7 @@ pub fn verdicts(model: &mut Model, structure: &Structure, split: Result<(), Reas
             .cyclic
             .iter()
             .map(|cyclic| cyclic.coordinate.clone())
-            .collect(),
+            .into_list(),
         growth: structure.growth,
         jumping,
     }
@@ -108,7 +109,7 @@ pub fn verdicts(model: &mut Model, structure: &Structure, split: Result<(), Reas
 /// The parts that jump at times that do not depend on the state.
 fn jumping(model: &mut Model, structure: &Structure) -> Option<Jumping> {
     let h = model.h();
-    let force: Vec<Node> = model.force.iter().map(|entry| entry.value).collect();
+    let force: Vec<Node> = model.force.iter().map(|entry| entry.value).into_list();
     let force = force_jumps(&mut model.dag, &force);
     if !force && !jumps(&mut model.dag, h) {
         return None;
@@ -123,7 +124,7 @@ fn jumping(model: &mut Model, structure: &Structure) -> Option<Jumping> {
         .map(|piece| jumps(&mut model.dag, piece.h));
     Some(Jumping {
         halves: [halves[0] || force, halves[1]],
-        pieces: pieces.chain([force]).collect(),
+        pieces: pieces.chain([force]).into_list(),
     })
 }
 

@@ -8,6 +8,7 @@ use super::expr::Frame;
 use crate::ast::{BinaryOp, ExprId, ExprKind};
 use crate::checked::{NodeId, NodeKind};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
+use hamiltonian_symbolic::list::IntoList;
 
 /// The help for an index of no known form.
 const INDICES: &str = "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`";
@@ -17,7 +18,7 @@ impl Checker<'_> {
     pub(super) fn affine_shown(&self, form: &Affine) -> String {
         let mut text = String::new();
         let name = |size: &Size| self.out.sizes[size.0 as usize].name.to_string();
-        let product = |sizes: &[Size]| sizes.iter().map(name).collect::<Vec<_>>().join("*");
+        let product = |sizes: &[Size]| sizes.iter().map(name).into_list().join("*");
         let sizes = form.sizes.iter().map(|(size, k)| (name(size), *k));
         let products = form.products.iter().map(|(sizes, k)| (product(sizes), *k));
         let variable =

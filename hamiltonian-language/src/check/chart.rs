@@ -10,6 +10,7 @@ use crate::names;
 use crate::report::Spans;
 use hamiltonian_symbolic::dag::Parameter;
 use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component};
 use proc_macro2::Ident;
 
@@ -35,8 +36,8 @@ impl<'a> Checker<'a> {
             StatementKind::Coordinates { chart, arguments } => Some((chart.to_string(), arguments)),
             _ => None,
         });
-        let charts: Vec<(String, &'a Vec<Ident>)> = charts.collect();
-        let words: Vec<&str> = charts.iter().map(|(word, _)| word.as_str()).collect();
+        let charts: Vec<(String, &'a Vec<Ident>)> = charts.into_list();
+        let words: Vec<&str> = charts.iter().map(|(word, _)| word.as_str()).into_list();
         let (new, variable) = match name.strip_prefix("p_") {
             Some(new) => (new, Variable::NewMomentum),
             None => (name, Variable::NewCoordinate),

@@ -9,6 +9,7 @@ use crate::checked::{
     Extent, Field, FunctionId, NodeId, NodeKind, Parameter, ParameterId, SizeDeclaration, Type,
 };
 use hamiltonian_symbolic::index;
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::{Ident, Span};
 
 /// The largest number of elements of an array of literal size. Such arrays are on the stack, a
@@ -235,7 +236,7 @@ impl Checker<'_> {
             return None;
         }
         // All unknown sizes are reported.
-        let extents: Vec<Option<Extent>> = sizes.iter().map(|size| self.extent(size)).collect();
+        let extents: Vec<Option<Extent>> = sizes.iter().map(|size| self.extent(size)).into_list();
         Some(Type::of(&extents.into_iter().collect::<Option<Vec<_>>>()?))
     }
 

@@ -13,6 +13,7 @@ use crate::names::Builtin;
 use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::op::Op;
 
 /// The largest number of nodes that calls of `let` functions make in all.
@@ -574,7 +575,7 @@ impl Checker<'_> {
             .iter()
             .copied()
             .zip(arguments)
-            .collect();
+            .into_list();
         if self.call_depth >= MAX_DEPTH {
             return self.refuse(
                 raw,

@@ -9,6 +9,7 @@ use crate::ast::{ExprKind, Expression, Signature, Size, Statement};
 use crate::checked::{Loop, NodeKind, Type};
 use crate::names::listed;
 use hamiltonian_symbolic::index::{Affine, Domain};
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::Ident;
 
 impl Checker<'_> {
@@ -174,7 +175,7 @@ impl Checker<'_> {
         let sections = signature.sections.iter();
         let given: Vec<String> = sections
             .map(|s| listed(s.iter().map(|v| &v.name)))
-            .collect();
+            .into_list();
         if given.len() > 2 {
             due.extend(self.out.time.iter().map(Ident::to_string));
         }

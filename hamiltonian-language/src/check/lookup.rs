@@ -9,6 +9,7 @@ use crate::ast::{ExprId, LoopVariableId, StatementKind, Symbol};
 use crate::checked::{CaptureId, NodeId, NodeKind, Type, Variable};
 use crate::names;
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::Ident;
 
 /// A name that is known where it is used.
@@ -242,7 +243,7 @@ impl Checker<'_> {
             known.extend(self.out.groups.iter().map(|g| g.momentum.to_string()));
             if name == "p" || name.starts_with("p_") {
                 let momenta = self.out.groups.iter().map(|g| format!("`{}`", g.momentum));
-                let momenta: Vec<_> = momenta.collect();
+                let momenta = momenta.into_list();
                 return format!("the momenta of this Lagrangian are {}", momenta.join(", "));
             }
         }

@@ -13,6 +13,7 @@ use super::expr::Frame;
 use crate::ast::ExprId;
 use crate::checked::{Bound, Extent, Loop, NodeId, NodeKind, Reach, Variable};
 use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::ranges::Ranges;
 use proc_macro2::Ident;
 
@@ -125,7 +126,7 @@ impl Checker<'_> {
         let ranges = loops
             .into_iter()
             .map(|id| (id, self.bounds(id).map(Affine::clone)));
-        ranges.collect()
+        ranges.into_list()
     }
 
     /// Records a condition on the sizes, once.

@@ -8,6 +8,7 @@ use super::{Binding, Checker};
 use crate::ast::{Declarator, Signature, Size, StatementKind};
 use crate::checked::{Extent, Group, GroupId, Type, Variable};
 use crate::names::listed;
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
 use std::collections::HashMap;
@@ -322,7 +323,7 @@ impl Checker<'_> {
     /// The shape of coordinates that are stored row after row, on the heap.
     fn lattice(&mut self, sizes: &[Size]) -> Option<Type> {
         // All unknown sizes are reported.
-        let extents: Vec<Option<Extent>> = sizes.iter().map(|size| self.extent(size)).collect();
+        let extents: Vec<Option<Extent>> = sizes.iter().map(|size| self.extent(size)).into_list();
         let ty = Type::of(&extents.into_iter().collect::<Option<Vec<_>>>()?);
         let numbers = ty.elements();
         let numbers = numbers.map_or(i64::MAX, |n| n.as_constant().unwrap_or_default());

@@ -8,6 +8,7 @@ use super::{Binding, Checker, LetFunction, Position};
 use crate::ast::{Expression, Function, Statement, StatementKind};
 use crate::checked::{Definition, Extent, FunctionId, NodeId, Observable, Type};
 use crate::names;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::ObservableKind;
 use proc_macro2::Ident;
 
@@ -81,10 +82,10 @@ impl<'a> Checker<'a> {
         let symbols: Vec<_> = arguments
             .iter()
             .filter_map(|name| self.symbol(name))
-            .collect();
+            .into_list();
         // The body is read once with unknown arguments, to find its own errors; shapes are checked
         // at the calls.
-        let unknown = symbols.iter().map(|symbol| (*symbol, None)).collect();
+        let unknown = symbols.iter().map(|symbol| (*symbol, None)).into_list();
         let errors = self.report.errors().len();
         self.visit(value, unknown, &[]);
         self.lets.push(LetFunction {

@@ -11,6 +11,7 @@ use crate::checked::{Checked, Extent, NodeId, NodeKind, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::dag::Dag;
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::set::Set;
 use hamiltonian_symbolic::sort::Arrange;
 use std::iter;
@@ -85,7 +86,7 @@ pub enum Run {
 impl Run {
     fn indices(&self) -> Vec<Index> {
         match self {
-            Run::Numbers(length) => (0..*length).map(Index::constant).collect(),
+            Run::Numbers(length) => (0..*length).map(Index::constant).into_list(),
             Run::Loop(domain) => vec![Index::of_loop(*domain)],
         }
     }

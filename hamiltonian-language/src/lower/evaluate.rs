@@ -15,6 +15,7 @@ use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Partial, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::legendre::ElementMap;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::REPLACING;
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -277,7 +278,7 @@ impl<'a> Evaluator<'a> {
                             true => Rational::MINUS_ONE,
                             false => Rational::ONE,
                         });
-                let terms: Vec<(Rational, Node)> = signs.zip(values.iter().copied()).collect();
+                let terms: Vec<(Rational, Node)> = signs.zip(values.iter().copied()).into_list();
                 dag.linear(&Rational::ZERO, &terms)
             }
             (NodeKind::Binary(BinaryOp::Div, _, divisor), [a, b]) => {
@@ -348,7 +349,7 @@ impl<'a> Evaluator<'a> {
         let numbers: Vec<String> = values
             .iter()
             .map(|value| print::text(model, *value))
-            .collect();
+            .into_list();
         let message = match (function, numbers.as_slice()) {
             (Op::Sqrt, [x]) => format!("the square root of {x} is not a real number"),
             (Op::Pow, [x, y]) => format!("{x} to the power of {y} is not a real number"),
@@ -494,13 +495,13 @@ impl<'a> Evaluator<'a> {
             .rev()
             .map(Domain)
             .filter(|id| !self.demands.loops.is_unrolled(*id))
-            .collect();
+            .into_list();
         let mut nests: Vec<Vec<Domain>> = Vec::new();
         for one in &unrolled {
             nests.push(
                 kept.iter()
                     .map(|id| self.demands.domain(dag, *id, one))
-                    .collect(),
+                    .into_list(),
             );
         }
         let derived = &mut self.derived;
@@ -522,7 +523,7 @@ impl<'a> Evaluator<'a> {
             .iter()
             .zip(values)
             .map(|(nest, value)| over(dag, nest, *value))
-            .collect();
+            .into_list();
         dag.add(&terms)
     }
 }
@@ -556,7 +557,7 @@ fn compare(dag: &mut Dag, comparison: Comparison, a: Node, b: Node) -> Node {
 /// Σ of products of pairs, over a loop or one by one.
 fn products(dag: &mut Dag, run: Run, values: &[Node]) -> Node {
     let pairs = values.chunks_exact(2);
-    let terms: Vec<Node> = pairs.map(|pair| dag.mul(pair)).collect();
+    let terms: Vec<Node> = pairs.map(|pair| dag.mul(pair)).into_list();
     match run {
         Run::Loop(domain) => dag.reduce(domain, terms[0]),
         Run::Numbers(_) => dag.add(&terms),

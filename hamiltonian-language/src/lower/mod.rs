@@ -27,6 +27,7 @@ use evaluate::{Derived, Evaluator};
 use hamiltonian_symbolic::dag::{Column, Dag, Dependence, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, NoHamiltonian};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ParameterDeclaration, Shape, VectorEntry, VectorFunction,
     VectorUse,
@@ -105,7 +106,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         .observables
         .iter()
         .flat_map(|o| components(checked, o.value))
-        .collect();
+        .into_list();
     let in_velocities = evaluator.evaluate(&mut model, &observables)?;
     let values = evaluator.all_in_momenta(&mut model, &observables, &in_velocities)?;
     observables_of(checked, &mut model, values);
@@ -171,7 +172,7 @@ fn whole(roots: impl IntoIterator<Item = NodeId>) -> Vec<(NodeId, Demand)> {
     roots
         .into_iter()
         .map(|root| (root, Demand::default()))
-        .collect()
+        .into_list()
 }
 
 impl Evaluator<'_> {
@@ -232,7 +233,7 @@ impl Evaluator<'_> {
             let places: Vec<Index> = match rows {
                 None => vec![Index::constant(0)],
                 Some(rows) => match rows.as_constant().filter(|_| by_number) {
-                    Some(count) => (0..count).map(Index::constant).collect(),
+                    Some(count) => (0..count).map(Index::constant).into_list(),
                     None => {
                         let domain = model.dag.domain(None, Affine::constant(0), rows);
                         vec![Index::of_loop(domain)]
@@ -292,7 +293,7 @@ fn sites(dag: &mut Dag, axes: &[Affine]) -> Vec<Index> {
             None => index,
         })
     });
-    site.into_iter().collect()
+    site.into_iter().into_list()
 }
 
 /// Names and shapes.
@@ -322,21 +323,25 @@ fn declarations(checked: &Checked) -> Option<Model> {
             .as_ref()
             .map_or_else(|| "H".to_owned(), |item| item.name.to_string()),
         groups: checked.groups.iter().map(group).collect::<Option<_>>()?,
-        parameters: parameters.chain(captures).collect(),
+        parameters: parameters.chain(captures).into_list(),
         sizes: checked
             .sizes
             .iter()
             .map(|size| size.name.to_string())
-            .collect(),
+            .into_list(),
         time: checked.time.as_ref().map(ToString::to_string),
         externals: checked
             .functions
             .iter()
             .map(|function| External {
                 name: function.name.to_string(),
-                arguments: function.arguments.iter().map(ToString::to_string).collect(),
+                arguments: function
+                    .arguments
+                    .iter()
+                    .map(ToString::to_string)
+                    .into_list(),
             })
-            .collect(),
+            .into_list(),
         ..Model::default()
     })
 }
@@ -349,7 +354,7 @@ fn components(checked: &Checked, root: NodeId) -> Vec<(NodeId, Demand)> {
             let length = length.expect("an observable has a literal number of components");
             (0..length)
                 .map(|at| (root, Demand::at(Index::constant(at))))
-                .collect()
+                .into_list()
         }
         _ => vec![(root, Demand::default())],
     }
@@ -363,7 +368,7 @@ fn observables_of(checked: &Checked, model: &mut Model, values: Vec<Node>) {
         model.observables.push(Observable {
             name: observable.name.to_string(),
             kind: observable.kind,
-            components: values.by_ref().take(count).collect(),
+            components: values.by_ref().take(count).into_list(),
         });
     }
 }

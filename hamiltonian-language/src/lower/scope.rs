@@ -3,6 +3,7 @@
 //! Input: types of check. Output: shapes of the model. Invariant: sizes have the same numbers in both.
 
 use crate::checked::{Extent, Group, Type};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::Shape;
 
 /// A shape.
@@ -18,7 +19,7 @@ pub fn shape(ty: Type) -> Shape {
 /// The shape of an array that is stored row after row; `None` if the number of elements overflows.
 fn lattice<C>(ty: Type) -> Option<Shape<C>> {
     let extents = ty.extents().into_iter().map(Extent::affine);
-    Some(Shape::Lattice(ty.elements()?, extents.collect()))
+    Some(Shape::Lattice(ty.elements()?, extents.into_list()))
 }
 
 /// The shape of a group of coordinates: the columns of a matrix that is no lattice are literal. `None` if they are

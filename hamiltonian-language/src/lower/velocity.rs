@@ -6,6 +6,7 @@
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Kind, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::legendre::ElementMap;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::loops::unrolled;
 use hamiltonian_symbolic::model::{Model, VectorEntry};
 
@@ -124,5 +125,5 @@ pub fn entries(dag: &Dag, components: &[ElementMap], side: Side) -> Vec<VectorEn
             value: component.value,
         })
     };
-    components.iter().filter_map(entry).collect()
+    components.iter().filter_map(entry).into_list()
 }

@@ -8,6 +8,7 @@ use super::{Parser, Result};
 use crate::ast::{AXES, Expression, Header, Item, ParameterEntry, ParameterKind, Size};
 use crate::report::Spans;
 use crate::tokens::TokenKind;
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 
 /// `#[word …]`.
@@ -248,7 +249,7 @@ impl Parser<'_> {
         let attributes = attributes
             .into_iter()
             .map(|attribute| attribute.tokens)
-            .collect();
+            .into_list();
         Ok(ParameterEntry {
             attributes,
             name,

@@ -11,6 +11,7 @@ use crate::ast::{
 };
 use crate::names;
 use crate::tokens::{Token, TokenKind};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::ObservableKind;
 use proc_macro2::{Delimiter, Ident, Span, TokenStream};
 
@@ -61,7 +62,7 @@ impl Parser<'_> {
             .into_iter()
             .filter(|attribute| attribute.word == "doc")
             .map(|attribute| attribute.tokens)
-            .collect();
+            .into_list();
         self.position += 1;
         let kind = match word {
             "let" => self.let_statement()?,

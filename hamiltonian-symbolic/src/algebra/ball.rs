@@ -6,7 +6,7 @@
 //! not exist it is NaN.
 
 use crate::dag::{Dag, Kind, Node, Partial, Relation};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::rational::Rational;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -164,7 +164,7 @@ impl Ball {
             [x] => x.through(op),
             [x, y] => x.through_two(op, y),
             ref x => {
-                let values: Vec<f64> = x.iter().map(|x| x.value).listed();
+                let values: Vec<f64> = x.iter().map(|x| x.value).into_list();
                 Ball::unknown(op.eval(&values))
             }
         }
@@ -349,7 +349,7 @@ impl Ball {
                 })
             }
             Kind::Call(op, x) => {
-                let x: Vec<Ball> = x.iter().map(|x| child(*x)).listed();
+                let x: Vec<Ball> = x.iter().map(|x| child(*x)).into_list();
                 Ball::call(*op, &x)
             }
             Kind::External(function, part, arguments) => {

@@ -8,7 +8,7 @@
 
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node};
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -103,7 +103,7 @@ fn sweep(
         }
     }
     // Leaves that only the sums of branches have.
-    let mut inside: Vec<(Node, Vec<Node>)> = contributions.into_iter().listed();
+    let mut inside: Vec<(Node, Vec<Node>)> = contributions.into_iter().into_list();
     inside.arrange_by_key(|(leaf, _)| *leaf);
     for (leaf, mut parts) in inside {
         parts.reverse();
@@ -160,7 +160,7 @@ impl Branches {
             swept.insert((branch, here), adjoints.clone());
             adjoints
         });
-        let mut leaves: Vec<Node> = from_yes.iter().chain(&from_no).map(|(l, _)| *l).listed();
+        let mut leaves: Vec<Node> = from_yes.iter().chain(&from_no).map(|(l, _)| *l).into_list();
         leaves.arrange();
         leaves.dedup();
         let by = |list: &Adjoints, leaf: Node| {
@@ -181,7 +181,7 @@ impl Branches {
                 };
                 (leaf, value)
             })
-            .listed()
+            .into_list()
     }
 }
 
@@ -276,7 +276,10 @@ pub fn forward(
     let tangents = dag.map(nodes, |dag, node, tangents| match dag.kind(node).clone() {
         _ if !dag.dependence(node).on(what) => zero,
         Kind::Sum(_, terms) => {
-            let terms = terms.into_iter().map(|(k, n)| (k, tangents[&n])).listed();
+            let terms = terms
+                .into_iter()
+                .map(|(k, n)| (k, tangents[&n]))
+                .into_list();
             dag.linear(&Rational::ZERO, &terms)
         }
         Kind::Call(Op::Min | Op::Max, _) | Kind::Select(..) => {
@@ -287,7 +290,7 @@ pub fn forward(
             let parts: Vec<_> = partials(dag, node, what)
                 .into_iter()
                 .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
-                .listed();
+                .into_list();
             dag.add(&parts)
         }
         Kind::Reduce(domain, body) => dag.reduce(domain, tangents[&body]),

@@ -4,7 +4,7 @@
 //! Input: what the front end resolved. Output: [`Affine`], [`Index`], [`Domain`] ids. Invariant:
 //! terms sorted by variable, no zero coefficients, so that equal indices are equal values.
 
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::set::{MEMBERS, Member, Set};
 use crate::sort::Arrange;
 use num_integer::Integer;
@@ -123,7 +123,11 @@ impl Affine {
             let sizes = form.sizes.iter().map(|(size, k)| (vec![*size], *k));
             let constant = (form.constant != 0).then(|| (Vec::new(), form.constant));
             let products = form.products.iter().cloned();
-            constant.into_iter().chain(sizes).chain(products).listed()
+            constant
+                .into_iter()
+                .chain(sizes)
+                .chain(products)
+                .into_list()
         };
         let (a, b): (Vec<(Vec<Size>, i64)>, Vec<_>) = (terms(self), terms(other));
         let mut product = Affine::default();

@@ -5,19 +5,19 @@
 //! build.
 
 /// Iterators whose elements become a list.
-pub trait Listed: Iterator {
+pub trait IntoList: Iterator {
     /// The elements, in order.
     ///
     /// ```
-    /// use hamiltonian_symbolic::list::Listed;
+    /// use hamiltonian_symbolic::list::IntoList;
     ///
-    /// assert_eq!([1, 2, 3].iter().map(|n| n * n).listed(), [1, 4, 9]);
+    /// assert_eq!([1, 2, 3].iter().map(|n| n * n).into_list(), [1, 4, 9]);
     /// ```
-    fn listed(self) -> Vec<Self::Item>;
+    fn into_list(self) -> Vec<Self::Item>;
 }
 
-impl<I: Iterator> Listed for I {
-    fn listed(mut self) -> Vec<I::Item> {
+impl<I: Iterator> IntoList for I {
+    fn into_list(mut self) -> Vec<I::Item> {
         list(&mut || self.next())
     }
 }

@@ -12,7 +12,7 @@ pub use flow::{ExactFlow, Motion, Move, Piece};
 use crate::dag::{Array, Column, Dag, Dependence, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use std::fmt::Display;
 
 /// The shape of a parameter, or, with columns of a literal number `C`, of a group of coordinates.
@@ -118,7 +118,7 @@ fn places(axes: &[i64], element: i64) -> Vec<i64> {
             rest = rest.div_euclid((*extent).max(1));
             place
         })
-        .listed();
+        .into_list();
     places.reverse();
     places
 }
@@ -336,7 +336,7 @@ impl Model {
             };
             (0..declared.shape.columns()).map(of)
         };
-        groups.flat_map(of_group).listed()
+        groups.flat_map(of_group).into_list()
     }
     /// The group of a column; a group that replaces another has its shape.
     pub(super) fn group_of(&self, group: u16) -> &Group {
@@ -361,7 +361,7 @@ impl Model {
         match (axes, row.as_constant()) {
             (Some(axes), Some(element)) if !axes.is_empty() => {
                 let places = places(&axes, element).into_iter();
-                places.map(Index::constant).listed()
+                places.map(Index::constant).into_list()
             }
             _ => row.axes(),
         }
@@ -376,7 +376,7 @@ impl Model {
         [row, column]: [i64; 2],
         extent: impl Fn(&Affine) -> i64,
     ) -> String {
-        let axes: Vec<i64> = self.axes(array).iter().map(extent).listed();
+        let axes: Vec<i64> = self.axes(array).iter().map(extent).into_list();
         match axes.as_slice() {
             [] => self.shape(array).element(name, row, column),
             axes => {
@@ -424,13 +424,17 @@ impl Model {
     pub(crate) fn invariants(&self) -> Vec<Node> {
         let all = self.observables.iter();
         let all = all.filter(|one| one.kind == ObservableKind::Invariant);
-        all.flat_map(|one| one.components.clone()).listed()
+        all.flat_map(|one| one.components.clone()).into_list()
     }
     /// H and the components of observables.
     #[must_use]
     pub fn functions(&self) -> Vec<Node> {
         let observables = self.observables.iter().flat_map(|o| &o.components);
-        self.hamiltonian.iter().chain(observables).copied().listed()
+        self.hamiltonian
+            .iter()
+            .chain(observables)
+            .copied()
+            .into_list()
     }
     /// All expressions: [`Model::functions`], the declared pieces, the factor of time, then the
     /// entries of the force and of vector functions.
@@ -440,7 +444,7 @@ impl Model {
         let entries = self.force.iter().chain(vectors).map(|entry| entry.value);
         let declared = self.split.iter().chain(&self.factor).copied();
         let functions = self.functions().into_iter();
-        functions.chain(declared).chain(entries).listed()
+        functions.chain(declared).chain(entries).into_list()
     }
     /// Puts other expressions in the places of [`Model::roots`], or of as many as are given.
     pub fn set_roots(&mut self, roots: &[Node]) {
@@ -465,7 +469,7 @@ impl Model {
             let row = row.clone();
             VectorEntry { at, row, value }
         };
-        adjoints.into_iter().map(entry).listed()
+        adjoints.into_iter().map(entry).into_list()
     }
     /// The name of time: the declared one, or `t`.
     #[must_use]

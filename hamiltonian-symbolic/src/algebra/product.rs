@@ -8,7 +8,7 @@
 //! (`normal_form::polynomial`): there equal expressions must be equal values.
 
 use crate::dag::{Dag, Kind, Map, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::rational::Rational;
 use std::hash::Hash;
 
@@ -42,7 +42,7 @@ pub(crate) fn exponent_ranges<'a, B: Copy + Hash + Eq + 'a>(
     let lengths = ranges
         .values()
         .map(|(least, most)| most.abs_diff(*least).into());
-    lengths.listed()
+    lengths.into_list()
 }
 
 impl<B: Copy + PartialEq> Product<B> {

@@ -5,7 +5,7 @@
 //! elements at fixed indices exist ([`Ranges::rooms`]).
 
 use crate::index::{Affine, Domain, End, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::sort::Arrange;
 
 /// The ranges of loops, and questions about indices in them.
@@ -111,7 +111,7 @@ pub trait Ranges {
         let pair = |divisor: u64| [count.clone(), Affine::constant(divisor as i64)];
         (1..=64)
             .contains(&distance)
-            .then(|| divisors.map(pair).listed())
+            .then(|| divisors.map(pair).into_list())
     }
 
     /// The loops whose variables a form contains, with those that their ranges contain, outermost first.

@@ -5,7 +5,7 @@
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain};
-use crate::list::Listed;
+use crate::list::IntoList;
 
 /// Makes the image of a node, for which those of its children are there.
 type Image<'a> = dyn FnMut(&mut Dag, Node, &mut Map<Node, Node>) -> Option<Node> + 'a;
@@ -35,19 +35,19 @@ impl Dag {
     pub(crate) fn construct(&mut self, kind: Kind, new: &dyn Fn(Node) -> Node) -> Node {
         match kind {
             Kind::Sum(c, terms) => {
-                let terms = terms.into_iter().map(|(k, n)| (k, new(n))).listed();
+                let terms = terms.into_iter().map(|(k, n)| (k, new(n))).into_list();
                 self.linear(&c, &terms)
             }
             Kind::Product(k, factors) => {
-                let factors = factors.into_iter().map(|(n, e)| (new(n), e)).listed();
+                let factors = factors.into_iter().map(|(n, e)| (new(n), e)).into_list();
                 self.product(&k, &factors)
             }
             Kind::Call(op, arguments) => {
-                let arguments = arguments.into_iter().map(new).listed();
+                let arguments = arguments.into_iter().map(new).into_list();
                 self.call(op, &arguments)
             }
             Kind::External(function, part, arguments) => {
-                let arguments = arguments.into_iter().map(new).listed();
+                let arguments = arguments.into_iter().map(new).into_list();
                 self.external(function, part, &arguments)
             }
             Kind::Reduce(domain, body) => self.reduce(domain, new(body)),

@@ -9,7 +9,7 @@ mod conditions;
 mod leaves;
 
 use crate::dag::{Dag, Kind, Map, Node, Partial};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::{Op, Parity};
 use crate::product::{Factors, Product};
 use crate::rational::{LONGEST, Rational};
@@ -68,7 +68,7 @@ impl Dag {
 
     /// The sum of nodes.
     pub fn add(&mut self, nodes: &[Node]) -> Node {
-        let terms = nodes.iter().map(|n| (Rational::ONE, *n)).listed();
+        let terms = nodes.iter().map(|n| (Rational::ONE, *n)).into_list();
         self.linear(&Rational::ZERO, &terms)
     }
     /// The sum, a rational factor that all terms have in common up to sign put in front, where it
@@ -86,7 +86,7 @@ impl Dag {
             return sum;
         }
         let constant = c.sign();
-        let terms = terms.iter().map(|(k, n)| (k.sign(), *n)).listed();
+        let terms = terms.iter().map(|(k, n)| (k.sign(), *n)).into_list();
         let sum = self.collected(&constant, &terms, false);
         self.scale(&content, sum)
     }
@@ -166,7 +166,7 @@ impl Dag {
             }
             _ => {
                 // The negative of a known sum is that sum negated, so that a−b and b−a share.
-                let mut negated = terms.iter().map(|(k, n)| (k.neg(), *n)).listed();
+                let mut negated = terms.iter().map(|(k, n)| (k.neg(), *n)).into_list();
                 negated.arrange_by_key(|(_, n)| *n);
                 match self.known(&Kind::Sum(constant.neg(), negated)) {
                     Some(known) => self.neg(known),
@@ -178,7 +178,7 @@ impl Dag {
 
     /// The product of nodes.
     pub fn mul(&mut self, nodes: &[Node]) -> Node {
-        let factors = nodes.iter().map(|n| (*n, 1)).listed();
+        let factors = nodes.iter().map(|n| (*n, 1)).into_list();
         self.product(&Rational::ONE, &factors)
     }
     /// The quotient.
@@ -304,7 +304,7 @@ impl Dag {
         let sum: Vec<_> = terms
             .iter()
             .map(|(n, exponent, _)| (n.clone(), *exponent))
-            .listed();
+            .into_list();
         let sum = self.linear(&Rational::ZERO, &sum);
         let all = self.call(Op::Exp, &[sum]);
         product
@@ -519,7 +519,7 @@ impl Dag {
         let squares: Vec<_> = nodes
             .iter()
             .map(|n| (Rational::ONE, self.powi(*n, 2)))
-            .listed();
+            .into_list();
         self.linear(&Rational::ZERO, &squares)
     }
 

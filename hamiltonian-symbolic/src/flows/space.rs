@@ -16,7 +16,7 @@ use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side, Sign, St
 use crate::diff;
 use crate::flows::limits::{COMPONENTS, Limit, PAIRS, POINTS};
 use crate::index::Index;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::{Sample, Values, next_random};
 use crate::model::{Model, Motion, NamedMotion};
 use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness};
@@ -71,7 +71,7 @@ impl Variables {
     }
     /// The pairs with a variable in it.
     pub(crate) fn pairs(self) -> Vec<usize> {
-        let mut pairs: Vec<usize> = self.members().map(|variable| variable.0 / 2).listed();
+        let mut pairs: Vec<usize> = self.members().map(|variable| variable.0 / 2).into_list();
         pairs.dedup();
         pairs
     }
@@ -210,7 +210,7 @@ impl Space {
     /// The places of expressions in an order that follows from H alone.
     pub(crate) fn in_order(&self, nodes: &[Node]) -> Vec<usize> {
         let labels = self.labels.of(&self.model.dag, nodes);
-        let mut places: Vec<usize> = (0..nodes.len()).listed();
+        let mut places: Vec<usize> = (0..nodes.len()).into_list();
         places.arrange_by_key(|at| labels[*at]);
         places
     }
@@ -354,7 +354,7 @@ impl Space {
         }
         let products = terms.into_iter();
         let products = products.map(|(sign, factors)| (sign, self.model.dag.mul(&factors)));
-        let products: Vec<(Rational, Node)> = products.listed();
+        let products: Vec<(Rational, Node)> = products.into_list();
         let bracket = self.model.dag.linear(&Rational::ZERO, &products);
         self.is_zero(bracket)
     }
@@ -471,7 +471,7 @@ impl Space {
     pub(crate) fn point(&self) -> Vec<Ball> {
         // Multiples of 1/64 are exact, and so are steps between them.
         let start = |bit: usize| Ball::exact(0.90625 + ((bit * 5 + 3) % 7) as f64 / 16.0);
-        (0..2 * self.pairs.len()).map(start).listed()
+        (0..2 * self.pairs.len()).map(start).into_list()
     }
     /// The sample point with some variables moved by steps.
     pub(crate) fn point_off(&self, moved: &[(Variables, f64)]) -> Vec<Ball> {

@@ -6,7 +6,7 @@
 
 use crate::algebra::simplify::SHORT;
 use crate::dag::{Dag, Kind, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::product::Factors;
 use crate::programs::factor::is_prepared;
 use crate::rational::Rational;
@@ -22,7 +22,7 @@ pub fn balance(dag: &mut Dag, roots: &mut [Node]) {
     }
     let new = dag.map(order, |dag, node, new| match dag.kind(node).clone() {
         Kind::Product(k, factors) if factors.len() > SHORT => {
-            let factors = factors.iter().map(|(f, n)| (new[f], *n)).listed();
+            let factors = factors.iter().map(|(f, n)| (new[f], *n)).into_list();
             balanced(dag, &k, factors)
         }
         _ => dag.rebuild(node, &|child| new[&child]),
@@ -49,7 +49,7 @@ fn balanced(dag: &mut Dag, k: &Rational, factors: Factors) -> Node {
             let leaves = side
                 .iter()
                 .map(|(node, n)| dag.powi(*node, n * sign))
-                .listed();
+                .into_list();
             all.push((tree(dag, leaves), sign));
         }
     }
@@ -67,7 +67,7 @@ fn tree(dag: &mut Dag, mut leaves: Vec<Node>) -> Node {
             _ => runs.push(vec![node]),
         }
     }
-    let trees: Vec<Node> = runs.into_iter().map(|run| halved(dag, run)).listed();
+    let trees: Vec<Node> = runs.into_iter().map(|run| halved(dag, run)).into_list();
     let mut trees = trees.into_iter();
     let first = trees.next().unwrap_or_else(|| dag.integer(1));
     trees.fold(first, |product, tree| dag.seal(product, tree))
@@ -82,7 +82,7 @@ fn halved(dag: &mut Dag, mut level: Vec<Node>) -> Node {
                 [a, b] => dag.seal(*a, *b),
                 _ => pair[0],
             })
-            .listed();
+            .into_list();
     }
     level[0]
 }

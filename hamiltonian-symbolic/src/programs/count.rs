@@ -4,7 +4,7 @@
 //! loops as text. Invariant: the whole is the sum of its loops, each body counted once.
 
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::op::Op;
 use crate::print;
@@ -126,7 +126,7 @@ pub fn operations(model: &Model, program: &Program, function: &Function) -> Vec<
             continue;
         }
         let loops = model.dag.path(domain);
-        let heads: Vec<String> = loops.iter().map(|d| print::range(model, *d)).listed();
+        let heads: Vec<String> = loops.iter().map(|d| print::range(model, *d)).into_list();
         counts.push(Count {
             place: heads.join(", "),
             operations,

@@ -6,7 +6,7 @@
 
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -97,7 +97,7 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
             let terms: Vec<_> = terms
                 .into_iter()
                 .map(|(k, n)| (k, new[&n], uses.get(n) == Some(1)))
-                .listed();
+                .into_list();
             factored_sum(dag, &c, &terms, &Rational::ONE, None)
         }
         Kind::Product(..) if dag.is_sealed(node) => dag.rebuild(node, &|child| new[&child]),
@@ -133,7 +133,7 @@ fn gathered(dag: &Dag, product: &Product, uses: &Numbers) -> Option<(Domain, Nod
         {
             return None;
         }
-        let mut all: Factors = others().copied().listed();
+        let mut all: Factors = others().copied().into_list();
         match dag.kind(body) {
             Kind::Product(c, inner) if c.is_one() => all.extend(inner),
             _ => all.push((body, 1)),
@@ -157,7 +157,7 @@ fn factored_product(dag: &mut Dag, node: Node, uses: &Numbers, new: &Map<Node, N
     let (k, factors) = (&product.coefficient, &product.factors);
     let Some((at, Kind::Sum(c, terms))) = place.map(|at| (at, dag.kind(factors[at].0).clone()))
     else {
-        let factors = factors.iter().map(|(n, e)| (new[n], *e)).listed();
+        let factors = factors.iter().map(|(n, e)| (new[n], *e)).into_list();
         return dag.product(k, &factors);
     };
     let (prepared, mut others): (Vec<_>, Vec<_>) = factors
@@ -170,7 +170,7 @@ fn factored_product(dag: &mut Dag, node: Node, uses: &Numbers, new: &Map<Node, N
     let terms: Vec<_> = terms
         .into_iter()
         .map(|(k, n)| (k, new[&n], uses.get(n) == Some(1)))
-        .listed();
+        .into_list();
     // The sign stays outside, where it becomes a subtraction.
     let sum = factored_sum(dag, &c, &terms, &k.abs(), Some(p));
     others.insert(0, (sum, 1));
@@ -304,7 +304,7 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Summand>, one: Nod
         term.rest.multiply_at(0, term.p, 1);
         term.rest.split(dag)
     });
-    let nodes = nodes.listed();
+    let nodes = nodes.into_list();
     dag.collected(constant, &nodes, false)
 }
 

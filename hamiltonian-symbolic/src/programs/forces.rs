@@ -10,7 +10,7 @@
 
 use crate::dag::{Dag, Dependence, Node, Side};
 use crate::diff;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::{Model, VectorEntry};
 use crate::op::Op;
 use crate::structure::degrees;
@@ -119,7 +119,7 @@ pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<KickFlow, Box
             VectorEntry { value, ..entry }
         };
         KickFlow::Coupled {
-            linear: forces.iter().map(scaled).listed(),
+            linear: forces.iter().map(scaled).into_list(),
         }
     }))
 }

@@ -38,7 +38,7 @@
 use crate::PI_LOW;
 use crate::dag::{Array, Map, Partial, Relation};
 use crate::index::{Affine, Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::pairs::{self, Pairs, Triangle, pairs};
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 use hamiltonian_real::Real;
@@ -172,7 +172,11 @@ fn run_in_order<T: Real>(
     // A flow that reads one side and moves the other is emitted as one that is apart.
     machine.has_trees = !machine.is_in_place || program.one_way(function).is_some();
     machine.steps(&function.evaluation);
-    let results = function.results.iter().map(|v| machine.number(*v)).listed();
+    let results = function
+        .results
+        .iter()
+        .map(|v| machine.number(*v))
+        .into_list();
     Outcome {
         results,
         outputs: machine.outputs,
@@ -374,7 +378,7 @@ impl<T: Real> Machine<'_, T> {
             Instruction::Div(a, b) => n(a) / n(b),
             Instruction::Recip(a) => n(a).recip(),
             Instruction::Call(op, arguments) => {
-                let arguments: Vec<T> = arguments.iter().map(n).listed();
+                let arguments: Vec<T> = arguments.iter().map(n).into_list();
                 op.eval(&arguments)
             }
             Instruction::PairedSin(a) => n(a).sin_cos().0,
@@ -383,7 +387,7 @@ impl<T: Real> Machine<'_, T> {
                 other => unreachable!("{other:?} is no sine of a pair"),
             },
             Instruction::External(function, part, arguments) => {
-                let arguments: Vec<T> = arguments.iter().map(n).listed();
+                let arguments: Vec<T> = arguments.iter().map(n).into_list();
                 self.point.externals[*function as usize](*part, &arguments)
             }
             Instruction::Select(mask, a, b) => T::select(self.masks[mask], n(a), n(b)),

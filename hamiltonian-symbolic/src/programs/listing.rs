@@ -5,7 +5,7 @@
 
 use crate::dag::{Array, Column, Parameter, Partial, Relation, Side};
 use crate::index::{Affine, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::program::{Instruction, Program, Step, Target, Update, Value};
 use core::fmt::{Display, Formatter, Result, Write};
 
@@ -24,7 +24,7 @@ impl Display for Affine {
         let loops = self.loops.iter().map(|(d, k)| (format!("i{}", d.0), *k));
         let sizes = self.sizes.iter().map(|(s, k)| (format!("n{}", s.0), *k));
         let products = self.products.iter().map(|(sizes, k)| {
-            let names: Vec<String> = sizes.iter().map(|s| format!("n{}", s.0)).listed();
+            let names: Vec<String> = sizes.iter().map(|s| format!("n{}", s.0)).into_list();
             (names.join("*"), *k)
         });
         let mut is_first = true;
@@ -209,6 +209,6 @@ impl Program {
 
 /// `a, b, c`
 fn listed(values: &[Value]) -> String {
-    let values: Vec<String> = values.iter().map(Value::to_string).listed();
+    let values: Vec<String> = values.iter().map(Value::to_string).into_list();
     values.join(", ")
 }

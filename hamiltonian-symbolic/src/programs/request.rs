@@ -7,7 +7,7 @@ use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::forces;
 use crate::index::{Affine, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::{ExactFlow, Model, Motion, Piece, VectorEntry};
 use crate::op::Op;
 use crate::program::{Purpose, Target};
@@ -38,7 +38,7 @@ pub(crate) fn request(
             Side::Q => sides.0,
             Side::P => sides.1,
         };
-        entries.iter().filter(is_wanted).cloned().listed()
+        entries.iter().filter(is_wanted).cloned().into_list()
     };
     match purpose {
         Purpose::Energy => request.results.push(h),
@@ -128,7 +128,7 @@ fn driven(model: &mut Model, gradient: &[VectorEntry]) -> Vec<Store> {
         let value = model.dag.mul(&[c, entry.value]);
         added(VectorEntry { value, ..entry })
     };
-    let stores = slopes.map(scaled).listed();
+    let stores = slopes.map(scaled).into_list();
     at_sites(&mut model.dag, stores)
 }
 
@@ -140,7 +140,7 @@ fn flow(model: &mut Model, piece: &Piece) -> Vec<Store> {
         ExactFlow::Loop { motions, .. } => {
             let each = motions.iter();
             each.flat_map(|motion| updates(&mut model.dag, motion))
-                .listed()
+                .into_list()
         }
     }
 }
@@ -186,7 +186,7 @@ fn rates(model: &mut Model, h: Node) -> Vec<Store> {
 /// The stores that add c·J∇H, from the entries of ∇H.
 fn sums(dag: &mut Dag, entries: Vec<VectorEntry>) -> Vec<Store> {
     let entries = entries.into_iter();
-    let stores = entries.map(|entry| added(scaled(dag, entry))).listed();
+    let stores = entries.map(|entry| added(scaled(dag, entry))).into_list();
     at_sites(dag, stores)
 }
 
@@ -213,7 +213,7 @@ fn vector(
         let columns = model.columns(side).into_iter().filter(|_| wanted);
         outputs.extend(columns.map(|(column, rows)| (Target::Phase(column), rows)));
     }
-    let stores = entries.into_iter().map(added).listed();
+    let stores = entries.into_iter().map(added).into_list();
     let stores = at_sites(&mut model.dag, stores);
     overwritten(&mut model.dag, stores, outputs, request);
 }
@@ -293,7 +293,7 @@ fn overwrite(
         } if dag.variables(*value).is_empty() => row.as_constant(),
         _ => None,
     };
-    let mut elements: Vec<i64> = own.iter().filter_map(element).listed();
+    let mut elements: Vec<i64> = own.iter().filter_map(element).into_list();
     elements.arrange();
     elements.dedup();
     if elements.len() == own.len() {
@@ -324,9 +324,9 @@ fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
             add: true,
         }
     };
-    let stores = adjoints.map(store).listed();
+    let stores = adjoints.map(store).into_list();
     let rows = model.parameters.iter().map(|p| p.shape.rows().cloned());
     let outputs = (0..).map(|number| Target::Parameter(Parameter(number)));
-    let outputs = outputs.zip(rows).listed();
+    let outputs = outputs.zip(rows).into_list();
     overwritten(&mut model.dag, stores, outputs, request);
 }

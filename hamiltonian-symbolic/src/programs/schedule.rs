@@ -10,7 +10,7 @@ mod instruct;
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
 use crate::hoist::Hoisted;
 use crate::index::{Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 use crate::programs::factor::count_uses;
@@ -59,7 +59,7 @@ impl Request {
             .iter()
             .copied()
             .chain(self.stores.iter().map(|s| s.value))
-            .listed()
+            .into_list()
     }
     /// Puts other expressions in their places, in the order of [`Request::roots`].
     pub fn replace_roots(&mut self, roots: &[Node]) {
@@ -103,7 +103,7 @@ pub fn schedule(
         value: hoisted.value,
         add: false,
     };
-    let fills: Vec<Store> = hoisted.iter().zip(0..).map(fill).listed();
+    let fills: Vec<Store> = hoisted.iter().zip(0..).map(fill).into_list();
     let (prepare, computed) = stage(
         dag,
         &mut program,
@@ -145,7 +145,7 @@ pub fn schedule(
             carried,
         );
         let results = request.results.iter();
-        let results = results.map(|n| value_of(&values, *n)).listed();
+        let results = results.map(|n| value_of(&values, *n)).into_list();
         program.functions.push(Function {
             purpose: request.purpose,
             coefficient,
@@ -193,7 +193,7 @@ fn stage(
         .iter()
         .copied()
         .chain(stores.iter().map(|s| s.value))
-        .listed();
+        .into_list();
     let uses = count_uses(dag, &roots, &dag.reachable(&roots));
     let mut placer = Placer {
         dag,
@@ -205,7 +205,7 @@ fn stage(
         open: Vec::new(),
         pinned,
     };
-    let stores: Vec<&Store> = stores.iter().listed();
+    let stores: Vec<&Store> = stores.iter().into_list();
     let steps = placer.block(None, wanted, &stores);
     (steps, placer.known)
 }
@@ -332,7 +332,7 @@ impl Placer<'_> {
     /// The nodes of this stage not yet computed that the wanted ones need, bottom-up.
     fn needed(&self, wanted: &[Node], stores: &[&Store]) -> Vec<Node> {
         let stored = stores.iter().map(|store| store.value);
-        let roots: Vec<Node> = wanted.iter().copied().chain(stored).listed();
+        let roots: Vec<Node> = wanted.iter().copied().chain(stored).into_list();
         let is_needed = |node: Node| !self.is_computed(node) && self.stage_of(node) == self.stage;
         let mut needed = self.dag.reached(&roots, &mut |node, ahead| {
             if is_needed(node) {
@@ -358,7 +358,7 @@ impl Placer<'_> {
                 Kind::Reduce(_, body) => *body,
                 _ => *sum,
             })
-            .listed();
+            .into_list();
         let mut body = self.block(Some(nest.domain), &bodies, &nest.stores);
         for (accumulator, term) in accumulators.iter().zip(&bodies) {
             let term = self.value(*term);

@@ -7,7 +7,7 @@
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
@@ -153,7 +153,7 @@ fn support_of(dag: &mut Dag, node: Node, known: &Map<Node, Vanishing>) -> Option
         }
         Kind::Product(_, factors) => {
             let own = factors.iter().filter(|(_, n)| *n > 0);
-            let supports: Vec<Node> = own.filter_map(|(node, _)| of(node)).listed();
+            let supports: Vec<Node> = own.filter_map(|(node, _)| of(node)).into_list();
             supports.into_iter().reduce(|all, next| dag.and(all, next))
         }
         _ => None,
@@ -169,15 +169,15 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
     let own: Vec<Vanishing> = factors
         .iter()
         .map(|(factor, _)| facts(dag, *factor, known))
-        .listed();
+        .into_list();
     let vanishes = |at: usize| factors[at].1 > 0 && own[at].support.is_some();
     let is_singular: Vec<bool> = (factors.iter().zip(&own))
         .map(|((factor, n), own)| {
             own.is_singular || *n < 0 && dag.dependence(*factor).on(Dependence::MOVING)
         })
-        .listed();
+        .into_list();
     let is_other_singular = |at: usize| (0..own.len()).any(|k| k != at && is_singular[k]);
-    let places: Vec<usize> = (0..own.len()).filter(|at| vanishes(*at)).listed();
+    let places: Vec<usize> = (0..own.len()).filter(|at| vanishes(*at)).into_list();
     if places.iter().any(|at| is_other_singular(*at)) {
         let supports = places.iter().filter_map(|at| own[*at].support);
         let condition = supports.reduce(|all, next| dag.and(all, next));
@@ -187,7 +187,7 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
                 Some(inner) => (inner, n),
                 None => (factor, n),
             })
-            .listed();
+            .into_list();
         let product = dag.product(&Rational::ONE, &taken);
         let zero = dag.integer(0);
         let Some(condition) = condition else {
@@ -216,7 +216,7 @@ fn within_support(dag: &mut Dag, node: Node, known: &mut Map<Node, Vanishing>) -
                 false => outside.push(*power),
             }
         }
-        let nodes: Vec<Node> = inside.iter().skip(1).map(|(node, _)| *node).listed();
+        let nodes: Vec<Node> = inside.iter().skip(1).map(|(node, _)| *node).into_list();
         if sums.len() > 1 || factors[at].1 > 1 || dag.has_loops(&nodes) {
             return where_terms_count(dag, &sums, node, known);
         }

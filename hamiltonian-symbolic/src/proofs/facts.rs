@@ -22,7 +22,7 @@ mod products;
 pub use domain::conditions;
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::{Break, Far, Op, SingularSet, ValueSign};
 use crate::sort::Arrange;
 use differences::{difference, is_pair};
@@ -319,7 +319,7 @@ impl Facts {
         // the same sign.
         let infinite: Vec<usize> = (0..terms.len())
             .filter(|at| !self.get(terms[*at].1).is_continuous)
-            .listed();
+            .into_list();
         let sign = |at: &usize| Sign::of(&terms[*at].0).times(dag.sign(terms[*at].1));
         let positive = infinite.iter().all(|at| sign(at).is_nonnegative());
         let negative = infinite.iter().all(|at| sign(at).is_nonpositive());
@@ -349,7 +349,7 @@ impl Facts {
         };
         let is_projective =
             all.is_projective && (infinite.len() <= 1 || positive || negative || are_apart());
-        let nodes: Vec<Node> = terms.iter().map(|(_, term)| *term).listed();
+        let nodes: Vec<Node> = terms.iter().map(|(_, term)| *term).into_list();
         let is_projective = is_projective || self.is_quotient_in_one(dag, nodes.iter().copied());
         let is_nonnegative = dag.is_nonnegative(node);
         // Terms ≥ 0 are 0 together only; those that are 0 for some parameters are so everywhere.
@@ -537,5 +537,5 @@ pub(crate) fn comparisons(dag: &Dag, condition: Node) -> Vec<(Node, Node)> {
         Kind::Compare(_, a, b) => Some((*a, *b)),
         _ => None,
     });
-    sides.listed()
+    sides.into_list()
 }

@@ -7,7 +7,7 @@
 use crate::bracket::agree;
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::facts::{Facts, Given, comparisons};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Break;
 
 /// Returns true if a part of H may jump at times that do not depend on the state. Terms that do not depend on the state
@@ -15,13 +15,13 @@ use crate::op::Break;
 #[must_use]
 pub fn jumps(dag: &mut Dag, h: Node) -> bool {
     let terms = match dag.kind(h) {
-        Kind::Sum(_, terms) => terms.iter().map(|(_, term)| *term).listed(),
+        Kind::Sum(_, terms) => terms.iter().map(|(_, term)| *term).into_list(),
         _ => vec![h],
     };
     let moving: Vec<Node> = terms
         .into_iter()
         .filter(|term| reads_state(dag, *term))
-        .listed();
+        .into_list();
     force_jumps(dag, &moving)
 }
 
@@ -49,7 +49,7 @@ fn switches(dag: &mut Dag, node: Node) -> bool {
     match *dag.kind(node) {
         Kind::Select(condition, yes, no) => {
             let timed = comparisons(dag, condition).into_iter();
-            let timed = timed.filter(|(a, b)| is_timed(dag, &[*a, *b])).listed();
+            let timed = timed.filter(|(a, b)| is_timed(dag, &[*a, *b])).into_list();
             timed.into_iter().any(|sides| !agree(dag, sides, yes, no))
         }
         Kind::Call(op, ref x) if matches!(op.row().regularity.breaks, Break::Jump(_)) => {

@@ -10,6 +10,7 @@ use crate::emit::statements::block;
 use crate::emit::tokens::{lex, located};
 use hamiltonian_language::ast::Function;
 use hamiltonian_symbolic::dag::Partial;
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::quote;
 
@@ -53,7 +54,7 @@ pub fn wrappers(context: Context) -> TokenStream {
 /// A call of a path.
 fn called(out: &mut TokenStream, (number, part): (u16, Partial), arity: usize, path: &TokenStream) {
     let name = lex(&block::external(number, part));
-    let arguments: Vec<TokenStream> = (0..arity).map(|at| lex(&format!("_x{at}"))).collect();
+    let arguments: Vec<TokenStream> = (0..arity).map(|at| lex(&format!("_x{at}"))).into_list();
     let at = path.clone().into_iter().last();
     let at = at.map_or_else(Span::call_site, |token| token.span());
     let scalar = located(quote!(AnyReal), at, 0);
@@ -94,7 +95,7 @@ fn differentiated(
             true => format!("__h::Dual::variable({argument})"),
             false => format!("__h::Dual::fixed({argument})"),
         })
-        .collect();
+        .into_list();
     let (generic, given, passed) = match function.value {
         Some(_) => (String::new(), "", ""),
         None => (format!(", F: __h::Function<{arity}>"), "_f: &F, ", "_f, "),
@@ -108,10 +109,10 @@ fn differentiated(
 
 /// The names of arguments, and their declarations over a scalar.
 fn arguments(arity: usize, scalar: &str) -> (Vec<String>, String) {
-    let names: Vec<String> = (0..arity).map(|at| format!("_x{at}")).collect();
+    let names: Vec<String> = (0..arity).map(|at| format!("_x{at}")).into_list();
     let declared: Vec<String> = names
         .iter()
         .map(|name| format!("{name}: {scalar}"))
-        .collect();
+        .into_list();
     (names, declared.join(", "))
 }

@@ -9,6 +9,7 @@ use crate::emit::names::layout::Slice;
 use crate::emit::statements::values::{Values, Wanted};
 use crate::emit::steps::inline::Inlined;
 use hamiltonian_symbolic::dag::{Array, Parameter};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
 use hamiltonian_symbolic::sort::Arrange;
@@ -114,7 +115,7 @@ impl Holder {
                 }
             }
         };
-        let data: Vec<String> = self.data(context).iter().map(ty).collect();
+        let data: Vec<String> = self.data(context).iter().map(ty).into_list();
         pairs(&data)
     }
 
@@ -124,7 +125,7 @@ impl Holder {
             .chain(context.run_time_sizes().map(Datum::Size))
             .chain(functions.map(Datum::Function))
             .chain(self.arrays.iter().copied().map(Datum::Array))
-            .collect()
+            .into_list()
     }
 
     /// The expression of the held values, in a body.
@@ -187,7 +188,7 @@ impl Holder {
             Datum::Function(at) => format!("__h::Given(__h::Clone::clone(_f{at}))"),
             Datum::Array(own) => array(own),
         };
-        let data: Vec<String> = self.data(context).iter().map(value).collect();
+        let data: Vec<String> = self.data(context).iter().map(value).into_list();
         let ([numbers, masks], data) = (self.lists(values), pairs(&data));
         format!(
             "let _v = [{numbers}];\n{}(__h::Held::new(_v, [{masks}], {data}))",
@@ -267,7 +268,7 @@ impl Receiver<'_> {
         let [numbers, masks] = ["v", "m"].map(|field| format!("{}.{field}", holder.root()));
         (holder.values).bind(out, [&numbers, &masks], &mut rest, inlined);
         let is_missing = |value: &Value| rest.contains_key(value);
-        reads.iter().copied().filter(is_missing).collect()
+        reads.iter().copied().filter(is_missing).into_list()
     }
 
     /// The `let`s of the run-time sizes.

@@ -10,6 +10,7 @@ use crate::emit::statements::values::{Values, Wanted};
 use crate::emit::steps::inline::{Binding, Inlined};
 use crate::emit::steps::scan::{Scan, scan};
 use crate::emit::steps::together::neighbours;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 use std::fmt::Write;
 use std::ops::Range;
@@ -53,7 +54,7 @@ impl BodyWriter<'_> {
         if cut(context.program, body.steps).len() > 1 {
             let steps = context.program.compact(body.steps);
             self.write_parts(out, body, &steps);
-            return (body.results.iter().map(|value| operand(context, *value))).collect();
+            return (body.results.iter().map(|value| operand(context, *value))).into_list();
         }
         let scan = scan(context, body.steps, body.results);
         // Preparation is done once, or once for each map.
@@ -74,7 +75,7 @@ impl BodyWriter<'_> {
             Some(text) => text,
             None => operand(context, *value),
         };
-        body.results.iter().map(text).collect()
+        body.results.iter().map(text).into_list()
     }
 
     /// Writes a body as calls of its parts, and the parts.
@@ -86,7 +87,7 @@ impl BodyWriter<'_> {
         let mut scans: Vec<Scan> = parts
             .iter()
             .map(|part| scan(&steps[part.clone()], &[]))
-            .collect();
+            .into_list();
         scans.push(scan(&[], body.results));
         // The last part that reads a value; results are read after all parts.
         let mut last = vec![0usize; program.instructions.len()];
@@ -129,7 +130,7 @@ impl BodyWriter<'_> {
             }
         }
         let is_missing = |value: &Value| rest.contains_key(value);
-        let earlier: Vec<Value> = wanted.iter().copied().filter(is_missing).collect();
+        let earlier: Vec<Value> = wanted.iter().copied().filter(is_missing).into_list();
         self.read(out, body.receiver, &earlier, &mut none);
         bound
     }

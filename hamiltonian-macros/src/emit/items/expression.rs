@@ -11,6 +11,7 @@ use crate::emit::statements::stretch;
 use crate::emit::tokens::lex;
 use crate::emit::traits::{dynamics, markers, observables};
 use crate::emit::types::{declared, mixed, reach};
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -21,9 +22,9 @@ pub fn generate(context: Context) -> TokenStream {
     let name = lex(&generics.name);
     let fields: Vec<TokenStream> = (0..captures.len())
         .map(|at| lex(&format!("c{at}")))
-        .collect();
+        .into_list();
     let scalars = generics.scalars.iter().map(|scalar| lex(scalar));
-    let scalars: Vec<TokenStream> = scalars.collect();
+    let scalars: Vec<TokenStream> = scalars.into_list();
     let parameters = (!scalars.is_empty()).then(|| quote! { <#(#scalars),*> });
     let mut text = String::new();
     for context in declared::mixed(context) {

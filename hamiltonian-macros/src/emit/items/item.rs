@@ -16,6 +16,7 @@ use hamiltonian_language::analyse::surface::piece_method;
 use hamiltonian_language::ast::Header;
 use hamiltonian_language::checked::{Field, SizeDeclaration};
 use hamiltonian_language::names::listed;
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::fmt::Write;
@@ -68,7 +69,7 @@ fn declaration(context: Context, item: &Header, name: &Ident) -> TokenStream {
     let (checked, root) = (definition.checked, definition.root);
     let is_const = |size: &&SizeDeclaration| !size.run_time;
     let constants = checked.sizes.iter().filter(is_const).map(|size| &size.name);
-    let constants: Vec<&Ident> = constants.collect();
+    let constants: Vec<&Ident> = constants.into_list();
     // The scalar of the parameters as readers see it: `P`, unless a const generic has the name.
     let mut scalar = context.generics.scalars.first().cloned();
     if let Some(scalar) = &mut scalar {
@@ -91,7 +92,7 @@ fn declaration(context: Context, item: &Header, name: &Ident) -> TokenStream {
         .sizes
         .iter()
         .map(|size| size.name.to_string())
-        .collect();
+        .into_list();
     let indices = Indices { sizes: &sizes };
     let renamed = Context { indices, ..context };
     let scalar = scalar.as_deref().unwrap_or_default();
@@ -115,7 +116,7 @@ fn declaration(context: Context, item: &Header, name: &Ident) -> TokenStream {
     let functions = functions.take(context.generics.functions.len());
     let names = sizes.chain(checked.parameters.iter().map(|p| &p.name));
     let names = names.chain(functions);
-    let allow = allowances(&names.collect::<Vec<_>>());
+    let allow = allowances(&names.into_list());
     let mut vectors = TokenStream::new();
     for mixed in declared::mixed(context) {
         let doc = match mixed.suffix == context.suffix {
@@ -350,7 +351,7 @@ fn pieces(context: Context, item: &Header) -> TokenStream {
         Field::Parameter(number) => &checked.parameters[number.0 as usize].name,
         Field::Function(at) => &checked.functions[at.0 as usize].name,
     };
-    let fields: Vec<&Ident> = checked.fields.iter().map(field).collect();
+    let fields: Vec<&Ident> = checked.fields.iter().map(field).into_list();
     let arguments = context.generics.arguments();
     let mut out = TokenStream::new();
     for (name, _) in definition.pieces {

@@ -5,6 +5,7 @@
 //! bodies, so that no other name of the user's can be in their way.
 
 use crate::emit::definition::Definition;
+use hamiltonian_symbolic::list::IntoList;
 
 /// The generic parameters of a definition.
 #[derive(Debug)]
@@ -46,10 +47,10 @@ impl Generics {
                 visibility: String::new(),
                 constants: Vec::new(),
                 functions: Vec::new(),
-                scalars: numbered("A").collect(),
+                scalars: numbered("A").into_list(),
                 sizes: Vec::new(),
                 is_run_time: Vec::new(),
-                fields: numbered("c").collect(),
+                fields: numbered("c").into_list(),
                 bound: "__h::Parameter",
                 system_bound: "__h::Parameter",
             };
@@ -70,20 +71,20 @@ impl Generics {
             let arity = function.arguments.len();
             (other_than(&name, &format!("F{at}")), arity)
         });
-        let functions = functions.collect();
+        let functions = functions.into_list();
         let is_run_time = checked.sizes.iter().map(|size| size.run_time);
         let scalar = (!checked.parameters.is_empty()).then(|| other_than(&name, "P"));
         Generics {
             constants,
             functions,
-            scalars: scalar.into_iter().collect(),
+            scalars: scalar.into_iter().into_list(),
             sizes,
-            is_run_time: is_run_time.collect(),
+            is_run_time: is_run_time.into_list(),
             fields: checked
                 .parameters
                 .iter()
                 .map(|p| p.name.to_string())
-                .collect(),
+                .into_list(),
             bound: "__h::Real",
             system_bound: "__h::Real + __h::Parameter",
             visibility: item.visibility.to_string(),
@@ -234,7 +235,7 @@ impl Generics {
 
 /// `<a, b>`, or nothing for an empty list.
 fn list(parameters: impl Iterator<Item = String>) -> String {
-    let parameters: Vec<String> = parameters.collect();
+    let parameters: Vec<String> = parameters.into_list();
     if parameters.is_empty() {
         String::new()
     } else {

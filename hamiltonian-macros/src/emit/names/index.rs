@@ -5,6 +5,7 @@
 //! are subtracted, so that no index that is in range overflows on its way.
 
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
+use hamiltonian_symbolic::list::IntoList;
 
 /// The names of sizes in the function being written.
 #[derive(Debug, Clone, Copy)]
@@ -56,7 +57,7 @@ impl Indices<'_> {
             push(factor, self.size(size).to_owned());
         }
         for (sizes, factor) in &affine.products {
-            let names: Vec<&str> = sizes.iter().map(|size| self.size(*size)).collect();
+            let names: Vec<&str> = sizes.iter().map(|size| self.size(*size)).into_list();
             push(*factor, product(&names));
         }
         if affine.constant != 0 {

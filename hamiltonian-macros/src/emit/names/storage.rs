@@ -6,6 +6,7 @@
 use super::context::{Context, ZERO};
 use super::layout::{Layout, Slice};
 use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::{Group, Shape};
 use std::fmt::Write;
 
@@ -46,7 +47,7 @@ impl Context<'_> {
     pub fn axes(self, axes: &[Affine]) -> String {
         let extents: Vec<String> = (axes.iter())
             .map(|extent| self.indices.plain(extent))
-            .collect();
+            .into_list();
         format!("[{}]", extents.join(", "))
     }
 
@@ -178,7 +179,7 @@ impl Context<'_> {
             Layout::Array => zero(&groups[0]),
             Layout::Mixed => {
                 let field = |group: &Group| format!("{}: {}", group.coordinate, zero(group));
-                let fields: Vec<String> = groups.iter().map(field).collect();
+                let fields: Vec<String> = groups.iter().map(field).into_list();
                 format!("{} {{ {} }}", self.mixed_name(), fields.join(", "))
             }
         }
@@ -235,7 +236,7 @@ impl Context<'_> {
                             .find(is_it)
                             .map_or("_".to_owned(), |slice| slice.name())
                     };
-                    let names: Vec<String> = (0..shape.columns()).map(name).collect();
+                    let names: Vec<String> = (0..shape.columns()).map(name).into_list();
                     let names = names.join(", ");
                     writeln!(
                         out,

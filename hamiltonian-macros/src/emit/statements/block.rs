@@ -13,6 +13,7 @@ use crate::emit::steps::inline::{Binding, Inlined};
 use crate::emit::steps::together::{Calls, few, first};
 use hamiltonian_symbolic::dag::{Array, Column, Partial, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Update, Value};
 use std::fmt::Write;
 
@@ -23,7 +24,7 @@ pub fn name(value: Value) -> String {
 
 /// The names of values in a list.
 pub fn names(values: &[Value]) -> String {
-    let names: Vec<String> = values.iter().map(|value| name(*value)).collect();
+    let names: Vec<String> = values.iter().map(|value| name(*value)).into_list();
     names.join(", ")
 }
 
@@ -165,7 +166,7 @@ impl Writer<'_> {
                 line!(self, "}}");
             }
             _ => {
-                let parts: Vec<_> = loops.iter().map(|outer| (*outer, None)).collect();
+                let parts = loops.iter().map(|outer| (*outer, None)).into_list();
                 self.join(&parts, slab);
             }
         }
@@ -192,10 +193,10 @@ impl Writer<'_> {
         line!(
             self,
             "let [{}] = __h::each!(T, {} {}: {});",
-            values.collect::<Vec<_>>().join(", "),
+            values.into_list().join(", "),
             calls.function,
             self.is_written_out,
-            arguments.collect::<Vec<_>>().join(", ")
+            arguments.into_list().join(", ")
         );
         calls.steps
     }
@@ -259,7 +260,7 @@ impl Writer<'_> {
             Instruction::Div(a, b) => format!("{} / {}", factor(a), v(b)),
             Instruction::Recip(a) => format!("{}.recip()", v(a)),
             Instruction::Call(op, arguments) => {
-                let others: Vec<String> = arguments[1..].iter().map(whole).collect();
+                let others: Vec<String> = arguments[1..].iter().map(whole).into_list();
                 format!(
                     "{}.{}({})",
                     v(&arguments[0]),
@@ -270,7 +271,7 @@ impl Writer<'_> {
             Instruction::PairedSin(a) => format!("{}.sin()", v(a)),
             Instruction::PairedCos(a) => v(a),
             Instruction::External(function, part, arguments) => {
-                let mut arguments: Vec<String> = arguments.iter().map(whole).collect();
+                let mut arguments: Vec<String> = arguments.iter().map(whole).into_list();
                 if self.context.is_parameter(*function) {
                     arguments.insert(0, format!("_f{function}"));
                 }
@@ -551,5 +552,5 @@ pub fn cleared(context: Context, targets: &[Target]) -> Vec<Slice> {
         .filter(|target| matches!(target, Target::Phase(_)));
     phase
         .map(|target| Slice::write(context.layout, *target))
-        .collect()
+        .into_list()
 }

@@ -7,6 +7,7 @@
 use super::block::{Writer, name, names};
 use super::values::Wanted;
 use crate::emit::steps::scan::scan;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Instruction, Step, Value};
 use std::fmt::Write;
 
@@ -54,7 +55,7 @@ impl Writer<'_> {
         let types = self.context.generics.bounded_functions();
         let types: String = types.map(|ty| format!(", {ty}")).collect();
         let passed = (0..functions.len()).map(|at| format!("_f{at}"));
-        let passed: Vec<String> = passed.chain(arguments.iter().map(|v| name(*v))).collect();
+        let passed: Vec<String> = passed.chain(arguments.iter().map(|v| name(*v))).into_list();
         let given = functions.iter().enumerate();
         let declared: Vec<String> = given
             .map(|(at, (ty, _))| format!("_f{at}: &{ty}"))
@@ -63,7 +64,7 @@ impl Writer<'_> {
                     .iter()
                     .map(|value| format!("{}: {}", name(*value), ty(value))),
             )
-            .collect();
+            .into_list();
         line!(
             self,
             "#[inline(always)]\n#[allow(clippy::too_many_arguments)]\n\

@@ -12,6 +12,7 @@ use crate::emit::names::index::variable;
 use crate::emit::names::layout::{Layout, Slice};
 use crate::emit::steps::accesses::Accesses;
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Loop, Step, Target};
 use std::fmt::Write;
 
@@ -218,7 +219,7 @@ impl Writer<'_> {
                     let cut = (*slice, index.substitute(|d| self.same(d)));
                     super::stretch::number(&mut cuts, cut)
                 })
-                .collect();
+                .into_list();
             joint.append(stretch, domain, &places);
         }
         (joint, cuts)
@@ -250,7 +251,7 @@ fn innermost<'a>(loops: &[&'a Loop]) -> Vec<&'a Loop> {
                 Step::Loop(inner) => Some(inner),
                 _ => None,
             })
-            .collect();
+            .into_list();
         match inside.is_empty() {
             true => all.push(*outer),
             false => all.extend(innermost(&inside)),

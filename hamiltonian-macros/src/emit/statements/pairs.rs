@@ -9,6 +9,7 @@ use crate::emit::names::context::Access;
 use crate::emit::names::layout::Slice;
 use crate::emit::steps::accesses::Accesses;
 use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::pairs::{LEAST, Pairs, Triangle, pairs};
 use hamiltonian_symbolic::program::Loop;
 use std::fmt::Write;
@@ -50,9 +51,9 @@ impl Writer<'_> {
 
     fn tiles(&mut self, outer: &Loop, pairs: &Pairs, count: &str) {
         let slice = |target| Slice::write(self.context.layout, target);
-        let slices: Vec<Slice> = pairs.targets.iter().copied().map(slice).collect();
+        let slices: Vec<Slice> = pairs.targets.iter().copied().map(slice).into_list();
         let list = |text: &dyn Fn(&str) -> String| {
-            let texts: Vec<String> = slices.iter().map(|slice| text(&slice.name())).collect();
+            let texts: Vec<String> = slices.iter().map(|slice| text(&slice.name())).into_list();
             texts.join(", ")
         };
         let triangle = match pairs.triangle {
@@ -85,7 +86,7 @@ impl Writer<'_> {
         self.slabs = slices
             .into_iter()
             .map(|slice| (slice, String::new()))
-            .collect();
+            .into_list();
         self.tile = Some(pairs.inner.domain);
         for (at, step) in outer.body.iter().enumerate() {
             let is_once = pairs.once.contains(&at);

@@ -8,6 +8,7 @@ use super::block::Writer;
 use crate::emit::names::context::Access;
 use crate::emit::names::layout::{Layout, Slice};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Loop, Step, Target};
 use std::fmt::Write;
 
@@ -30,10 +31,10 @@ impl Writer<'_> {
             return false;
         }
         let d = loops[0].domain.0;
-        let names: Vec<String> = columns.iter().map(|(slice, _)| slice.name()).collect();
+        let names: Vec<String> = columns.iter().map(|(slice, _)| slice.name()).into_list();
         let given: Vec<String> = (columns.iter())
             .map(|(slice, row)| format!("(&mut {}[..], {row})", slice.name()))
-            .collect();
+            .into_list();
         line!(
             self,
             "__h::rows({}, {}, [{}], #[inline(always)] move |_r{d}, [{}]| {{",

@@ -10,6 +10,7 @@ use crate::emit::names::layout::Slice;
 use crate::emit::steps::accesses::Accesses;
 use crate::emit::steps::scan::scan;
 use hamiltonian_symbolic::index::{Domain, Index, Loops};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Update, Value};
 use std::fmt::Write;
 
@@ -281,7 +282,7 @@ impl Writer<'_> {
         let d = inner.domain.0;
         let totals: Vec<String> = (sums(inner).into_iter().enumerate())
             .map(|(at, sum)| format!("{} += __h::total(&_sums{d}[{at}]);", name(sum)))
-            .collect();
+            .into_list();
         if !totals.is_empty() {
             line!(self, "if _long{d} {{\n{}\n}}", totals.join("\n"));
         }
@@ -351,7 +352,7 @@ impl Writer<'_> {
         self.steps(&stretch.computed);
         let results: Vec<String> = (stretch.results.iter())
             .map(|value| self.operand(*value))
-            .collect();
+            .into_list();
         line!(self, "[{}]\n}}\n}}", results.join(", "));
     }
 
@@ -375,13 +376,13 @@ impl Writer<'_> {
         let d = domain.0;
         let reads: Vec<String> = (stretch.reads.iter())
             .map(|(_, cut)| format!("_x{d}_{cut}"))
-            .collect();
+            .into_list();
         let columns: Vec<String> = (stretch.columns.iter())
             .map(|column| format!("&mut {column}[..]"))
-            .collect();
+            .into_list();
         let offsets: Vec<&str> = (stretch.stores.iter())
             .map(|store| store.start.as_deref().unwrap_or("0usize"))
-            .collect();
+            .into_list();
         let (first, sums) = match stretch.sums.is_empty() {
             true => ("0usize".to_owned(), "&mut []".to_owned()),
             false => (format!("_i{d} - _from{d}"), format!("&mut _sums{d}")),
@@ -414,7 +415,7 @@ impl Writer<'_> {
             }
             _ => false,
         };
-        let steps: Vec<Step> = inner.body.iter().filter(is_wanted).cloned().collect();
+        let steps: Vec<Step> = inner.body.iter().filter(is_wanted).cloned().into_list();
         self.steps(&steps);
     }
 
@@ -433,7 +434,7 @@ impl Writer<'_> {
                     true => name(*value),
                     false => "_".to_owned(),
                 })
-                .collect();
+                .into_list();
             line!(
                 self,
                 "let [{}] = {}::compute([{}], [{}], {});",
@@ -510,7 +511,7 @@ impl Stretch {
     }
 
     fn read_names(&self) -> String {
-        let reads: Vec<Value> = self.reads.iter().map(|(value, _)| *value).collect();
+        let reads: Vec<Value> = self.reads.iter().map(|(value, _)| *value).into_list();
         names(&reads)
     }
 

@@ -7,6 +7,7 @@
 use super::block::{name, names};
 use crate::emit::steps::inline::{Binding, Inlined};
 use hamiltonian_symbolic::dag::Map;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Program, Value};
 use std::fmt::Write;
 
@@ -62,7 +63,7 @@ impl Values {
         const FEW: usize = 2;
         for (array, values) in arrays.into_iter().zip([&self.numbers, &self.masks]) {
             let is_wanted = |at: &usize| wanted.contains_key(&values[*at]);
-            let mut own: Vec<usize> = (0..values.len()).filter(is_wanted).collect();
+            let mut own: Vec<usize> = (0..values.len()).filter(is_wanted).into_list();
             let element = |at: usize| format!("{array}[{at}]");
             if own.len() <= FEW {
                 own.retain(|at| !inlined.take(values[*at], Binding::Atom, &element(*at)));
@@ -74,7 +75,7 @@ impl Values {
                 Ok(_) => name(values[at]),
                 Err(_) => "_".to_owned(),
             };
-            let names: Vec<String> = (first..=last).map(name).collect();
+            let names: Vec<String> = (first..=last).map(name).into_list();
             let pattern = names.join(", ");
             let _ = match names.len() {
                 1 => writeln!(out, "let {pattern} = {};", element(first)),

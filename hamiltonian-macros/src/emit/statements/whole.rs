@@ -7,13 +7,14 @@ use super::block::{Writer, names};
 use crate::emit::names::layout::{Layout, Slice};
 use crate::emit::steps::scan::scan;
 use hamiltonian_symbolic::index::Domain;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Value};
 use std::fmt::Write;
 
 impl Writer<'_> {
     /// Writes outermost loops, as a nest if possible; in slabs, the rows of one slab.
     pub(super) fn whole(&mut self, loops: &[&Loop], slab: Option<Domain>) {
-        let steps: Vec<Step> = loops.iter().map(|l| Step::Loop((*l).clone())).collect();
+        let steps: Vec<Step> = loops.iter().map(|l| Step::Loop((*l).clone())).into_list();
         let scan = scan(self.context, &steps, &[]);
         let is_nest = self.is_whole(loops, &scan.reads);
         let known = std::mem::take(self.out);
@@ -44,7 +45,7 @@ impl Writer<'_> {
             .partition(|slice| slice.is_written());
         let mut sizes: Vec<String> = (self.context.run_time_sizes())
             .map(|size| format!("_n{size}"))
-            .collect();
+            .into_list();
         let mut passed = sizes.clone();
         if let Some(slab) = slab {
             let d = slab.0;
@@ -52,12 +53,12 @@ impl Writer<'_> {
             passed.extend([format!("_r{d}.start"), format!("_r{d}.end")]);
         }
         let list = |slices: &[Slice]| {
-            let names: Vec<String> = slices.iter().map(|slice| slice.name()).collect();
+            let names: Vec<String> = slices.iter().map(|slice| slice.name()).into_list();
             names.join(", ")
         };
         let columns: Vec<String> = (written.iter())
             .map(|slice| format!("&mut {}[..]", slice.name()))
-            .collect();
+            .into_list();
         let own = format!("__Nest{}", loops[0].domain.0);
         let given = names(&scan.reads);
         let counts = format!(
@@ -137,7 +138,7 @@ impl Writer<'_> {
                     Step::Loop(inner) => Some(inner),
                     _ => None,
                 })
-                .collect();
+                .into_list();
             if inside.is_empty() {
                 if !outer.end.variables().is_empty() {
                     return "true".to_owned();

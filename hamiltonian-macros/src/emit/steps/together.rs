@@ -6,6 +6,7 @@
 
 use crate::emit::names::context::{Access, Context};
 use hamiltonian_symbolic::dag::Map;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::op::{Op, TOGETHER};
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 
@@ -99,7 +100,7 @@ pub fn neighbours(context: Context, steps: &[Step]) -> Vec<Step> {
     let parts = steps.split_inclusive(is_fixed);
     parts
         .flat_map(|part| Order::of(context.program, part))
-        .collect()
+        .into_list()
 }
 
 /// The function of a call, and the number of calls before it on the longest way there.
@@ -172,11 +173,7 @@ impl Order<'_> {
         for at in &group {
             self.is_placed[*at] = true;
         }
-        for at in group
-            .iter()
-            .flat_map(|at| self.before(*at))
-            .collect::<Vec<_>>()
-        {
+        for at in group.iter().flat_map(|at| self.before(*at)).into_list() {
             self.place(at);
         }
         for at in group {

@@ -6,6 +6,7 @@
 use crate::emit::names::context::Context;
 use crate::emit::names::layout::Layout;
 use hamiltonian_language::analyse::described::{Described, DescribedObservable, DescribedPiece};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::{Model, Shape};
 
 /// The constant.
@@ -34,7 +35,7 @@ pub fn constant(context: Context) -> String {
 }
 
 fn quoted(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+    let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).into_list();
     names.join(", ")
 }
 
@@ -47,7 +48,7 @@ fn pieces(described: &Described) -> String {
         } = piece;
         format!("__h::piece({name:?}, {formula:?}, {jumps})")
     };
-    let all: Vec<String> = described.pieces.iter().map(entry).collect();
+    let all: Vec<String> = described.pieces.iter().map(entry).into_list();
     all.join(", ")
 }
 
@@ -61,7 +62,7 @@ fn observables(described: &Described) -> String {
         } = observable;
         format!("__h::observable(__h::ObservableKind::{kind:?}, {name:?}, {timed}, {reads:?})")
     };
-    let all: Vec<String> = described.observables.iter().map(entry).collect();
+    let all: Vec<String> = described.observables.iter().map(entry).into_list();
     all.join(", ")
 }
 

@@ -19,6 +19,7 @@ use crate::emit::types::reach;
 use hamiltonian_language::analyse::structure::GradientSource;
 use hamiltonian_symbolic::dag::Array;
 use hamiltonian_symbolic::halves::are_apart;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::{ParameterDeclaration, Shape, VectorUse};
 
 use hamiltonian_symbolic::program::{Function, Instruction, Purpose, Step, Target, Update, Value};
@@ -66,7 +67,7 @@ fn prepared(context: Context) -> Holder {
         .flat_map(|f| [&f.coefficient, &f.evaluation]);
     let slices = stages.flat_map(|steps| scan(context, steps, &[]).slices);
     let name = "__Prepared".to_owned();
-    Holder::prepared(context, name, &program.prepared, slices.collect())
+    Holder::prepared(context, name, &program.prepared, slices.into_list())
 }
 
 /// The text of the implementations as far as it is written.
@@ -107,11 +108,11 @@ impl<'a> Emission<'a> {
         );
         let start = self.out.len();
         self.out.push_str(&reach::asserted(context));
-        let results: Vec<_> = self.prepared.values().collect();
+        let results = self.prepared.values().into_list();
         let arguments = self.held();
         let read: Vec<Slice> = (self.prepared.arrays.iter().copied())
             .filter(|array| matches!(array, Slice::Read(Array::Parameter(_))))
-            .collect();
+            .into_list();
         let body = Body {
             name: "prepare",
             receiver: Receiver::System,
@@ -249,7 +250,7 @@ impl<'a> Emission<'a> {
         [time]
             .into_iter()
             .chain(vectors.iter().map(vector))
-            .collect()
+            .into_list()
     }
 
     /// A method of prepared systems at a point.
@@ -306,7 +307,7 @@ impl<'a> Emission<'a> {
 
     /// The body that makes the holder of a function from prepared values and the coefficient.
     pub(super) fn made(&mut self, function: &Function, holder: &Holder) -> String {
-        let results: Vec<_> = holder.values().collect();
+        let results = holder.values().into_list();
         let mut text = String::new();
         let body = Body {
             name: &format!("prepare{}", holder.name),
@@ -422,9 +423,9 @@ impl<'a> Emission<'a> {
             }
             _ => None,
         };
-        let mut numbers: Vec<_> = function.evaluation.iter().filter_map(number).collect();
+        let mut numbers = function.evaluation.iter().filter_map(number).into_list();
         numbers.arrange();
-        function.results = numbers.into_iter().map(|(_, value)| value).collect();
+        function.results = numbers.into_iter().map(|(_, value)| value).into_list();
         function.evaluation.retain(|step| number(step).is_none());
         let mut arguments = self.arguments(&["_q", "_p"]);
         let array = |parameter: &ParameterDeclaration| match &parameter.shape {
@@ -522,7 +523,7 @@ pub(super) fn with_self(body: &str) -> String {
 /// `name: type, …`
 pub(super) fn declared(arguments: &[(&'static str, String)]) -> String {
     let arguments = arguments.iter().map(|(name, ty)| format!("{name}: {ty}"));
-    arguments.collect::<Vec<_>>().join(", ")
+    arguments.into_list().join(", ")
 }
 
 /// `System::DUALS`, the most that the scalar of a parameter has.
@@ -532,7 +533,7 @@ fn duals(generics: &Generics) -> String {
         [] => String::new(),
         [one] => format!("const DUALS: __h::core::primitive::u32 = {};\n", of(one)),
         many => {
-            let all: Vec<String> = many.iter().map(of).collect();
+            let all: Vec<String> = many.iter().map(of).into_list();
             let all = all.join(", ");
             format!("const DUALS: __h::core::primitive::u32 = __h::deepest(&[{all}]);\n")
         }

@@ -7,6 +7,7 @@
 use crate::emit::names::context::Context;
 use crate::emit::types::construct::is_all_defaults;
 use hamiltonian_language::analyse::structure::Reason;
+use hamiltonian_symbolic::list::IntoList;
 use proc_macro2::Ident;
 use std::fmt::Write;
 
@@ -114,16 +115,16 @@ fn without_default(out: &mut String, context: Context) -> String {
     let parameters = parameters.filter(|(_, default)| default.is_none());
     let parameters = parameters.map(|(parameter, _)| &parameter.name);
     let kinds: [(&str, Vec<String>); 3] = [
-        ("size", sizes.map(Ident::to_string).collect()),
-        ("function", functions.map(Ident::to_string).collect()),
-        ("parameter", parameters.map(Ident::to_string).collect()),
+        ("size", sizes.map(Ident::to_string).into_list()),
+        ("function", functions.map(Ident::to_string).into_list()),
+        ("parameter", parameters.map(Ident::to_string).into_list()),
     ];
     let groups = kinds.iter().filter(|(_, names)| !names.is_empty());
     let groups = groups.map(|(noun, names)| {
         let plural = if names.len() == 1 { "" } else { "s" };
         format!("its {noun}{plural} `{}`", names.join("`, `"))
     });
-    let groups = groups.collect::<Vec<_>>().join(" and ");
+    let groups = groups.into_list().join(" and ");
     let missing = kinds.each_ref().map(|(_, names)| names.as_slice()).concat();
     let (first, name) = (&missing[0], &context.generics.name);
     let verb = match missing.len() {

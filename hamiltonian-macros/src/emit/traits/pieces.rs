@@ -9,6 +9,7 @@ use crate::emit::functions::holder::Holder;
 use crate::emit::names::context::Access;
 use hamiltonian_language::analyse::structure::{Nystrom, Reason};
 use hamiltonian_symbolic::dag::Side;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Program, Purpose};
 use std::fmt::Write;
@@ -76,7 +77,7 @@ impl Emission<'_> {
         ];
         let of_halves: Vec<&str> = (of_halves.into_iter())
             .filter_map(|(name, is_there)| is_there.then_some(name))
-            .collect();
+            .into_list();
         if !of_halves.is_empty() {
             line!(
                 self,
@@ -87,7 +88,7 @@ impl Emission<'_> {
                 of_halves.join(" "),
             );
         }
-        let mut own: Vec<String> = (0..own.len()).map(|at| self.numbered(at)).collect();
+        let mut own: Vec<String> = (0..own.len()).map(|at| self.numbered(at)).into_list();
         let kicked = structure.nystrom.as_ref().map(|nystrom| match nystrom {
             Nystrom::Halves => halves.clone(),
             Nystrom::Pieces(numbers) => numbers.map(|number| own[number].clone()),

@@ -10,6 +10,7 @@ use crate::emit::tokens::{allowances, documented, lex, located};
 use hamiltonian_language::ast::Header;
 use hamiltonian_language::checked::{Extent, Field, Parameter, Type};
 use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -48,7 +49,7 @@ fn default_of(context: Context, number: usize, scalar: &str) -> String {
     let constant = format!("<{scalar} as __h::Real>::constant");
     let numbers: Vec<String> = numbers
         .map(|text| text.replace("T::constant", &constant))
-        .collect();
+        .into_list();
     let array = |numbers: &[String]| format!("[{}]", numbers.join(", "));
     let value = match context.definition.checked.parameters[number].ty {
         Type::Matrix(_, Extent::Literal(columns)) => {
@@ -56,9 +57,9 @@ fn default_of(context: Context, number: usize, scalar: &str) -> String {
             let columns = columns as usize;
             let column = |at: usize| {
                 let column = numbers.iter().skip(at).step_by(columns).cloned();
-                array(&column.collect::<Vec<_>>())
+                array(&column.into_list())
             };
-            array(&(0..columns).map(column).collect::<Vec<_>>())
+            array(&(0..columns).map(column).into_list())
         }
         Type::Vector(_) => array(&numbers),
         Type::Array(_) => {
@@ -66,7 +67,7 @@ fn default_of(context: Context, number: usize, scalar: &str) -> String {
             let extents = context.model.parameters[number].shape.axes().iter().rev();
             let extents = extents.filter_map(Affine::as_constant);
             let lists = extents.fold(numbers, |parts, extent| {
-                parts.chunks(extent as usize).map(array).collect()
+                parts.chunks(extent as usize).map(array).into_list()
             });
             return lists.concat();
         }
@@ -348,9 +349,9 @@ fn defaults_set(context: Context, item: &Header, arguments: &[&Ident]) -> Option
     let names: Vec<String> = parameters
         .filter(has_default)
         .map(|p| p.name.to_string())
-        .collect();
+        .into_list();
     let (first, name) = (names.first()?, context.definition.type_name(item));
-    let arguments: Vec<String> = arguments.iter().map(ToString::to_string).collect();
+    let arguments: Vec<String> = arguments.iter().map(ToString::to_string).into_list();
     let question = if context.has_run_time_sizes() {
         "?"
     } else {

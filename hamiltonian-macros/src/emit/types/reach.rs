@@ -7,6 +7,7 @@ use crate::emit::names::context::Context;
 use crate::emit::tokens::{lex, located};
 use hamiltonian_language::checked::{Bound, Extent, Reach, Type};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::sort::Arrange;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -46,7 +47,7 @@ fn value(reach: &Reach, context: Context) -> String {
         let factors: Vec<i64> = iter::once(form.constant)
             .chain(of_sizes)
             .chain(of_loops)
-            .collect();
+            .into_list();
         format!("&{factors:?}")
     };
     let range = |(level, (_, range)): (usize, &(Domain, [Affine; 2]))| {
@@ -55,16 +56,16 @@ fn value(reach: &Reach, context: Context) -> String {
             .map(|form| factors(form, &reach.loops[..level]));
         format!("[{lower}, {upper}]")
     };
-    let loops: Vec<String> = reach.loops.iter().enumerate().map(range).collect();
+    let loops: Vec<String> = reach.loops.iter().enumerate().map(range).into_list();
     let name = |sizes: &Vec<Size>| {
         let names = sizes.iter().map(|size| context.indices.size(*size));
-        let names: Vec<&str> = names.collect();
+        let names: Vec<&str> = names.into_list();
         match *names {
             [name] => name.to_owned(),
             _ => format!("__h::product(&[{}])", names.join(", ")),
         }
     };
-    let names: Vec<String> = sizes.iter().map(name).collect();
+    let names: Vec<String> = sizes.iter().map(name).into_list();
     format!(
         "__h::Reach {{ sizes: &[{}], loops: [{}], index: {} }}",
         names.join(", "),
@@ -86,7 +87,7 @@ fn written(extent: Extent, context: Context) -> String {
         Extent::Product(number, sizes) => {
             let number = (number > 1).then(|| number.to_string()).into_iter();
             let factors = number.chain(sizes.iter().flatten().map(name));
-            factors.collect::<Vec<_>>().join("*")
+            factors.into_list().join("*")
         }
     }
 }

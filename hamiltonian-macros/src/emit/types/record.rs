@@ -6,6 +6,7 @@
 use super::construct::set_by_new_type;
 use crate::emit::names::context::Context;
 use hamiltonian_language::checked::Field;
+use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::model::Shape;
 use std::fmt::Write;
 
@@ -52,7 +53,7 @@ pub fn system(context: Context) -> String {
     let functions = generics.functions.iter().map(|(name, _)| name.as_str());
     let known: Vec<&str> = functions
         .chain(generics.scalars.iter().map(String::as_str))
-        .collect();
+        .into_list();
     let check = match context.has_run_time_sizes() {
         true => "Self::__checked",
         false => "",

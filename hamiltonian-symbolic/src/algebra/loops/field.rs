@@ -8,7 +8,7 @@
 
 use crate::dag::{Array, Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index, Loops};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::ranges::Ranges;
 
 /// The loop over the elements of an array with this many rows.
@@ -172,7 +172,7 @@ fn where_equal(dag: &mut Dag, index: &Affine, k: Domain, value: Node) -> Node {
 fn tighten(dag: &mut Dag, bound: &Affine, around: &mut [Domain], value: Node) -> Option<Node> {
     let named: Vec<usize> = (0..around.len())
         .filter(|at| bound.factor(around[*at]) != 0)
-        .listed();
+        .into_list();
     let [at] = named.as_slice() else { return None };
     if at + 1 != around.len() {
         return None;

@@ -6,7 +6,7 @@
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index, LOOPS, Size};
-use crate::list::Listed;
+use crate::list::IntoList;
 use std::rc::Rc;
 
 /// The meaning of nodes to a walk.
@@ -95,7 +95,7 @@ pub(crate) fn walk<M: Meaning>(
     let outside: Vec<Node> = order
         .into_iter()
         .filter(|n| dag.variables(*n).is_empty())
-        .listed();
+        .into_list();
     let mut walk = Walk {
         dag,
         meaning,

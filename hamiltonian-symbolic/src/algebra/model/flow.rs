@@ -5,7 +5,7 @@
 
 use crate::dag::{Dag, Map, Node};
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 
 /// A part of H with its flow.
 #[derive(Clone, PartialEq, Debug)]
@@ -166,7 +166,7 @@ impl Motion {
             true => (m.leaf, dag.add(&[m.leaf, m.value])),
             false => (m.leaf, m.value),
         };
-        self.moves.iter().map(image).listed()
+        self.moves.iter().map(image).into_list()
     }
 
     /// This motion, then another.

@@ -7,7 +7,7 @@
 use super::polynomial::{Atom, Budget, Monomial, Poly, Undecided};
 use crate::dag::{Dag, Dependence, Map, Node, Partial, Sign};
 use crate::index::{Domain, Loops};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -53,9 +53,9 @@ impl Key {
             | Key::Sign(x)
             | Key::Divisor(x) => x.atoms(),
             Key::Function(_, arguments) | Key::External(_, _, arguments) => {
-                arguments.iter().flat_map(Poly::atoms).listed()
+                arguments.iter().flat_map(Poly::atoms).into_list()
             }
-            Key::Sum(_, body) => body.0.iter().map(|(atom, _)| *atom).listed(),
+            Key::Sum(_, body) => body.0.iter().map(|(atom, _)| *atom).into_list(),
         }
     }
 }

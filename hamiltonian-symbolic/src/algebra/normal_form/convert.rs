@@ -7,7 +7,7 @@ use super::atoms::{Algebra, Key, Scope};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
 use crate::dag::{Dag, Kind, Map, Node, Relation};
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::rational::Rational;
 use std::rc::Rc;
@@ -44,7 +44,7 @@ impl Algebra {
 
     fn all(&self, nodes: &[Node]) -> Vec<Poly> {
         let poly = |node: &Node| self.of(*node).as_ref().clone();
-        nodes.iter().map(poly).listed()
+        nodes.iter().map(poly).into_list()
     }
 
     fn convert_one(&mut self, dag: &Dag, node: Node) -> Result<Poly, Undecided> {
@@ -161,7 +161,7 @@ impl Algebra {
                 dag.call(op, &[x])
             };
             let all = |dag: &mut Dag, polys: &[Poly]| -> Vec<Node> {
-                polys.iter().map(|x| assemble(dag, x, &nodes)).listed()
+                polys.iter().map(|x| assemble(dag, x, &nodes)).into_list()
             };
             let node = match &self.entry(atom).key {
                 Key::Leaf(node) => *node,
@@ -202,7 +202,7 @@ fn assemble(dag: &mut Dag, poly: &Poly, nodes: &Map<Atom, Node>) -> Node {
             .0
             .iter()
             .map(|(atom, n)| (nodes[atom], *n))
-            .listed();
+            .into_list();
         terms.push((k.clone(), dag.product(&Rational::ONE, &factors)));
     }
     dag.linear(&Rational::ZERO, &terms)

@@ -9,7 +9,7 @@
 
 use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::rational::Rational;
 
@@ -136,7 +136,7 @@ impl Algebra {
             Key::Function(Op::Pow, of) if *n == 1 => Some((*atom, of[0].clone(), of[1].clone())),
             _ => None,
         };
-        let powers: Vec<(Atom, Poly, Poly)> = monomial.0.iter().filter_map(power).listed();
+        let powers: Vec<(Atom, Poly, Poly)> = monomial.0.iter().filter_map(power).into_list();
         for (at, (one, s, a)) in powers.iter().enumerate() {
             for (other, t, b) in &powers[at + 1..] {
                 let (sign, exponent) = match () {

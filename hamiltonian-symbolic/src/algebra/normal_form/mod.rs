@@ -29,7 +29,7 @@ pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_po
 
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::index::{Affine, LOOPS, Size, TRIED};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::{Sample, SamplePoint, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
@@ -245,15 +245,15 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
             }
         }
     }
-    let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).listed();
+    let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).into_list();
     if (4..TRIED - 3).contains(&last) {
         trials.push(vec![last + 3; count]);
     }
     if count > 1 {
-        trials.push((3..).take(count).listed());
-        trials.push((3..3 + count as i64).rev().listed());
-        trials.push((1..).map(|n| 2 << n).take(count).listed());
-        trials.push((1..=count).rev().map(|n| 2 << n).listed());
+        trials.push((3..).take(count).into_list());
+        trials.push((3..3 + count as i64).rev().into_list());
+        trials.push((1..).map(|n| 2 << n).take(count).into_list());
+        trials.push((1..=count).rev().map(|n| 2 << n).into_list());
     }
     let mut fitting: Vec<Vec<i64>> = Vec::new();
     for sizes in trials {
@@ -363,7 +363,7 @@ pub(crate) fn witness(
 /// Sizes with their names, as the beginning of a point.
 pub(crate) fn named(model: &Model, sizes: &[i64]) -> SamplePoint {
     let names = model.sizes.iter().cloned();
-    names.zip(sizes.iter().map(|n| *n as f64)).listed()
+    names.zip(sizes.iter().map(|n| *n as f64)).into_list()
 }
 
 /// T and V of an expression that its normal form separates; not where they would be made of the

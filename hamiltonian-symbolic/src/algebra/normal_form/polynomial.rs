@@ -8,7 +8,7 @@
 //! [`Product`](crate::product::Product)s.
 
 use crate::dag::Map;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::product::{exponent, exponent_ranges};
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -108,7 +108,7 @@ impl Monomial {
             self.0
                 .iter()
                 .map(|(atom, m)| (*atom, m.saturating_mul(n)))
-                .listed(),
+                .into_list(),
         )
     }
     /// The exponent of an atom.
@@ -117,7 +117,13 @@ impl Monomial {
     }
     /// The monomial without an atom.
     pub(crate) fn without(&self, atom: Atom) -> Monomial {
-        Monomial(self.0.iter().filter(|(a, _)| *a != atom).copied().listed())
+        Monomial(
+            self.0
+                .iter()
+                .filter(|(a, _)| *a != atom)
+                .copied()
+                .into_list(),
+        )
     }
     /// The order by exponents of the newest atom first, which products keep.
     pub(super) fn newest_first(&self, other: &Monomial) -> Ordering {
@@ -215,7 +221,7 @@ impl Poly {
                 .terms
                 .iter()
                 .map(|(m, c)| (m.clone(), c.mul(k)))
-                .listed(),
+                .into_list(),
         }
     }
     /// The sum.
@@ -255,7 +261,7 @@ impl Poly {
             .terms
             .iter()
             .map(|(m, k)| (m.mul(monomial), k.clone()))
-            .listed();
+            .into_list();
         terms.arrange_by(|a, b| a.0.cmp(&b.0));
         Poly { terms }
     }
@@ -310,7 +316,7 @@ impl Poly {
         (0..occurs.len())
             .filter(|at| occurs[*at])
             .map(|at| at as Atom)
-            .listed()
+            .into_list()
     }
     /// The coefficients of the powers of an atom, ascending.
     pub(crate) fn by_power(&self, atom: Atom) -> Vec<(i32, Poly)> {
@@ -330,7 +336,7 @@ impl Poly {
                 terms.arrange_by(|a, b| a.0.cmp(&b.0));
                 (n, Poly { terms })
             })
-            .listed()
+            .into_list()
     }
 }
 
@@ -412,7 +418,7 @@ impl Sum {
             .terms
             .into_iter()
             .filter(|(_, k)| !k.is_zero())
-            .listed();
+            .into_list();
         terms.arrange_by(|a, b| a.0.cmp(&b.0));
         Ok(Poly { terms })
     }

@@ -7,7 +7,7 @@
 
 use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::rational::Rational;
 
 /// The most passes over all atoms. Each but the first meets only atoms that redefined ones brought
@@ -262,7 +262,7 @@ impl Algebra {
             return Ok(None);
         };
         let over = leading.0.iter().map(|(atom, m)| (*atom, m / n as i32));
-        let leading = Monomial(over.listed());
+        let leading = Monomial(over.into_list());
         let mut root = Poly::term(k.clone(), leading.clone());
         let below = Poly::term(k, leading).pow(n - 1, &mut self.budget)?;
         let Some((below, l)) = below.as_term().cloned() else {

@@ -10,7 +10,7 @@ use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Undecided};
 use crate::dag::{Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index, Loops};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::ranges::Ranges;
 use crate::rational::Rational;
 
@@ -62,7 +62,7 @@ pub(super) fn summands_vanish(algebra: &mut Algebra, poly: &Poly) -> Result<bool
                 .0
                 .iter()
                 .filter(|(atom, _)| matches!(algebra.entry(*atom).key, Key::Sum(..)))
-                .listed();
+                .into_list();
             let [(atom, 1)] = sums.as_slice() else {
                 return Ok(false);
             };
@@ -133,7 +133,7 @@ fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<LoopSum> {
             .iter()
             .filter(|(atom, _)| matches!(algebra.entry(*atom).key, Key::Sum(..)))
             .copied()
-            .listed();
+            .into_list();
         match sums.as_slice() {
             [] => break,
             [(sum, 1)] => {
@@ -195,7 +195,7 @@ fn is_anchored(dag: &Dag, nest: &LoopSum) -> bool {
         })
         .flatten()
         .flat_map(Index::axes)
-        .listed();
+        .into_list();
     nest.loops.iter().all(|domain| {
         let end = &dag.range(*domain).end;
         let is_shifted =
@@ -405,11 +405,11 @@ pub(super) fn in_triangles(
     let (mut total, mut is_changed) = (Poly::default(), false);
     for (monomial, k) in poly.terms().to_vec() {
         let is_sum = |(atom, _): &&(Atom, i32)| matches!(algebra.entry(*atom).key, Key::Sum(..));
-        let sums: Vec<(Atom, i32)> = monomial.0.iter().filter(is_sum).copied().listed();
+        let sums: Vec<(Atom, i32)> = monomial.0.iter().filter(is_sum).copied().into_list();
         let nests: Vec<LoopSum> = sums
             .iter()
             .filter_map(|(atom, _)| flattened(algebra, dag, *atom))
-            .listed();
+            .into_list();
         let square = match (sums.as_slice(), nests.as_slice()) {
             ([(_, 1)], [nest]) => Some(nest.clone()),
             ([(_, 2)], [nest]) => product(dag, nest, nest),

@@ -7,7 +7,7 @@
 
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::ranges::Ranges;
 use crate::rational::Rational;
 
@@ -36,7 +36,7 @@ fn once(dag: &mut Dag, root: Node) -> Node {
             let wholes: Vec<Option<Node>> = terms
                 .iter()
                 .map(|(_, term)| whole(dag, domain, *term))
-                .listed();
+                .into_list();
             if wholes.iter().all(Option::is_none) {
                 return dag.reduce(domain, body);
             }

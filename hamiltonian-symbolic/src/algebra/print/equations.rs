@@ -10,7 +10,7 @@ use super::{Notation, write_within};
 use crate::dag::{Array, Column, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::field;
 use crate::model::{Model, Shape};
 use crate::rational::Rational;
@@ -36,7 +36,7 @@ impl Equations {
         let equations = self.list.iter();
         equations
             .map(|equation| equation.written(&self.model, notation))
-            .listed()
+            .into_list()
     }
 }
 
@@ -235,11 +235,11 @@ fn elements(
             let place = model.dag.phase_place(*leaf);
             place.is_some_and(|(_, row)| !is_numbered(row))
         });
-        let looped = looped.listed();
+        let looped = looped.into_list();
         if let Some(looped) = field::field(&mut model.dag, &looped, array, rows) {
             let of_row = |row: i64| {
                 let own = own.iter().filter(|(at, _)| at.as_constant() == Some(row));
-                let mut parts: Vec<Node> = own.map(|(_, adjoint)| *adjoint).listed();
+                let mut parts: Vec<Node> = own.map(|(_, adjoint)| *adjoint).into_list();
                 parts.push(model.dag.replace(looped, domain, &Affine::constant(row)));
                 let sum = model.dag.add(&parts);
                 (
@@ -247,7 +247,7 @@ fn elements(
                     Some(signed(model, at.side, Some(sum))),
                 )
             };
-            return (0..count).map(of_row).listed();
+            return (0..count).map(of_row).into_list();
         }
     }
     // A long one read at many numbers would be a list of conditions nobody reads.
@@ -267,11 +267,11 @@ impl Equation {
         let group = &model.groups[usize::from(at.group)];
         let (own, conjugate) = (group.name(at.side), group.name(at.side.other()));
         let mut indices: Vec<String> = match group.shape.axes().len() {
-            0 => self.row.iter().map(|row| row.name.clone()).listed(),
+            0 => self.row.iter().map(|row| row.name.clone()).into_list(),
             count => (index_names(model).chain(std::iter::repeat("index")))
                 .take(count)
                 .map(str::to_owned)
-                .listed(),
+                .into_list(),
         };
         if matches!(group.shape, Shape::Matrix(..)) {
             indices.push(at.column.to_string());
@@ -290,7 +290,7 @@ impl Equation {
             .row
             .iter()
             .filter_map(|row| row.domain.map(|domain| (domain, row.name.as_str())))
-            .listed();
+            .into_list();
         let right = match self.value {
             Some(value) => write_within(model, value, notation, &bound),
             None => {

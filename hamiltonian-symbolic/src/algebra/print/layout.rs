@@ -8,7 +8,7 @@
 use super::names::LoopNames;
 use crate::dag::{Array, Dag, Kind, Node, Parameter, Partial, Relation, StandIn};
 use crate::index::{Affine, Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::{External, Model, Shape};
 use crate::op::Op;
 use crate::product::Product;
@@ -244,7 +244,7 @@ impl<'a> Writer<'a> {
                 ];
                 open.into_iter()
                     .chain([Fragment::Static(style.loop_end)])
-                    .listed()
+                    .into_list()
             }
             Kind::Compare(relation, a, b) => pair(*a, style.relation(*relation), *b, Level::Sum),
             Kind::Not(inner) => match dag.kind(*inner) {
@@ -390,7 +390,7 @@ impl<'a> Writer<'a> {
             Shape::Scalar => Vec::new(),
             Shape::Vector(_) | Shape::Lattice(..) => {
                 let places = self.model.places(array, row).into_iter();
-                places.map(|place| self.index(&place)).listed()
+                places.map(|place| self.index(&place)).into_list()
             }
             Shape::Matrix(..) => vec![self.index(row), column],
         }
@@ -437,7 +437,7 @@ impl<'a> Writer<'a> {
             .map(|e| e.1)
             .chain(affine.sizes.iter().map(|e| e.1))
             .chain(affine.products.iter().map(|e| e.1))
-            .listed();
+            .into_list();
         match (terms.as_slice(), affine.constant) {
             ([], c) if c >= 0 => Level::Atom,
             ([1], 0) if affine.products.is_empty() => Level::Atom,
@@ -456,7 +456,7 @@ impl<'a> Writer<'a> {
             terms.push((k, self.named(&self.size(size))));
         }
         for (sizes, k) in &affine.products {
-            let names: Vec<String> = sizes.iter().map(|s| self.named(&self.size(*s))).listed();
+            let names: Vec<String> = sizes.iter().map(|s| self.named(&self.size(*s))).into_list();
             terms.push((*k, names.join(self.style.times)));
         }
         if affine.constant != 0 || terms.is_empty() {
@@ -517,11 +517,11 @@ pub(super) type Power = (Node, i32);
 
 /// The factors above and below the line.
 pub(super) fn fraction(factors: &[Power]) -> (Vec<Power>, Vec<Power>) {
-    let above = factors.iter().filter(|(_, n)| *n > 0).copied().listed();
+    let above = factors.iter().filter(|(_, n)| *n > 0).copied().into_list();
     let below = factors
         .iter()
         .filter(|(_, n)| *n < 0)
         .map(|(node, n)| (*node, n.saturating_neg()))
-        .listed();
+        .into_list();
     (above, below)
 }

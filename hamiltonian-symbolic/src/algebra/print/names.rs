@@ -5,7 +5,7 @@
 //! the names of the loops around it.
 
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::op::Op;
 
@@ -25,7 +25,7 @@ impl<'a> LoopNames<'a> {
             bound: bound
                 .iter()
                 .map(|(d, name)| (*d, (*name).to_owned()))
-                .listed(),
+                .into_list(),
         }
     }
 

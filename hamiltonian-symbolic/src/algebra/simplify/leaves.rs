@@ -2,7 +2,7 @@
 
 use crate::dag::{Array, Column, Dag, Kind, Node, Parameter, Side, StandIn};
 use crate::index::{Affine, Domain, Index, Size};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::rational::Rational;
 
 impl Dag {
@@ -71,7 +71,7 @@ impl Dag {
             terms.push((Rational::integer(k), node));
         }
         for (sizes, k) in &affine.products {
-            let factors: Vec<Node> = sizes.iter().map(|size| self.extent(*size)).listed();
+            let factors: Vec<Node> = sizes.iter().map(|size| self.extent(*size)).into_list();
             let node = self.mul(&factors);
             terms.push((Rational::integer(*k), node));
         }

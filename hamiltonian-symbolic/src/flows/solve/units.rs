@@ -9,7 +9,7 @@ use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::flows::limits::{REFINED, TERMS};
 use crate::flows::space::Space;
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::rational::Rational;
 use crate::sort::Arrange;
 use crate::structure::expand;
@@ -133,7 +133,7 @@ fn fewer(space: &mut Space, units: Units) -> Units {
         }
     }
     for side in sides {
-        let nodes: Vec<Node> = side.iter().map(|unit| unit.node).listed();
+        let nodes: Vec<Node> = side.iter().map(|unit| unit.node).into_list();
         let node = space.dag().add(&nodes);
         fewer
             .units
@@ -226,7 +226,7 @@ fn opened(dag: &mut Dag, node: Node) -> (Node, Node) {
             && matches!(dag.kind(inner), Kind::Sum(..) | Kind::Reduce(..))
         {
             let rest = factors.iter().filter(|(n, _)| *n != inner).copied();
-            let rest: Vec<(Node, i32)> = rest.listed();
+            let rest: Vec<(Node, i32)> = rest.into_list();
             return (dag.product(&k, &rest), inner);
         }
     }
@@ -287,7 +287,7 @@ fn out(space: &mut Space, node: Node) -> Option<Vec<Node>> {
     if terms.len() > 16 {
         return None;
     }
-    let parts: Vec<Node> = terms.iter().map(|term| term.node(space.dag())).listed();
+    let parts: Vec<Node> = terms.iter().map(|term| term.node(space.dag())).into_list();
     (loss(space, &parts, node) <= LOSS).then_some(parts)
 }
 

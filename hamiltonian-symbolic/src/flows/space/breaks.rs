@@ -7,7 +7,7 @@
 
 use super::Space;
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::{Break, Op, SingularSet};
 use crate::rational::Rational;
 use crate::sort::Arrange;
@@ -118,7 +118,7 @@ fn separates_nothing(dag: &Dag, node: Node) -> bool {
                 k.is_negative() == terms[0].0.is_negative() && dag.is_nonnegative(*term)
             };
             let number = c.is_zero() || c.is_negative() == terms[0].0.is_negative();
-            let moving: Vec<Node> = terms.iter().map(|(_, term)| *term).listed();
+            let moving: Vec<Node> = terms.iter().map(|(_, term)| *term).into_list();
             // A factor that may be 0 leaves the zeros of the other terms.
             let is_sure = |node: Node| !dag.dependence(node).on(Dependence::PARAMETER);
             let apart = |a: usize, b: usize| {
@@ -142,5 +142,8 @@ fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
 /// The coordinates and momenta in an expression.
 fn leaves(dag: &Dag, node: Node) -> Vec<Node> {
     let is_leaf = |node: &Node| dag.phase_place(*node).is_some();
-    dag.reachable(&[node]).into_iter().filter(is_leaf).listed()
+    dag.reachable(&[node])
+        .into_iter()
+        .filter(is_leaf)
+        .into_list()
 }

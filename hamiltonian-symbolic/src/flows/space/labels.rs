@@ -7,7 +7,7 @@
 //! enter it, nor the order of operands, nor a constant that is added to H. Pairs of one label keep their order.
 
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Mixer, Node, Side};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::rational::Rational;
 use crate::sort::Arrange;
 use std::hash::{Hash, Hasher};
@@ -22,10 +22,10 @@ impl Labels {
     /// The labels of the leaves of some expressions. The pairs are sorted by theirs.
     pub(super) fn new(dag: &Dag, roots: &[Node], pairs: &mut [(Node, Node)]) -> Labels {
         let terms = terms(dag, roots);
-        let tops: Vec<Node> = terms.keys().copied().listed();
+        let tops: Vec<Node> = terms.keys().copied().into_list();
         let nodes = dag.reachable(&tops);
         let is_parameter = |node: &&Node| is_parameter(dag, **node);
-        let parameters: Vec<Node> = nodes.iter().filter(is_parameter).copied().listed();
+        let parameters: Vec<Node> = nodes.iter().filter(is_parameter).copied().into_list();
         let mut colours = Map::default();
         if pairs.len() > 1 || !parameters.is_empty() {
             colours = refined(dag, &terms, &nodes, pairs);
@@ -46,12 +46,12 @@ impl Labels {
     /// The parameters among the leaves, each with its label.
     pub(super) fn parameters(&self, dag: &Dag) -> Vec<(Node, u64)> {
         let all = self.0.iter().map(|(node, label)| (*node, *label));
-        all.filter(|(node, _)| is_parameter(dag, *node)).listed()
+        all.filter(|(node, _)| is_parameter(dag, *node)).into_list()
     }
     /// The label of an expression, whatever constant is added to it.
     pub(super) fn whole(&self, dag: &Dag, root: Node) -> u64 {
         let terms = terms(dag, &[root]);
-        let tops: Vec<Node> = terms.keys().copied().listed();
+        let tops: Vec<Node> = terms.keys().copied().into_list();
         let labels = self.of(dag, &tops);
         let terms = terms.values().zip(&labels);
         together(terms.map(|(k, label)| mixed(&(k, label))))
@@ -59,7 +59,7 @@ impl Labels {
     /// The labels of expressions over the leaves.
     pub(super) fn of(&self, dag: &Dag, roots: &[Node]) -> Vec<u64> {
         let colours = below(dag, &dag.reachable(roots), &self.0);
-        roots.iter().map(|root| colours[root]).listed()
+        roots.iter().map(|root| colours[root]).into_list()
     }
 }
 
@@ -97,7 +97,8 @@ fn refined(
 fn terms(dag: &Dag, roots: &[Node]) -> Map<Node, Rational> {
     let point = Dependence(Dependence::Q.0 | Dependence::P.0);
     let mut found: Map<Node, Rational> = Map::default();
-    let mut left: Vec<(Rational, Node)> = roots.iter().map(|root| (Rational::ONE, *root)).listed();
+    let mut left: Vec<(Rational, Node)> =
+        roots.iter().map(|root| (Rational::ONE, *root)).into_list();
     while let Some((k, node)) = left.pop() {
         match dag.kind(node) {
             Kind::Sum(_, terms) => {

@@ -7,7 +7,7 @@
 
 use super::Variables;
 use crate::dag::{Array, Dag, Kind, Node, Numbers, Relation};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::rational::Rational;
 
@@ -65,12 +65,15 @@ impl Tape {
                 }
                 Kind::Sum(c, terms) => TapeStep::Sum(
                     number(c),
-                    terms.iter().map(|(k, n)| (number(k), at(n))).listed(),
+                    terms.iter().map(|(k, n)| (number(k), at(n))).into_list(),
                 ),
-                Kind::Product(c, factors) => {
-                    TapeStep::Product(number(c), factors.iter().map(|(n, k)| (at(n), *k)).listed())
+                Kind::Product(c, factors) => TapeStep::Product(
+                    number(c),
+                    factors.iter().map(|(n, k)| (at(n), *k)).into_list(),
+                ),
+                Kind::Call(op, arguments) => {
+                    TapeStep::Call(*op, arguments.iter().map(at).into_list())
                 }
-                Kind::Call(op, arguments) => TapeStep::Call(*op, arguments.iter().map(at).listed()),
                 Kind::Compare(relation, a, b) => TapeStep::Compare(*relation, at(a), at(b)),
                 Kind::Not(a) => TapeStep::Not(at(a)),
                 Kind::And(a, b) => TapeStep::And(at(a), at(b)),

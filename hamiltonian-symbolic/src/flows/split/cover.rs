@@ -10,7 +10,7 @@ use crate::flows::solve::forms::is_quadratic;
 use crate::flows::solve::units::{Unit, Units};
 use crate::flows::solve::{exponential, flow};
 use crate::flows::space::{Space, Variable, Variables};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::NamedMotion;
 use crate::set::{Member, Set};
 use crate::sort::Arrange;
@@ -62,10 +62,10 @@ struct Search<'a> {
 impl Search<'_> {
     /// The sum of some units, in the order in which they are written.
     fn sum(&mut self, mask: UnitSet) -> Node {
-        let mut numbers: Vec<UnitNumber> = mask.members().listed();
+        let mut numbers: Vec<UnitNumber> = mask.members().into_list();
         numbers.arrange_by_key(|UnitNumber(at)| self.places[*at]);
         let nodes = numbers.iter().map(|UnitNumber(at)| self.units[*at].node);
-        let nodes: Vec<Node> = nodes.listed();
+        let nodes: Vec<Node> = nodes.into_list();
         self.space.dag().add(&nodes)
     }
     fn solve(&mut self, mask: UnitSet) -> Option<SolvedSum> {
@@ -115,9 +115,9 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Sol
         space.meets(Limit::Terms, first);
         return Err(first);
     }
-    let nodes: Vec<Node> = units.units.iter().map(|unit| unit.node).listed();
+    let nodes: Vec<Node> = units.units.iter().map(|unit| unit.node).into_list();
     let places = space.in_order(&nodes);
-    let ordered: Vec<Unit> = places.iter().map(|at| units.units[*at]).listed();
+    let ordered: Vec<Unit> = places.iter().map(|at| units.units[*at]).into_list();
     let mut search = Search {
         space,
         units: &ordered,
@@ -203,8 +203,8 @@ fn coupled_sums(search: &mut Search, coupled: UnitSet, uncoupled: UnitSet) {
     );
     let mut offers: Vec<UnitSet> = vec![v, t, mixed, v | mixed, t | mixed, uncoupled];
     offers.extend(uncoupled.members().map(UnitSet::of));
-    let numbers: Vec<UnitNumber> = coupled.members().listed();
-    let mut subsets: Vec<UnitSet> = coupled.members().map(UnitSet::of).listed();
+    let numbers: Vec<UnitNumber> = coupled.members().into_list();
+    let mut subsets: Vec<UnitSet> = coupled.members().map(UnitSet::of).into_list();
     if numbers.len() <= COUPLED {
         let chosen = |choice: usize| {
             let all = numbers.iter().enumerate();
@@ -319,7 +319,7 @@ fn uncoupled_sums(search: &mut Search, uncoupled: UnitSet) -> Vec<SolvedSum> {
 
 /// Uncoupled units as few pieces in which no conjugate pair meets.
 fn linear_pieces(search: &mut Search, uncoupled: UnitSet) -> Vec<SolvedSum> {
-    let mut numbers: Vec<UnitNumber> = uncoupled.members().listed();
+    let mut numbers: Vec<UnitNumber> = uncoupled.members().into_list();
     let order = |set: Variables| match set.sides() {
         (false, _) => 0,
         (_, false) => 1,
@@ -349,5 +349,5 @@ fn linear_pieces(search: &mut Search, uncoupled: UnitSet) -> Vec<SolvedSum> {
             flow,
         })
     });
-    sums.listed()
+    sums.into_list()
 }

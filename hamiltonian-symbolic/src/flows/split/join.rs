@@ -7,7 +7,7 @@
 use super::{Parts, Reasons, any_flow, units};
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::flows::space::Space;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::model::{EXPONENTIAL, NamedMotion};
 use crate::sort::Arrange;
@@ -20,13 +20,13 @@ pub(super) fn groups(model: &mut Model, h: Node) -> Vec<Node> {
     }
     let mut dag = model.dag.clone();
     let terms = units::terms(&mut dag, h);
-    let terms: Vec<Node> = terms.into_iter().map(|term| term.body).listed();
+    let terms: Vec<Node> = terms.into_iter().map(|term| term.body).into_list();
     let groups = components(&dag, &terms);
     if groups.len() < 2 {
         return vec![h];
     }
     model.dag = dag;
-    groups.iter().map(|group| model.dag.add(group)).listed()
+    groups.iter().map(|group| model.dag.add(group)).into_list()
 }
 
 /// Returns true if an expression has loops, or numbers of their iterations.
@@ -57,7 +57,7 @@ pub(super) fn parts(model: &mut Model, h: Node, mut groups: Vec<Parts>) -> Parts
     // Groups with equally many parts keep their order.
     groups.arrange_by_key(|group| std::cmp::Reverse(group.flows.len()));
     let written = units::terms(&mut model.dag, h);
-    let written: Vec<Node> = written.into_iter().map(|term| term.body).listed();
+    let written: Vec<Node> = written.into_iter().map(|term| term.body).into_list();
     let mut all: Vec<(Node, NamedMotion)> = Vec::new();
     for mut group in groups {
         if all.is_empty() {
@@ -113,7 +113,7 @@ fn best_place(
         let dependence = dag.dependence(*node);
         (dependence.on(Dependence::Q), dependence.on(Dependence::P))
     };
-    let own: Vec<(bool, bool)> = group.iter().map(sides).listed();
+    let own: Vec<(bool, bool)> = group.iter().map(sides).into_list();
     // How many kicks meet other parts, and how many parts of other sides meet.
     let mixed = |(at, is_reversed): &(usize, bool)| {
         let parts = all[*at..].iter().take(group.len()).map(sides);

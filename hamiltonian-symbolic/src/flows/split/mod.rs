@@ -18,7 +18,7 @@ use crate::flows::limits::{MORE_PIECES, is_large};
 use crate::flows::solve::forms::is_constant_form;
 use crate::flows::solve::{self, units};
 use crate::flows::space::Space;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::{ExactFlow, Model, NamedMotion, Piece};
 use crate::print;
 use crate::rational::Rational;
@@ -117,7 +117,7 @@ fn any_flow(space: &mut Space, h: Node) -> Option<NamedMotion> {
     let c = space.dag().coefficient();
     let closed = solve::flow(space, h, c).or_else(|| {
         units::refinements(space, h).into_iter().find_map(|units| {
-            let nodes: Vec<Node> = units.units.iter().map(|unit| unit.node).listed();
+            let nodes: Vec<Node> = units.units.iter().map(|unit| unit.node).into_list();
             let sum = space.dag().add(&nodes);
             // Most sums have none, which takes less than the proof that the sum is h.
             let found = (sum != h).then(|| solve::flow(space, sum, c))??;
@@ -183,7 +183,7 @@ pub fn find(model: &mut Model) -> Result<Decomposition, NoFlow> {
                         found.push((label, searched(model, &mut space, group)?));
                     }
                     found.arrange_by_key(|(label, _)| *label);
-                    let found = found.into_iter().map(|(_, parts)| parts).listed();
+                    let found = found.into_iter().map(|(_, parts)| parts).into_list();
                     join::parts(model, h, found)
                 }
             }
@@ -198,7 +198,7 @@ pub fn find(model: &mut Model) -> Result<Decomposition, NoFlow> {
         flow: flow.into(),
     });
     Ok(Decomposition {
-        pieces: pieces.listed(),
+        pieces: pieces.into_list(),
         choice: parts.choice,
     })
 }
@@ -206,7 +206,7 @@ pub fn find(model: &mut Model) -> Result<Decomposition, NoFlow> {
 /// A splitting into loops of flows.
 fn over_loops(model: &mut Model, h: Node) -> Result<Decomposition, NoFlow> {
     let pieces = sweep::find(model, h).map_err(|(term, limit)| NoFlow::of(model, term, limit))?;
-    let parts: Vec<Node> = pieces.iter().map(|piece| piece.h).listed();
+    let parts: Vec<Node> = pieces.iter().map(|piece| piece.h).into_list();
     if pieces.len() > PIECES {
         return Err(NoFlow::of(model, h, Some(Limit::Pieces)));
     }

@@ -9,7 +9,7 @@ use super::cover::SolvedSum;
 use crate::dag::{Map, Node};
 use crate::flows::space::Space;
 use crate::flows::space::tape::{LANES, Lanes, Tape};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::EXPONENTIAL;
 use crate::sort::Arrange;
 
@@ -50,7 +50,7 @@ impl Prepared {
         let less = |a: &[Lanes], b: &[Lanes]| -> Vec<Lanes> {
             let pairs = a.iter().zip(b);
             let lanes = pairs.map(|(a, b)| std::array::from_fn(|lane| a[lane] - b[lane]));
-            lanes.listed()
+            lanes.into_list()
         };
         let first = less(&there, z);
         let (start, mut term) = (z.to_vec(), first.clone());
@@ -157,7 +157,7 @@ pub(crate) fn best(
             let cost = (2 * pieces.len() - 2).max(1) as f64;
             let error = match (&mut energy, &own) {
                 (Some(energy), Some(own)) => {
-                    let order: Vec<usize> = order.iter().map(|at| own[*at]).listed();
+                    let order: Vec<usize> = order.iter().map(|at| own[*at]).into_list();
                     let most = least * TIE / cost;
                     error(space, energy, &mut made, &order, most, &mut operations)
                 }
@@ -179,7 +179,11 @@ pub(crate) fn best(
     let ties = tried.iter().filter(|trial| trial.loss <= least * TIE);
     let chosen = ties.min_by_key(|trial| trial.kicks_outside)?;
     let pieces = &candidates[chosen.candidate];
-    let ordered = chosen.order.iter().map(|at| pieces[*at].clone()).listed();
+    let ordered = chosen
+        .order
+        .iter()
+        .map(|at| pieces[*at].clone())
+        .into_list();
     let reasons = Reasons {
         error: chosen.error,
         among: trials,
@@ -202,7 +206,7 @@ fn keeps(space: &mut Space, pieces: &[SolvedSum], invariants: &[Node]) -> bool {
 /// innermost, as all others act twice a step.
 fn orders(space: &mut Space, pieces: &[SolvedSum]) -> Vec<Vec<usize>> {
     match pieces.len() {
-        0 | 1 => vec![(0..pieces.len()).listed()],
+        0 | 1 => vec![(0..pieces.len()).into_list()],
         2 => vec![vec![0, 1], vec![1, 0]],
         3 => [
             [0, 1, 2],
@@ -215,14 +219,14 @@ fn orders(space: &mut Space, pieces: &[SolvedSum]) -> Vec<Vec<usize>> {
         .map(|order| order.to_vec())
         .to_vec(),
         count => {
-            let mut by_cost: Vec<usize> = (0..count).listed();
+            let mut by_cost: Vec<usize> = (0..count).into_list();
             let cost = |solved: &SolvedSum| {
-                let roots: Vec<Node> = solved.flow.motion.moves.iter().map(|m| m.value).listed();
+                let roots: Vec<Node> = solved.flow.motion.moves.iter().map(|m| m.value).into_list();
                 space.model.dag.reachable(&roots).len()
             };
             by_cost.arrange_by_key(|at| cost(&pieces[*at]));
             let (last, first) = (by_cost.pop(), by_cost.pop());
-            let mut order: Vec<usize> = first.into_iter().listed();
+            let mut order: Vec<usize> = first.into_iter().into_list();
             order.extend(by_cost);
             order.extend(last);
             let mut reversed = order.clone();
@@ -234,10 +238,10 @@ fn orders(space: &mut Space, pieces: &[SolvedSum]) -> Vec<Vec<usize>> {
 
 fn piece(space: &mut Space, solved: &SolvedSum) -> Option<Prepared> {
     let images = solved.flow.motion.images(space.dag());
-    let mut roots: Vec<Node> = images.iter().map(|(_, image)| *image).listed();
+    let mut roots: Vec<Node> = images.iter().map(|(_, image)| *image).into_list();
     roots.extend(&solved.flow.motion.domain);
     let moved = images.iter().map(|(leaf, _)| space.set(*leaf).number());
-    let moved = moved.listed();
+    let moved = moved.into_list();
     let tape = space.tape(&roots)?;
     Some(Prepared {
         half: tape.prepared(STEP / 2.0),
@@ -290,7 +294,7 @@ fn error(
     operations: &mut usize,
 ) -> f64 {
     let lanes = |bit: usize| std::array::from_fn(|orbit| start(orbit, bit));
-    let mut z: Vec<Lanes> = (0..2 * space.pairs.len()).map(lanes).listed();
+    let mut z: Vec<Lanes> = (0..2 * space.pairs.len()).map(lanes).into_list();
     let mut value = |z: &[Lanes]| {
         energy.run(z, numbers);
         numbers[energy.results[0]]

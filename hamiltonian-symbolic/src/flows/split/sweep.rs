@@ -12,7 +12,7 @@ use crate::flows::limits::{BODY_ROWS, Limit, is_large};
 use crate::flows::solve::units::{LoopedTerm, terms};
 use crate::flows::space::Space;
 use crate::index::{Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::NamedMotion;
 use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
@@ -49,7 +49,7 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Opti
     let mut pieces = Vec::new();
     let mut linear = Vec::new();
     for site in sites {
-        let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).listed();
+        let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).into_list();
         // In one site alone V and T need not be a loop of flows.
         let is_mixed = bodies.iter().any(|body| couples(&model.dag, *body));
         let joins = site.rows.len() > 1 && both_sides(&model.dag, &bodies);
@@ -69,7 +69,7 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Opti
         }
         if let Some(first) = mixed.first() {
             let (first, bodies) = (first.clone(), mixed.iter().map(|term| term.body));
-            let bodies: Vec<Node> = bodies.listed();
+            let bodies: Vec<Node> = bodies.into_list();
             let body = model.dag.add(&bodies);
             let limit = match solved(model, &site, body, true) {
                 Ok(found) => {
@@ -95,7 +95,7 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Opti
             let others = part
                 .iter()
                 .flat_map(|other| columns(&model.dag, other.body));
-            is_linear(&own.iter().copied().chain(others).listed())
+            is_linear(&own.iter().copied().chain(others).into_list())
         };
         match parts.iter_mut().find(fits) {
             Some(part) => part.push(term),
@@ -151,7 +151,7 @@ pub(super) fn one(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>
     }
     let mut flow: Option<ExactFlow> = None;
     for site in &sites {
-        let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).listed();
+        let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).into_list();
         let body = model.dag.add(&bodies);
         let parts = moved(model, site, body, false)?;
         let part = parts.into_iter().next().ok_or(None)?;
@@ -180,7 +180,7 @@ fn are_apart(dag: &Dag, a: &Site, b: &Site) -> bool {
         let bodies = site.terms.iter().map(|term| term.body);
         let all = bodies.flat_map(|body| elements(dag, body));
         all.map(|(_, column, row)| (column.on(Side::Q), row))
-            .listed()
+            .into_list()
     };
     let (own, others) = (places(a), places(b));
     own.iter().all(|(column, row)| {
@@ -233,7 +233,7 @@ fn elements(dag: &Dag, root: Node) -> Vec<(Node, Column, Index)> {
 
 /// The columns it names.
 pub(super) fn columns(dag: &Dag, root: Node) -> Vec<Column> {
-    elements(dag, root).into_iter().map(|e| e.1).listed()
+    elements(dag, root).into_iter().map(|e| e.1).into_list()
 }
 
 /// Returns true if no column stands among these with its conjugate: then c·J∇h is constant along the flow.
@@ -245,7 +245,7 @@ pub(super) fn is_linear(columns: &[Column]) -> bool {
 
 /// The rows it names, sorted.
 fn rows(dag: &Dag, body: Node) -> Vec<Index> {
-    let mut rows: Vec<Index> = elements(dag, body).into_iter().map(|e| e.2).listed();
+    let mut rows: Vec<Index> = elements(dag, body).into_iter().map(|e| e.2).into_list();
     rows.arrange();
     rows.dedup();
     rows

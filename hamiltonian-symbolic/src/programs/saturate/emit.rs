@@ -8,7 +8,7 @@
 use super::form::{Form, Polynomial, Powers};
 use super::{Exponentials, is_positive};
 use crate::dag::{Dag, Kind, Map, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::product::Factors;
 use crate::rational::Rational;
@@ -139,11 +139,12 @@ impl Axis {
         let coefficient = |n: i32| {
             let own = polynomial.0.iter();
             let own = own.filter(|(power, _)| power.steps(&self.powers) == Some(n));
-            let terms: Vec<(Rational, Node)> =
-                own.map(|(_, product)| product.clone().split(dag)).listed();
+            let terms: Vec<(Rational, Node)> = own
+                .map(|(_, product)| product.clone().split(dag))
+                .into_list();
             dag.linear(&Rational::ZERO, &terms)
         };
-        all.map(coefficient).listed()
+        all.map(coefficient).into_list()
     }
 }
 
@@ -195,7 +196,7 @@ impl Exponentials {
 
     fn axis(&self, dag: &mut Dag, powers: Powers, new: &Map<Node, Node>) -> Axis {
         let exponent = self.exponent(dag, &powers, new);
-        let directions = match powers.all().listed().as_slice() {
+        let directions = match powers.all().into_list().as_slice() {
             [(at, 1)] => self.all[*at].directions.clone(),
             _ => vec![1, -1],
         };
@@ -219,7 +220,7 @@ impl Exponentials {
         let places = |dag: &Dag, sign: i32| -> Vec<usize> {
             let all = parts.iter().enumerate();
             let own = all.filter(|(_, part)| changes(dag, part, sign));
-            own.map(|(at, _)| at).listed()
+            own.map(|(at, _)| at).into_list()
         };
         let (grows, vanishes) = (places(dag, 1), places(dag, -1));
         let clashes = grows
@@ -376,10 +377,10 @@ fn parts(form: &Form) -> Vec<Form> {
                 None => number == 0,
             }
         });
-        part.factors = own.cloned().listed();
+        part.factors = own.cloned().into_list();
         part
     };
-    groups.into_iter().enumerate().map(part).listed()
+    groups.into_iter().enumerate().map(part).into_list()
 }
 
 /// The e of which a form consists.

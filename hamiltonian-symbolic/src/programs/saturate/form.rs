@@ -5,7 +5,7 @@
 //! one in a single power e of the exponentials is divided by 1 − e as often as that divides it.
 
 use crate::dag::Node;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
 
@@ -52,7 +52,7 @@ impl Powers {
     pub(super) fn among(&self, wanted: &[usize]) -> Powers {
         let all = self.0.iter().enumerate();
         let own = all.map(|(at, n)| if wanted.contains(&at) { *n } else { 0 });
-        Powers::trimmed(own.listed())
+        Powers::trimmed(own.into_list())
     }
     /// n if the size grows as tⁿ.
     fn growth(&self, direction: &Direction) -> i32 {
@@ -79,7 +79,7 @@ impl Powers {
             1 => self.all().map(|(_, n)| n.abs()).sum(),
             _ => (self.all()).fold(0, |all, (_, n)| num_integer::gcd(all, n)),
         };
-        Powers(self.0.iter().map(|n| n / divisor.max(1)).listed())
+        Powers(self.0.iter().map(|n| n / divisor.max(1)).into_list())
     }
 }
 
@@ -242,7 +242,7 @@ impl Form {
         let polynomials = self.factors.iter().flat_map(|(p, _)| &p.0);
         let powers = polynomials.map(|(power, _)| power);
         let powers = powers.chain([&self.power]).flat_map(Powers::all);
-        let mut all: Vec<usize> = powers.map(|(at, _)| at).listed();
+        let mut all: Vec<usize> = powers.map(|(at, _)| at).into_list();
         all.sort_unstable();
         all.dedup();
         all
@@ -275,7 +275,7 @@ impl Form {
 
     /// The sum, multiplied out over a common denominator; `None` where it is too long.
     pub(super) fn sum(terms: &[Form]) -> Option<Form> {
-        let terms: Vec<&Form> = terms.iter().filter(|term| !term.is_zero()).listed();
+        let terms: Vec<&Form> = terms.iter().filter(|term| !term.is_zero()).into_list();
         // What all have in common stands in front.
         let mut common: Vec<(Polynomial, i32)> = Vec::new();
         for (polynomial, _) in terms.iter().flat_map(|term| &term.factors) {

@@ -12,7 +12,7 @@ mod form;
 mod removable;
 
 use crate::dag::{Dag, Kind, Map, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::product::Product;
 use crate::rational::Rational;
@@ -85,7 +85,7 @@ fn powers_in_sums(dag: &Dag, roots: &[Node]) -> Vec<Node> {
     }
     let is_own =
         |node: &Node| matches!(dag.kind(*node), Kind::Call(Op::Pow, x) if bases.contains(&x[0]));
-    order.into_iter().filter(is_own).listed()
+    order.into_iter().filter(is_own).into_list()
 }
 
 fn rewrite(
@@ -172,7 +172,7 @@ fn exponential_argument(dag: &mut Dag, node: Node) -> Option<(Node, i64)> {
 /// The nodes below the roots in the order of the source, which does not depend on their numbers.
 fn in_source_order(dag: &Dag, roots: &[Node]) -> Vec<Node> {
     let (mut order, mut met) = (Vec::new(), Map::default());
-    let mut left: Vec<Node> = roots.iter().rev().copied().listed();
+    let mut left: Vec<Node> = roots.iter().rev().copied().into_list();
     while let Some(node) = left.pop() {
         if met.insert(node, ()).is_none() {
             order.push(node);
@@ -325,7 +325,7 @@ impl Exponentials {
         }
         for sign in [1, -1] {
             let each = exponentials.iter().flat_map(|at| own(*at));
-            let same: Direction = each.filter(|(_, other)| *other == sign).listed();
+            let same: Direction = each.filter(|(_, other)| *other == sign).into_list();
             all.extend(same.iter().map(|direction| vec![*direction]));
             all.push(same);
         }
@@ -411,7 +411,7 @@ impl Exponentials {
                     all.push(form.times(&Form::number(k.clone()))?);
                 }
                 let form = Form::sum(&all)?;
-                let exponentials = all.iter().flat_map(Form::exponentials).listed();
+                let exponentials = all.iter().flat_map(Form::exponentials).into_list();
                 for direction in self.directions(dag, exponentials) {
                     let own = all.iter().filter(|term| !term.is_zero());
                     let largest = own.map(|term| term.growth(&direction)).max();
@@ -456,11 +456,11 @@ impl Exponentials {
     /// others of the same exponentials.
     fn factors_that_fail(&self, dag: &Dag, factors: &[(Form, bool)]) -> Vec<bool> {
         let all = 0..factors.len();
-        let mut taken: Vec<bool> = factors.iter().map(|(_, fails)| *fails).listed();
+        let mut taken: Vec<bool> = factors.iter().map(|(_, fails)| *fails).into_list();
         let exponentials = factors.iter().flat_map(|(form, _)| form.exponentials());
-        for direction in self.directions(dag, exponentials.listed()) {
+        for direction in self.directions(dag, exponentials.into_list()) {
             let growths = factors.iter().map(|(form, _)| form.growth(&direction));
-            let growths: Vec<i32> = growths.listed();
+            let growths: Vec<i32> = growths.into_list();
             if growths.iter().any(|n| *n > 0) && growths.iter().any(|n| *n < 0) {
                 for at in all.clone().filter(|at| growths[*at] != 0) {
                     taken[at] = true;
@@ -472,7 +472,7 @@ impl Exponentials {
         }
         loop {
             let own = all.clone().filter(|at| taken[*at]);
-            let own: Vec<usize> = own.flat_map(|at| factors[at].0.exponentials()).listed();
+            let own: Vec<usize> = own.flat_map(|at| factors[at].0.exponentials()).into_list();
             let shares = |at: &usize| {
                 let mut exponentials = factors[*at].0.exponentials().into_iter();
                 !taken[*at] && exponentials.any(|own_one| own.contains(&own_one))

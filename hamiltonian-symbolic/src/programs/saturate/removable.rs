@@ -5,7 +5,7 @@
 //! derivative of x/exp_m1(x) as a quotient has an error of 2ε/x. Invariant: what has no such quotient is left as it is.
 
 use crate::dag::{Dag, Kind, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::product::Product;
 use crate::rational::Rational;
@@ -24,7 +24,7 @@ pub(super) fn series_near_zero(dag: &mut Dag, roots: &mut [Node]) {
         let divisors: Vec<Node> = match dag.kind(node) {
             Kind::Product(_, factors) => {
                 let below = factors.iter().filter(|(_, n)| *n < 0);
-                below.map(|(x, _)| *x).listed()
+                below.map(|(x, _)| *x).into_list()
             }
             _ => return node,
         };

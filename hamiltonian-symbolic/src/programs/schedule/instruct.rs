@@ -6,7 +6,7 @@
 
 use super::Placer;
 use crate::dag::{Kind, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::program::{Instruction, Step, Value};
 use crate::programs::factor::is_prepared;
 use crate::rational::Rational;
@@ -86,10 +86,14 @@ impl Placer<'_> {
             }
             Kind::Sum(c, terms) => return self.sum(steps, c, terms),
             Kind::Product(k, factors) => return self.product(steps, k, factors),
-            Kind::Call(op, x) => Instruction::Call(*op, x.iter().map(|n| self.value(*n)).listed()),
-            Kind::External(function, part, x) => {
-                Instruction::External(*function, *part, x.iter().map(|n| self.value(*n)).listed())
+            Kind::Call(op, x) => {
+                Instruction::Call(*op, x.iter().map(|n| self.value(*n)).into_list())
             }
+            Kind::External(function, part, x) => Instruction::External(
+                *function,
+                *part,
+                x.iter().map(|n| self.value(*n)).into_list(),
+            ),
             // The accumulator was defined when its loop was placed.
             Kind::Reduce(..) => return self.value(node),
             Kind::Compare(relation, a, b) => {
@@ -111,7 +115,7 @@ impl Placer<'_> {
 
     fn sum(&mut self, steps: &mut Vec<Step>, c: &Rational, terms: &[(Rational, Node)]) -> Value {
         let first = first_term(c, terms, &|node| !self.is_computed(node));
-        let mut rest: Vec<&(Rational, Node)> = terms.iter().listed();
+        let mut rest: Vec<&(Rational, Node)> = terms.iter().into_list();
         let mut sum = match first.map(|at| rest.remove(at)) {
             None => self.constant(steps, c.clone()),
             Some((k, node)) => {

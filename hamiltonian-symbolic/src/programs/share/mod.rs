@@ -10,7 +10,7 @@ mod products;
 mod sums;
 
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::product::{Factors, Product};
 use crate::programs::factor::{count_uses, is_known};
 use crate::rational::Rational;
@@ -67,7 +67,7 @@ impl Plan {
             .iter()
             .copied()
             .filter(|node| !is_known(dag, *node, pool.now))
-            .listed();
+            .into_list();
         for &node in &order {
             match dag.kind(node) {
                 Kind::Product(..) => {
@@ -171,7 +171,7 @@ impl Build<'_> {
             Kind::Sum(..) => self.sum(dag, node, new),
             Kind::Reduce(domain, body) => dag.intern(Kind::Reduce(domain, new[&body])),
             Kind::Call(op, arguments) => {
-                let arguments = arguments.iter().map(|n| new[n]).listed();
+                let arguments = arguments.iter().map(|n| new[n]).into_list();
                 dag.intern(Kind::Call(op, arguments))
             }
             _ => dag.rebuild(node, &|child| new[&child]),

@@ -5,7 +5,7 @@
 //! list stands for the product it was made from; a made item names earlier items only.
 
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::product::Product;
 use crate::programs::factor::is_known;
@@ -126,7 +126,7 @@ pub(super) fn known_root(dag: &Dag, uses: &Numbers, product: Node) -> Option<(No
             2 => k.sqrt()?,
             _ => return None,
         };
-        let mut parts = factors.iter().map(|(f, n)| (*f, n / d)).listed();
+        let mut parts = factors.iter().map(|(f, n)| (*f, n / d)).into_list();
         parts.arrange();
         let root = dag.known(&Kind::Product(root, parts))?;
         (root < product && uses.has(root)).then_some((root, d))
@@ -234,7 +234,7 @@ fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item
         let kept = list.divisors().filter(|(item, _)| !inverted[item]);
         kept.count()
     };
-    let mut kept: Vec<usize> = lists.iter().map(|l| remaining(l, &inverted)).listed();
+    let mut kept: Vec<usize> = lists.iter().map(|l| remaining(l, &inverted)).into_list();
     let mut changed = true;
     while std::mem::take(&mut changed) {
         for (item, places) in &all {
@@ -266,7 +266,7 @@ fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Produc
             .factors
             .iter()
             .map(|(i, _)| pool.depth(dag, *i))
-            .listed();
+            .into_list();
         let deepest = depths.iter().copied().max().unwrap_or(0);
         let outside = |at: usize, n: i32| n > 0 && depths[at] < deepest;
         let mut outer: Vec<(usize, Item, i32)> = Vec::new();
@@ -398,7 +398,7 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Product<Item>]) {
             .iter()
             .copied()
             .filter(|at| lists[*at].factors.len() <= LONGEST && couple.times(&lists[*at]) != 0)
-            .listed();
+            .into_list();
         // A quotient costs a division; it must spare one.
         let last_division = |at: &usize| {
             let list = &lists[*at];

@@ -5,7 +5,7 @@
 
 use super::products::LONGEST;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::product::Product;
 use crate::programs::factor::is_known;
 use crate::rational::Rational;
@@ -96,7 +96,7 @@ pub(super) fn gathered(dag: &mut Dag, now: Stage, (c, terms): Terms) -> Terms {
         .iter()
         .filter(|(_, n)| is_known(dag, *n, now))
         .cloned()
-        .listed();
+        .into_list();
     let Some(place) = terms.iter().position(|(_, n)| is_known(dag, *n, now)) else {
         return (c, terms);
     };
@@ -108,7 +108,7 @@ pub(super) fn gathered(dag: &mut Dag, now: Stage, (c, terms): Terms) -> Terms {
         .iter()
         .filter(|(_, n)| !is_known(dag, *n, now))
         .cloned()
-        .listed();
+        .into_list();
     rest.insert(place.min(rest.len()), (Rational::ONE, sum));
     (Rational::ZERO, rest)
 }
@@ -165,7 +165,7 @@ pub(super) fn share_terms(
                     .get(sum)
                     .is_none_or(|taken| !taken.contains_key(&a) && !taken.contains_key(&b))
             })
-            .listed();
+            .into_list();
         if free.len() < 2 {
             continue;
         }

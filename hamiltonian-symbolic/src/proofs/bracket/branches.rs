@@ -6,7 +6,7 @@
 
 use crate::dag::{Dag, Dependence, Kind, Node, Partial};
 use crate::facts::{Facts, Given, ROUNDED, STEP, comparisons};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::Op;
@@ -157,7 +157,7 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<(
             let Some(function) = stand_in(op).filter(|_| is_step(dag, node)) else {
                 return dag.rebuild(node, &|child| new[&child]);
             };
-            let (x, images) = (x.clone(), x.iter().map(|x| new[x]).listed());
+            let (x, images) = (x.clone(), x.iter().map(|x| new[x]).into_list());
             steps.push(edge(dag, op, &x));
             dag.external(function, Partial::Value, &images)
         }

@@ -5,7 +5,7 @@
 //! where something other than a derivative decides it, and each function in Rust whose formula is not known.
 
 use crate::dag::{Kind, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::print;
 
@@ -57,7 +57,7 @@ impl Place {
     /// A place with other words than those of its node.
     pub(super) fn named(model: &Model, at: &str, node: Node, reason: Reason) -> Place {
         let loops = model.dag.path(model.dag.home(node)).into_iter();
-        let loops: Vec<String> = loops.map(|domain| print::range(model, domain)).listed();
+        let loops: Vec<String> = loops.map(|domain| print::range(model, domain)).into_list();
         Place {
             at: at.to_owned(),
             within: loops.join(", "),

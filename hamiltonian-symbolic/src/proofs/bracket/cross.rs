@@ -17,7 +17,7 @@ use super::certificate::{Certificate, Place, Reason, Rule};
 use super::{branches, derivative};
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::facts::{Facts, Given, Locus, Regular, comparisons};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::op::{Break, Op, SingularSet};
@@ -131,7 +131,7 @@ fn has_continuous_flow(dag: &mut Dag, h: Node, everywhere: &Facts, given: &Given
             dag.for_children(**user, |child| is_read |= child == node);
             is_read
         };
-        nodes.iter().filter(reads).copied().listed()
+        nodes.iter().filter(reads).copied().into_list()
     };
     let is_only_divisor = |dag: &Dag, node: Node| {
         let mut users = users(dag, node).into_iter();
@@ -145,7 +145,7 @@ fn has_continuous_flow(dag: &mut Dag, h: Node, everywhere: &Facts, given: &Given
         .iter()
         .copied()
         .filter(|node| !everywhere.get(*node).is_analytic && is_rough(dag, *node))
-        .listed();
+        .into_list();
     rough.into_iter().all(|node| {
         is_vanishing_alone(dag, node)
             && (is_only_divisor(dag, node)
@@ -213,7 +213,10 @@ impl Claim {
     /// The expressions the rules read: the statement, H, the force.
     fn roots(&self, model: &Model) -> Vec<Node> {
         let force = model.force.iter().map(|entry| entry.value);
-        [self.expression, self.h].into_iter().chain(force).listed()
+        [self.expression, self.h]
+            .into_iter()
+            .chain(force)
+            .into_list()
     }
 
     /// The rule that applies. In each the derivative vanishes at least at points near every point,
@@ -296,7 +299,7 @@ impl Claim {
         for locus in &facts.loci {
             zeros.extend(zero(&mut model.dag, *locus));
         }
-        let meeting: Vec<Node> = given.meeting.keys().copied().listed();
+        let meeting: Vec<Node> = given.meeting.keys().copied().into_list();
         for node in meeting {
             if let Kind::Select(condition, ..) = *model.dag.kind(node)
                 && !facts.get(condition).is_still
@@ -361,7 +364,7 @@ impl Claim {
         let places: Vec<Place> = steps
             .into_iter()
             .map(|step| Place::of(model, step, Reason::StepOfH))
-            .listed();
+            .into_list();
         Some(smooth.certificate(model, vec![Rule::SmoothedSteps, rule], &given, &places))
     }
 

@@ -9,7 +9,7 @@
 use crate::dag::{Dag, Dependence, Map, Node, Side};
 use crate::diff;
 use crate::legendre::Legendre;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::rational::Rational;
@@ -36,7 +36,7 @@ pub(super) fn limit(legendre: &Legendre) -> Option<String> {
 /// dI/dt times the determinant of the mass matrix.
 fn derivative(dag: &mut Dag, legendre: &Legendre, expression: Node) -> Option<Node> {
     let masses = || legendre.masses.iter();
-    let velocities: Vec<Node> = masses().flat_map(|mass| mass.elements.clone()).listed();
+    let velocities: Vec<Node> = masses().flat_map(|mass| mass.elements.clone()).into_list();
     let has_loops = dag.has_loops(&[expression, legendre.lagrangian]);
     if velocities.len() > MAX_VELOCITIES || has_loops || masses().any(|mass| mass.domain.is_some())
     {
@@ -54,7 +54,7 @@ fn derivative(dag: &mut Dag, legendre: &Legendre, expression: Node) -> Option<No
             let after = velocities.len() - before - row.len();
             let zeros = |n: usize| std::iter::repeat_n(zero, n);
             let row = zeros(before).chain(row.iter().copied()).chain(zeros(after));
-            matrix.push(row.listed());
+            matrix.push(row.into_list());
         }
     }
     for velocity in &velocities {
@@ -127,7 +127,7 @@ fn determinant(dag: &mut Dag, matrix: &[Vec<Node>]) -> Node {
     minors.insert(0, one);
     for row in matrix.iter().rev() {
         let mut next: Map<u32, Vec<(Rational, Node)>> = Map::default();
-        let mut sets: Vec<u32> = minors.keys().copied().listed();
+        let mut sets: Vec<u32> = minors.keys().copied().into_list();
         sets.arrange();
         for set in sets {
             for column in (0..size).filter(|column| set >> column & 1 == 0) {
@@ -147,7 +147,7 @@ fn determinant(dag: &mut Dag, matrix: &[Vec<Node>]) -> Node {
                     .push((sign, product));
             }
         }
-        let mut sets: Vec<u32> = next.keys().copied().listed();
+        let mut sets: Vec<u32> = next.keys().copied().into_list();
         sets.arrange();
         minors = Map::default();
         for set in sets {

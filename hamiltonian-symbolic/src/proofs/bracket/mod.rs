@@ -19,7 +19,7 @@ pub use pair::bracket;
 use crate::dag::{Dependence, Kind, Node};
 use crate::diff;
 use crate::legendre::Legendre;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::{SamplePoint, unroll_nodes};
 use crate::model::Model;
 use crate::normal_form::{self, Algebra, Answer, BUDGET, Effort, Scope, named, trials, witness};
@@ -276,7 +276,7 @@ fn derivative(model: &mut Model, expression: Node, h: Node) -> Option<Node> {
     let explicit = diff::gradient(&mut model.dag, expression, Dependence::TIME);
     let parts: Vec<Node> = std::iter::once(flow)
         .chain(explicit.into_iter().map(|(_, adjoint)| adjoint))
-        .listed();
+        .into_list();
     let sum = model.dag.add(&parts);
     (!model.dag.has_too_many_loops()).then_some(sum)
 }

@@ -8,7 +8,7 @@
 use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::{field, unrolled};
 use crate::model::{Model, VectorEntry};
 use crate::ranges::Ranges;
@@ -95,7 +95,7 @@ fn scatters(dag: &Dag, leaves: &[(Node, Node)], array: Array) -> Vec<Scatter> {
             }),
             _ => None,
         })
-        .listed()
+        .into_list()
 }
 
 /// Σ over elements of the product of two derivatives.
@@ -124,7 +124,7 @@ fn is_plain(dag: &Dag, scatter: &Scatter, rows: &Affine) -> bool {
 
 fn gathered(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Option<Vec<Node>> {
     let k = field::elements(dag, rows);
-    let leaves: Vec<(Node, Node)> = y.iter().map(|s| (s.leaf, s.value)).listed();
+    let leaves: Vec<(Node, Node)> = y.iter().map(|s| (s.leaf, s.value)).into_list();
     let Kind::Element(array, ..) = *dag.kind(y.first()?.leaf) else {
         return None;
     };

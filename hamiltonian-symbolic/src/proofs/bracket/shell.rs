@@ -8,7 +8,7 @@
 
 use crate::algebra::ball::Ball;
 use crate::dag::{Array, Column, Dag, Kind, Node, Side, Sign};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::{Sample, SamplePoint, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
@@ -65,7 +65,7 @@ fn is_never_zero(algebra: &mut Algebra, poly: &Poly, written: &Poly) -> Result<b
         .flat_map(|(m, _)| &m.0)
         .filter(|(_, n)| *n < 0)
         .map(|(atom, _)| *atom)
-        .listed();
+        .into_list();
     let (k, monomial, mut rest) = algebra.content(poly)?;
     if k.is_zero() {
         return Ok(false);
@@ -136,7 +136,7 @@ pub(super) fn witness(
             Kind::Element(Array::Phase(Column { side, .. }), ..) => *side == wanted,
             _ => false,
         };
-        below.iter().filter(is_wanted).copied().listed()
+        below.iter().filter(is_wanted).copied().into_list()
     };
     let mut sides = [Side::P, Side::Q].into_iter();
     sides.find_map(|side| solved(model, residual, shell, others, &of_side(side)))

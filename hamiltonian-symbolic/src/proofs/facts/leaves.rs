@@ -3,7 +3,7 @@
 
 use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Break;
 
 /// A coordinate, a momentum, the time.
@@ -126,5 +126,8 @@ fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
         Kind::Element(array @ Array::Phase(_), row, _) => Some(Some((*array, row.as_constant()))),
         _ => None,
     };
-    dag.reachable(&[node]).into_iter().filter_map(leaf).listed()
+    dag.reachable(&[node])
+        .into_iter()
+        .filter_map(leaf)
+        .into_list()
 }

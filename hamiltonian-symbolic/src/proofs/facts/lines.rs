@@ -4,7 +4,7 @@
 //! as for terms of different coordinates, after a linear change of the coordinates.
 
 use crate::dag::{Array, Dag, Kind, Node, Side};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::rational::Rational;
 
 /// A linear form of coordinates, or of momenta: the elements with their factors.
@@ -31,7 +31,7 @@ pub fn are_along_other_lines(dag: &Dag, one: Node, others: &[Node]) -> bool {
         let bracket = products.fold(Rational::ZERO, |sum, product| sum.add(&product));
         !bracket.is_zero()
     };
-    let beside: Vec<LinearForm> = beside.into_iter().map(|(_, form)| form.clone()).listed();
+    let beside: Vec<LinearForm> = beside.into_iter().map(|(_, form)| form.clone()).into_list();
     !across.iter().any(changes) && !is_spanned(form, beside)
 }
 

@@ -6,7 +6,7 @@
 
 use super::{Facts, Points, Regular, STEP, comparisons};
 use crate::dag::{Dag, Kind, Node, Partial};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::{Op, SingularSet};
 use crate::rational::Rational;
 
@@ -75,7 +75,7 @@ impl Facts {
         };
         let below = |node: Node| -> Vec<Node> {
             match dag.kind(node) {
-                Kind::Product(_, factors) => factors.iter().map(|(factor, _)| *factor).listed(),
+                Kind::Product(_, factors) => factors.iter().map(|(factor, _)| *factor).into_list(),
                 _ => vec![node],
             }
         };

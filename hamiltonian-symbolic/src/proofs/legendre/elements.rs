@@ -8,7 +8,7 @@
 
 use crate::dag::{Array, Dag, Kind, Map, Node, Relation};
 use crate::index::{Affine, Domain, Index, Size};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::unroll_nodes;
 use crate::model::Model;
 use crate::normal_form::{Proof, is_zero};
@@ -124,7 +124,7 @@ pub(super) fn zero_at(model: &Model, entry: Node, k: Domain) -> Option<Affine> {
         let count = rows.value(&|_| 0, &|_: Size| size);
         let places: Vec<i64> = (0..count.min(edge))
             .chain((count - edge).max(edge)..count)
-            .listed();
+            .into_list();
         // Loops that depend on k are not the definition's.
         let mut copy = model.clone();
         let mut images = Vec::with_capacity(places.len());

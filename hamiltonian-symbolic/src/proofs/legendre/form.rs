@@ -7,7 +7,7 @@
 use super::elements::zero_at;
 use crate::dag::{Dag, Node, Stage};
 use crate::index::{Affine, Domain};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::normal_form::{Proof, is_zero};
 use crate::rational::Rational;
@@ -67,11 +67,11 @@ impl QuadraticForm {
                     .iter()
                     .all(|entry| model.dag.is_zero(*entry))
             })
-            .listed();
+            .into_list();
         if !empty.is_empty() {
             return Err(Singular::Empty(empty));
         }
-        let mut rest: Vec<usize> = (0..count).listed();
+        let mut rest: Vec<usize> = (0..count).into_list();
         let mut pivots = Vec::new();
         let mut terms: Vec<(Rational, Node)> = Vec::new();
         while !rest.is_empty() {
@@ -150,7 +150,7 @@ impl QuadraticForm {
         let mut order: Vec<(Stage, usize, usize)> = rest
             .iter()
             .map(|&i| (model.dag.stage(self.matrix[i][i]), coupled(i), i))
-            .listed();
+            .into_list();
         order.arrange();
         let usable = |entry: Node| !self.vanishes(model, entry);
         if let Some((_, _, i)) = order.iter().find(|(_, _, i)| usable(self.matrix[*i][*i])) {
@@ -206,7 +206,7 @@ impl QuadraticForm {
                 let products: Vec<(Node, Node)> = rest
                     .iter()
                     .map(|k| (self.matrix[row][*k], velocities[*k]))
-                    .listed();
+                    .into_list();
                 minus(dag, self.right[row], &products)
             };
             match *pivot {

@@ -18,7 +18,7 @@ pub use readable::Readable;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::{Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::{field, unrolled};
 use crate::model::{Model, Shape};
 use crate::normal_form::{Proof, is_zero};
@@ -213,7 +213,7 @@ impl Transform<'_> {
                 .elements
                 .iter()
                 .filter_map(|e| array(dag, *e))
-                .listed();
+                .into_list();
             for momentum in &mut block.momenta {
                 *momentum = elements::at_own_index(dag, *momentum, k, &arrays);
             }
@@ -402,7 +402,7 @@ impl Transform<'_> {
                 };
                 self.name(velocity, block.domain)
             })
-            .listed();
+            .into_list();
         let names = names.join(" and ");
         match singular {
             Singular::Empty(_) | Singular::Element { is_alone: true, .. } => {
@@ -425,7 +425,7 @@ impl Transform<'_> {
                 group.momentum = velocity;
             }
         }
-        let bound: Vec<(Domain, &str)> = domain.iter().map(|d| (*d, "k")).listed();
+        let bound: Vec<(Domain, &str)> = domain.iter().map(|d| (*d, "k")).into_list();
         format!(
             "`{}`",
             print::write_within(&named, element, Notation::Text, &bound)

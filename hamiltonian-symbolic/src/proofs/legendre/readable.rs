@@ -9,7 +9,7 @@
 use super::{Legendre, Mass};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::{Model, ParameterDeclaration, Shape};
 use crate::print::{
     self, Equations, Notation, hamilton_equations, is_taken, latex, scalar_equation, text,
@@ -58,7 +58,7 @@ impl Readable {
         let dag = &mut readable.model.dag;
         let (constant, potential) = &legendre.potential;
         let kinetic = kinetic.iter().map(|part| (Rational::ONE, *part));
-        let terms: Vec<(Rational, Node)> = kinetic.chain(potential.iter().cloned()).listed();
+        let terms: Vec<(Rational, Node)> = kinetic.chain(potential.iter().cloned()).into_list();
         readable.hamiltonian = dag.linear(constant, &terms);
         let varies = |node: &Node| dag.dependence(*node).on(Dependence::Q);
         let entries = || {
@@ -122,7 +122,7 @@ impl Readable {
         let lines = self.names.iter();
         lines
             .map(|(name, value)| format!("{} = {}", write(*name), write(*value)))
-            .listed()
+            .into_list()
     }
 
     /// Hamilton's equations one a line, then the expressions of the names in them. `None` where they
@@ -134,7 +134,7 @@ impl Readable {
             EquationForm::Lagrange(motion) => motion,
             EquationForm::Hamilton(equations) => {
                 let lines = equations.written(notation).into_iter().map(line);
-                return Some(lines.chain(self.shown(notation)).listed());
+                return Some(lines.chain(self.shown(notation)).into_list());
             }
             EquationForm::Computed => return None,
         };
@@ -148,7 +148,7 @@ impl Readable {
             lines.push(scalar(Side::P, group, *force));
         }
         lines.extend(self.shown(notation));
-        let roots: Vec<Node> = motion.iter().flat_map(|(q, p)| [*q, *p]).listed();
+        let roots: Vec<Node> = motion.iter().flat_map(|(q, p)| [*q, *p]).into_list();
         let used = self.model.dag.reachable(&roots);
         for group in 0..self.model.groups.len() {
             let own = Array::Velocity(Column::first(Side::Q, group as u16));
@@ -212,7 +212,7 @@ impl Readable {
             energies.insert(0, energy);
         }
         let over = |energy| over(dag, mass, energy);
-        energies.into_iter().map(over).listed()
+        energies.into_iter().map(over).into_list()
     }
 
     /// Two coupled coordinates: by the inverse of their matrix, its determinant by name.
@@ -249,7 +249,7 @@ impl Readable {
     ) -> Vec<Node> {
         let (mut matrix, mut right) = (mass.matrix.clone(), mass.right.clone());
         let order = mass.order.iter().flatten().copied();
-        let order: Vec<usize> = order.filter(|i| part.contains(i)).listed();
+        let order: Vec<usize> = order.filter(|i| part.contains(i)).into_list();
         let mut energies = Vec::new();
         for (at, &i) in order.iter().enumerate() {
             let suffix = self.suffix(mass.elements[i]);

@@ -4,7 +4,7 @@
 //! all elements of its column; a term in which nothing moves is in the first group.
 
 use crate::dag::{Column, Dag, Map, Node, Side};
-use crate::list::Listed;
+use crate::list::IntoList;
 
 /// The groups, in the order of their first terms.
 pub(crate) fn components(dag: &Dag, terms: &[Node]) -> Vec<Vec<Node>> {
@@ -43,7 +43,7 @@ pub(crate) fn components(dag: &Dag, terms: &[Node]) -> Vec<Vec<Node>> {
             None => groups.push((class, vec![term])),
         }
     }
-    let mut groups: Vec<Vec<Node>> = groups.into_iter().map(|(_, group)| group).listed();
+    let mut groups: Vec<Vec<Node>> = groups.into_iter().map(|(_, group)| group).into_list();
     match groups.first_mut() {
         Some(first) => first.extend(at_rest),
         None => groups.push(at_rest),

@@ -20,7 +20,7 @@ pub use quadratic::kick_beside;
 
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::index::Affine;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::print;
 use std::collections::HashSet;
@@ -196,7 +196,7 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
             None => {
                 // `i`, or `i][j` between the brackets.
                 let names = ["i", "j", "k"].into_iter().chain(std::iter::repeat("l"));
-                let names: Vec<&str> = names.take(group.shape.axes().len().max(1)).listed();
+                let names: Vec<&str> = names.take(group.shape.axes().len().max(1)).into_list();
                 found.push(element(&names.join("][")));
                 continue;
             }

@@ -6,7 +6,7 @@
 use super::expand::MAX_TERMS;
 use super::{expand, term_with};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::print;
 use crate::rational::Rational;
@@ -103,7 +103,7 @@ fn outside(model: &mut Model, part: Node, is_inside: fn((u32, u32)) -> bool) -> 
                 let others = terms
                     .into_iter()
                     .filter(|(_, term)| !is_fine(&model.dag, *term));
-                let others: Vec<(Rational, Node)> = others.listed();
+                let others: Vec<(Rational, Node)> = others.into_list();
                 left = model.dag.linear(&Rational::ZERO, &others);
             }
             match expand(&mut model.dag, left) {

@@ -6,7 +6,7 @@
 
 use super::{Coupling, Separation, components, expand};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::normal_form;
 use crate::print;
@@ -70,7 +70,7 @@ fn resolved(model: &mut Model, parts: Separated) -> Result<Separated, (Node, Opt
     let terms = match model.dag.kind(parts.coupling).clone() {
         Kind::Sum(_, terms) => {
             let terms = terms.iter().map(|(k, term)| model.dag.scale(k, *term));
-            terms.listed()
+            terms.into_list()
         }
         _ => vec![parts.coupling],
     };
@@ -87,8 +87,8 @@ fn resolved(model: &mut Model, parts: Separated) -> Result<Separated, (Node, Opt
             found.extend(resolved_group(model, coupling)?);
         }
     }
-    let kinetic: Vec<Node> = found.iter().map(|part| part.kinetic).listed();
-    let potential: Vec<Node> = found.iter().map(|part| part.potential).listed();
+    let kinetic: Vec<Node> = found.iter().map(|part| part.kinetic).into_list();
+    let potential: Vec<Node> = found.iter().map(|part| part.potential).into_list();
     Ok(Separated {
         kinetic: model.dag.add(&kinetic),
         potential: model.dag.add(&potential),
@@ -117,7 +117,7 @@ fn resolved_group(
             coupling,
         }),
     }
-    let couplings: Vec<Node> = found.iter().map(|part| part.coupling).listed();
+    let couplings: Vec<Node> = found.iter().map(|part| part.coupling).into_list();
     if let Some(first) = couplings.iter().find(|node| !model.dag.is_zero(**node)) {
         let coupling = model.dag.add(&couplings);
         let (kinetic, potential) =
@@ -167,7 +167,7 @@ fn apart(model: &mut Model, root: Node) -> Separated {
             Kind::Sum(c, terms) => {
                 let mut sum = |constant: &Rational, part: fn(&Separated) -> Node| {
                     let terms = terms.iter().map(|(k, n)| (k.clone(), part(&parts[n])));
-                    let terms: Vec<(Rational, Node)> = terms.listed();
+                    let terms: Vec<(Rational, Node)> = terms.into_list();
                     model.dag.linear(constant, &terms)
                 };
                 Separated {

@@ -7,7 +7,7 @@
 use super::reduce::Rules;
 use crate::algebra::formula::Names;
 use crate::dag::{Dag, Node, Parameter};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::rational::Rational;
 
 /// A scalar coordinate: a group, or one component of a vector group.
@@ -105,7 +105,7 @@ pub(super) struct Masses {
 
 impl Masses {
     pub(super) fn new(dag: &mut Dag, each: Vec<Node>) -> Masses {
-        let sums = (1..=each.len()).map(|n| dag.add(&each[..n])).listed();
+        let sums = (1..=each.len()).map(|n| dag.add(&each[..n])).into_list();
         Masses { each, sums }
     }
 }
@@ -222,11 +222,11 @@ fn node(names: &Names, name: &str) -> Node {
 
 fn variables(names: &Names, to: &[&str]) -> PhaseNodes {
     PhaseNodes {
-        q: to.iter().map(|name| node(names, name)).listed(),
+        q: to.iter().map(|name| node(names, name)).into_list(),
         p: to
             .iter()
             .map(|name| node(names, &format!("p_{name}")))
-            .listed(),
+            .into_list(),
     }
 }
 
@@ -277,7 +277,7 @@ pub(super) fn jacobi_rules(masses: &Masses, rules: &mut Rules) {
 pub(super) fn jacobi_to_new(dag: &mut Dag, old: &PhaseNodes, masses: &Masses) -> PhaseNodes {
     let n = old.q.len();
     let (m, sums) = (&masses.each, &masses.sums);
-    let moments: Vec<Node> = (0..n).map(|k| dag.mul(&[m[k], old.q[k]])).listed();
+    let moments: Vec<Node> = (0..n).map(|k| dag.mul(&[m[k], old.q[k]])).into_list();
     let moment = dag.add(&moments);
     let mut new = PhaseNodes {
         q: vec![dag.div(moment, sums[n - 1])],

@@ -13,7 +13,7 @@ use super::reduce::{self, Rules};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops;
 use crate::model::{Model, REPLACING, VectorEntry};
 use crate::sort::Arrange;
@@ -52,7 +52,7 @@ impl Transformed {
         for of in &bodies {
             let force = std::mem::take(&mut source.force);
             let parts = force.iter().flat_map(|f| of.apart(&mut source.dag, f));
-            source.force = parts.listed();
+            source.force = parts.into_list();
         }
         let model = &source.clone();
         let (mut new, roots) = written_out(model, &layout, &bodies)?;
@@ -113,7 +113,7 @@ impl Transformed {
             .iter()
             .zip(&layout.places)
             .flat_map(|(chart, place)| placements(model, chart, place.first))
-            .listed();
+            .into_list();
         places.extend(layout.kept.iter().map(|&(old, new)| Placement {
             old: (old, None),
             new,
@@ -163,7 +163,7 @@ impl Transformed {
     /// `places` says they stand.
     pub fn forward_placed(&mut self) -> Vec<VectorEntry> {
         let mut images: Map<Node, Node> = Map::default();
-        let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).listed();
+        let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).into_list();
         for node in self.source.dag.reachable(&values) {
             let image = match self.source.dag.kind(node) {
                 Kind::Element(Array::Phase(column), row, _) => {
@@ -181,7 +181,7 @@ impl Transformed {
             value: images[&entry.value],
             ..entry.clone()
         };
-        self.forward.iter().map(with_image).listed()
+        self.forward.iter().map(with_image).into_list()
     }
 
     /// The map to the old coordinates, written where `places` says they stand.
@@ -192,7 +192,7 @@ impl Transformed {
             let value = entry.value;
             VectorEntry { at, row, value }
         };
-        self.inverse.iter().map(moved).listed()
+        self.inverse.iter().map(moved).into_list()
     }
 
     /// A force on the old momenta, ṗ += f, becomes one on the new ones, Ṗ += (∂q/∂Q)ᵀ f, because
@@ -242,7 +242,7 @@ fn masses_of(model: &Model, dag: &mut Dag, parameter: crate::dag::Parameter) -> 
     let rows = shape.rows().and_then(Affine::as_constant);
     let each = (0..rows.into_iter().sum())
         .map(|row| dag.element(Array::Parameter(parameter), Index::constant(row), None))
-        .listed();
+        .into_list();
     Masses::new(dag, each)
 }
 
@@ -315,7 +315,7 @@ fn bodies(model: &mut Model, charts: &[Chart], layout: &GroupLayout) -> Vec<Size
             Chart::Heliocentric(bodies) => SizedBodies::new(model, bodies.group, place.first),
             _ => None,
         })
-        .listed()
+        .into_list()
 }
 
 /// The model whose arena the new system is built in, with all its expressions, unrolled where a loop
@@ -327,7 +327,12 @@ fn written_out(
 ) -> Result<(Model, Vec<Node>), NoTransform> {
     let roots = model.roots();
     let is_looped = |group: &u16| !bodies.iter().any(|b| b.old == *group);
-    let written: Vec<u16> = layout.replaced.iter().copied().filter(is_looped).listed();
+    let written: Vec<u16> = layout
+        .replaced
+        .iter()
+        .copied()
+        .filter(is_looped)
+        .into_list();
     if model.sizes.is_empty() {
         let looped =
             model

@@ -7,7 +7,7 @@ use super::NoTransform;
 use super::charts::{Chart, Component, Formulas, PhaseNodes, Replaced};
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::Index;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::{Group, Model, Shape};
 use crate::sort::Arrange;
 
@@ -126,7 +126,7 @@ impl GroupLayout {
         left.groups = kept
             .iter()
             .map(|(old, _)| model.groups[usize::from(*old)].clone())
-            .listed();
+            .into_list();
         for (chart, own) in charts.iter().zip(&own) {
             for group in own {
                 for name in [&group.coordinate, &group.momentum] {
@@ -148,7 +148,7 @@ impl GroupLayout {
                 let charted = charted(model, chart, first);
                 Mapped { charted, first }
             })
-            .listed();
+            .into_list();
         Ok(GroupLayout {
             groups,
             places,
@@ -168,7 +168,7 @@ fn members(chart: &Chart) -> Vec<u16> {
         Replaced::Scalars(_, components) => components,
         Replaced::Bodies(bodies) => return vec![bodies.group],
     };
-    let mut groups: Vec<u16> = components.iter().map(|c| c.group).listed();
+    let mut groups: Vec<u16> = components.iter().map(|c| c.group).into_list();
     groups.arrange();
     groups.dedup();
     groups
@@ -189,7 +189,7 @@ pub fn names_of_scalars(words: &[&str]) -> Vec<Vec<String>> {
             }
         };
         let names = Formulas::named(word).map_or(&[][..], |formulas| formulas.new);
-        let own = names.iter().map(scalar).listed();
+        let own = names.iter().map(scalar).into_list();
         all.push(own);
     }
     all
@@ -197,13 +197,13 @@ pub fn names_of_scalars(words: &[&str]) -> Vec<Vec<String>> {
 
 /// The groups of each chart.
 fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
-    let words: Vec<&str> = charts.iter().map(Chart::word).listed();
+    let words: Vec<&str> = charts.iter().map(Chart::word).into_list();
     let scalar = |name: String| {
         let momentum = format!("p_{name}");
         Group::scalar(name, momentum)
     };
     let own = |(chart, names): (&Chart, Vec<String>)| match chart.replaced() {
-        Replaced::Scalars(..) => names.into_iter().map(scalar).listed(),
+        Replaced::Scalars(..) => names.into_iter().map(scalar).into_list(),
         Replaced::Bodies(bodies) => {
             let old = &model.groups[usize::from(bodies.group)];
             vec![Group {
@@ -218,7 +218,7 @@ fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
         .iter()
         .zip(names_of_scalars(&words))
         .map(own)
-        .listed()
+        .into_list()
 }
 
 /// The sets of variables of a chart whose first new group has the given number.
@@ -233,8 +233,8 @@ fn charted(model: &Model, chart: &Chart, first: u16) -> Vec<ChartVariables> {
                 .take(components.len())
                 .map(|group| slot(group, 0, 0));
             vec![ChartVariables {
-                old: old.listed(),
-                new: new.listed(),
+                old: old.into_list(),
+                new: new.into_list(),
             }]
         }
         Replaced::Bodies(bodies) => {
@@ -245,10 +245,10 @@ fn charted(model: &Model, chart: &Chart, first: u16) -> Vec<ChartVariables> {
             };
             let slots = |group, column| (0..rows as u32).map(move |row| slot(group, row, column));
             let variables = |column| ChartVariables {
-                old: slots(bodies.group, column).listed(),
-                new: slots(first, column).listed(),
+                old: slots(bodies.group, column).into_list(),
+                new: slots(first, column).into_list(),
             };
-            (0..columns).map(variables).listed()
+            (0..columns).map(variables).into_list()
         }
     }
 }
@@ -265,7 +265,7 @@ pub(super) fn placements(model: &Model, chart: &Chart, first: u16) -> Vec<Placem
                     new,
                 }
             };
-            components.iter().zip(first..).map(place).listed()
+            components.iter().zip(first..).map(place).into_list()
         }
         Replaced::Bodies(bodies) => vec![Placement {
             old: (bodies.group, None),

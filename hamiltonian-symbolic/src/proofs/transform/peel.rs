@@ -10,7 +10,7 @@ use super::bodies::{SizedBodies, least};
 use super::layout::coordinate;
 use crate::dag::{Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 
 /// The most nodes that loops are unrolled to.
@@ -44,7 +44,7 @@ pub(super) fn peel(
             Change::Unroll(start, end) => {
                 let each: Vec<Node> = (start..end)
                     .map(|at| dag.replace(body, domain, &Affine::constant(at)))
-                    .listed();
+                    .into_list();
                 dag.add(&each)
             }
             Change::Peel => {

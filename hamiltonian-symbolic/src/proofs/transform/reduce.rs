@@ -7,7 +7,7 @@
 //! distance must not be computed by cancellation.
 
 use crate::dag::{Dag, Kind, Map, Node, Sign, Stage, work};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::product::{Factors, Product};
 use crate::rational::Rational;
@@ -73,7 +73,7 @@ pub(super) fn substitute(
         };
         Some(image)
     });
-    new.map(|new| roots.iter().map(|root| new[root]).listed())
+    new.map(|new| roots.iter().map(|root| new[root]).into_list())
 }
 
 /// A node made of others that were reduced before.
@@ -191,8 +191,9 @@ impl Reducer<'_> {
         let parts = connected(dag, &terms, self.rules);
         let mut picked: Vec<(Rational, Node)> = Vec::with_capacity(parts.len());
         for part in &parts {
-            let own: Vec<(Rational, Node)> = part.iter().map(|at| operands[*at].clone()).listed();
-            let together: Vec<&Product> = part.iter().flat_map(|at| &terms[*at]).listed();
+            let own: Vec<(Rational, Node)> =
+                part.iter().map(|at| operands[*at].clone()).into_list();
+            let together: Vec<&Product> = part.iter().flat_map(|at| &terms[*at]).into_list();
             let better = self.cheaper(dag, &own, &together);
             // An operand that is a sum is continued: its terms were collected with the others.
             for (k, operand) in better.map_or(own, |better| vec![(Rational::ONE, better)]) {
@@ -272,7 +273,7 @@ fn connected(dag: &Dag, terms: &[Vec<Product>], rules: &Rules) -> Vec<Vec<usize>
         part.arrange();
         parts.push((part, monomials));
     }
-    let mut parts: Vec<Vec<usize>> = parts.into_iter().map(|(part, _)| part).listed();
+    let mut parts: Vec<Vec<usize>> = parts.into_iter().map(|(part, _)| part).into_list();
     parts.arrange();
     parts
 }
@@ -360,7 +361,7 @@ fn grouped(dag: &mut Dag, terms: &[Product]) -> Node {
             all.factors.extend(&coefficient.factors);
         } else {
             let parts = coefficients.into_iter().map(|part| part.split(dag));
-            let parts = parts.listed();
+            let parts = parts.into_list();
             all.multiply(dag.linear(&Rational::ZERO, &parts), 1);
         }
         operands.push((Rational::ONE, all.node(dag)));

@@ -6,7 +6,7 @@
 
 use crate::dag::work;
 use crate::dag::{Dag, Node};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::SamplePoint;
 use crate::model::Model;
 use crate::normal_form::{self, Proof, Scope};
@@ -40,7 +40,7 @@ pub fn check_split(model: &mut Model, pieces: &[Node]) -> Result<(), Box<Differe
     let difference = model.dag.linear(&Rational::ZERO, &terms);
     // Multiplied out first, so that the point names only variables of the difference.
     let node = multiplied_out(&mut model.dag, difference);
-    let parts: Vec<Node> = terms.iter().map(|(_, part)| *part).listed();
+    let parts: Vec<Node> = terms.iter().map(|(_, part)| *part).into_list();
     let point = match normal_form::is_zero_where(model, node, &parts) {
         Proof::Zero => return Ok(()),
         Proof::NonZero { point, value } => Some((point, value)),
@@ -61,7 +61,7 @@ pub fn check_split(model: &mut Model, pieces: &[Node]) -> Result<(), Box<Differe
 fn multiplied_out(dag: &mut Dag, node: Node) -> Node {
     let expanded = match expand(dag, node) {
         Some(terms) => {
-            let nodes: Vec<Node> = terms.iter().map(|term| term.node(dag)).listed();
+            let nodes: Vec<Node> = terms.iter().map(|term| term.node(dag)).into_list();
             dag.add(&nodes)
         }
         None => node,

@@ -18,7 +18,7 @@ use super::NoTransform;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::Index;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::loops::field::{elements, field};
 use crate::loops::guarded;
 use crate::model::{Group, Model, VectorEntry};
@@ -184,7 +184,7 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
     let factors: Vec<Node> = factors
         .filter(|(_, n)| *n > 0)
         .map(|(node, _)| node)
-        .listed();
+        .into_list();
     let mut cancelled: Vec<(Rational, Node)> = Vec::new();
     let mut bracket: Vec<(Rational, Node)> = Vec::new();
     let mut stack = vec![(Rational::ONE, h)];
@@ -197,7 +197,7 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
         match dag.kind(node) {
             Kind::Sum(c, terms) => {
                 let inner = terms.iter().map(|(own, n)| (k.mul(own), *n));
-                let mut inner = inner.listed();
+                let mut inner = inner.into_list();
                 if !c.is_zero() {
                     let constant = k.mul(c);
                     inner.push((constant, dag.integer(1)));

@@ -9,7 +9,7 @@ use crate::algebra::ball::Ball;
 use crate::algebra::formula::Names;
 use crate::dag::Node;
 use crate::flows::space::{Space, Variables};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Motion;
 use crate::rational::Rational;
 
@@ -23,7 +23,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     {
         return None;
     }
-    let pairs: Vec<(Node, Node)> = active.iter().map(|pair| space.pairs[*pair]).listed();
+    let pairs: Vec<(Node, Node)> = active.iter().map(|pair| space.pairs[*pair]).into_list();
     let (zero, one) = (space.dag().integer(0), space.dag().integer(1));
     // At q = (1, 0, 0), p = 0 the value of h is −κ.
     let mut point = Vec::new();

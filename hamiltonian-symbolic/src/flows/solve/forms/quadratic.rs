@@ -7,7 +7,7 @@ use crate::algebra::ball::Ball;
 use crate::dag::{Dependence, Node};
 use crate::flows::solve::growth::Growth;
 use crate::flows::space::{Space, Variable, Variables};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Motion;
 use crate::rational::Rational;
 
@@ -25,7 +25,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     // z = (q, p): row i moves by the derivative along its conjugate.
     let leaves = |side: usize| pairs.iter().map(move |pair| Variable::pair(*pair)[side]);
     let z = leaves(0).chain(leaves(1));
-    let z: Vec<Node> = z.map(|one| space.variable(one)).listed();
+    let z: Vec<Node> = z.map(|one| space.variable(one)).into_list();
     let (a, g) = coefficients(space, h, set, &z)?;
     let n = pairs.len();
     let turned = |i: usize| if i < n { i + n } else { i - n };
@@ -37,10 +37,12 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         .map(|i| {
             (0..2 * n)
                 .map(|j| signed(space, i, a[turned(i)][j]))
-                .listed()
+                .into_list()
         })
-        .listed();
-    let b: Vec<Node> = (0..2 * n).map(|i| signed(space, i, g[turned(i)])).listed();
+        .into_list();
+    let b: Vec<Node> = (0..2 * n)
+        .map(|i| signed(space, i, g[turned(i)]))
+        .into_list();
     let (flow, shift) = exponential(space, &m, &b, s)?;
     let mut motion = Motion::default();
     for i in 0..2 * n {
@@ -51,7 +53,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
                 let entry: Vec<Node> = parts
                     .iter()
                     .map(|(weight, power)| dag.mul(&[*weight, power[i][j]]))
-                    .listed();
+                    .into_list();
                 let entry = dag.add(&entry);
                 terms.push(dag.mul(&[entry, vector[j]]));
             }
@@ -101,7 +103,7 @@ fn coefficients(
             .iter()
             .zip(&a[i])
             .map(|(y, k)| space.dag().mul(&[*k, *y]))
-            .listed();
+            .into_list();
         let linear = space.dag().add(&products);
         let rest = space.dag().sub(slope, linear);
         // A difference that cancels is 0, and is not computed.
@@ -126,7 +128,9 @@ fn product(space: &mut Space, a: &Matrix, b: &Matrix) -> Matrix {
     for row in a {
         let mut out = Vec::with_capacity(n);
         for (j, _) in row.iter().enumerate() {
-            let terms: Vec<Node> = (0..n).map(|k| space.dag().mul(&[row[k], b[k][j]])).listed();
+            let terms: Vec<Node> = (0..n)
+                .map(|k| space.dag().mul(&[row[k], b[k][j]]))
+                .into_list();
             out.push(space.dag().add(&terms));
         }
         rows.push(out);
@@ -163,8 +167,8 @@ fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(We
     let n = m.len();
     let (zero, one) = (space.dag().integer(0), space.dag().integer(1));
     let unit: Matrix = (0..n)
-        .map(|i| (0..n).map(|j| if i == j { one } else { zero }).listed())
-        .listed();
+        .map(|i| (0..n).map(|j| if i == j { one } else { zero }).into_list())
+        .into_list();
     let squared = product(space, m, m);
     if let Some(lambda) = multiple(space, &squared, &unit) {
         let g = Growth::of(space, lambda, s);
@@ -196,6 +200,6 @@ pub(crate) fn is_constant_form(space: &mut Space, h: Node) -> bool {
 /// Returns true if an expression is a polynomial of second degree.
 pub(crate) fn is_quadratic(space: &mut Space, h: Node) -> bool {
     let set = space.set(h);
-    let z: Vec<Node> = set.members().map(|one| space.variable(one)).listed();
+    let z: Vec<Node> = set.members().map(|one| space.variable(one)).into_list();
     coefficients(space, h, set, &z).is_some()
 }

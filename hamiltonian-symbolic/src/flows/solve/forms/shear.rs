@@ -9,7 +9,7 @@ use super::Axes;
 use crate::algebra::ball::Ball;
 use crate::dag::Node;
 use crate::flows::space::Space;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Motion;
 use crate::rational::Rational;
 
@@ -90,7 +90,7 @@ fn swept(space: &mut Space, f: Node, x: Node, beta: Node, s: Node) -> Option<Nod
         }
         weight = weight.mul(&Rational::integer(i64::from(n) + 1).recip()?);
         let factors = [(derivative, 1), (beta, n), (s, n + 1)];
-        let factors: Vec<(Node, i32)> = factors.into_iter().filter(|(_, n)| *n != 0).listed();
+        let factors: Vec<(Node, i32)> = factors.into_iter().filter(|(_, n)| *n != 0).into_list();
         terms.push(space.dag().product(&weight, &factors));
         derivative = space.d(derivative, x);
     }

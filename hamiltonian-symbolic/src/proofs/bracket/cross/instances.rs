@@ -8,7 +8,7 @@ use super::walls::{self, At};
 use crate::dag::{Dag, Dependence, Node};
 use crate::facts::{Given, stem};
 use crate::index::{Affine, Domain};
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::model::Model;
 use crate::ranges::Ranges;
 
@@ -69,7 +69,7 @@ fn has_instance(model: &mut Model, of_loop: Node, zeros: &[Node; 2], rows: &[Aff
                 way /= rows.len();
                 (*domain, rows[at].clone())
             })
-            .listed();
+            .into_list();
         // From the innermost out: no loop inside moves.
         let instance = chosen.iter().rev().fold(of_loop, |node, (domain, row)| {
             model.dag.replace(node, *domain, row)

@@ -14,7 +14,7 @@ use crate::facts::{
     Facts, Given, are_along_other_lines, have_no_degree_in_common, is_of_own_rows, stem,
 };
 use crate::index::Domain;
-use crate::list::Listed;
+use crate::list::IntoList;
 use crate::op::Op;
 use crate::ranges::Ranges;
 use crate::rational::Rational;
@@ -211,7 +211,7 @@ impl WallSearch<'_> {
                 growth.sign = Sign::of(k).times(growth.sign);
                 (Some(*term), growth)
             })
-            .listed();
+            .into_list();
         if !c.is_zero() {
             let finite = Some(Order::FINITE);
             let constant = WallGrowth {
@@ -257,7 +257,7 @@ impl WallSearch<'_> {
         };
         let of_sign = |is_of: fn(Sign) -> bool| -> Vec<usize> {
             let all = 0..each.len();
-            all.filter(|at| is_of(each[*at].1.sign)).listed()
+            all.filter(|at| is_of(each[*at].1.sign)).into_list()
         };
         consider(of_sign(Sign::is_nonnegative), Sign::NONNEGATIVE);
         let nonpositive = Sign::NONNEGATIVE.times(Sign::NEGATIVE);
@@ -272,7 +272,7 @@ impl WallSearch<'_> {
     /// iteration: the velocities of one term are then those of H.
     fn is_on_top(&self, x: Node) -> bool {
         let terms = match self.dag.kind(self.h) {
-            Kind::Sum(_, terms) => terms.iter().map(|(_, term)| *term).listed(),
+            Kind::Sum(_, terms) => terms.iter().map(|(_, term)| *term).into_list(),
             _ => vec![self.h],
         };
         let is_body = |term: Node| match *self.dag.kind(term) {

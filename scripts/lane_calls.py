@@ -16,6 +16,7 @@ level's instructions and passes its packs through memory.
 """
 
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -44,17 +45,30 @@ SYMBOL = re.compile(r"\*?\b((?:_ZN|_R)[\w.$]+)(?:@\w+(?:\(%rip\))?)?")
 LABEL = re.compile(r"([^\s.].*?):(?:\s|$)")
 
 
-def assembly(bench):
-    """The text that rustc emits for a bench, as one piece."""
-    command = ["cargo", "rustc", "--release", "--bench", bench, "--message-format=json-render-diagnostics"]
-    command += ["--", "--emit=asm,link", "-Ccodegen-units=1", "-Cdebuginfo=0"]
-    run = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+def assemblies(benches):
+    """The text that rustc emits for each bench, as one piece."""
+    command = ["cargo", "build", "--release", "--message-format=json-render-diagnostics"]
+    command += ["--config", 'profile.release.package."hamiltonian-dynamics".codegen-units=1']
+    command += [word for bench in benches for word in ("--bench", bench)]
+    # Cargo passes flags of rustc to one bench at a time, or to all crates; called by it, this program passes them to the
+    # benches alone.
+    wrapped = {"RUSTC_WRAPPER": __file__, "LANE_CALLS": " ".join(benches)}
+    run = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True, env=os.environ | wrapped)
+    found = {}
     for line in run.stdout.splitlines():
         message = json.loads(line)
-        if message.get("executable") and message["target"]["name"] == bench:
-            path = pathlib.Path(message["executable"]).with_suffix(".s")
-            return readable(path.read_text())
-    sys.exit(f"cargo named no executable for the bench {bench}")
+        if message.get("executable"):
+            found[message["target"]["name"]] = pathlib.Path(message["executable"]).with_suffix(".s")
+    if absent := [bench for bench in benches if bench not in found or not found[bench].exists()]:
+        sys.exit(f"cargo made no assembly of {', '.join(absent)}")
+    return {bench: readable(found[bench].read_text()) for bench in benches}
+
+
+def call_rustc(command):
+    """Calls rustc, which also writes the assembly of the benches that are examined."""
+    crate = dict(zip(command, command[1:])).get("--crate-name")
+    emitted = ["--emit=asm"] if crate in os.environ["LANE_CALLS"].split() else []
+    os.execvp(command[0], command + emitted)
 
 
 def readable(text):
@@ -266,10 +280,12 @@ def check_itself():
 
 
 def main():
+    if "LANE_CALLS" in os.environ:
+        call_rustc(sys.argv[1:])
     check_itself()
     failed = False
-    for bench in sys.argv[1:] or ["ensemble", "functions", "stages"]:
-        total, text = 0, assembly(bench)
+    for bench, text in assemblies(sys.argv[1:] or ["ensemble", "functions", "stages"]).items():
+        total = 0
         for name in outside(text):
             failed = True
             print(f"FAILED {bench}: {name} calls vector instructions")

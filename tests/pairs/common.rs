@@ -1,8 +1,8 @@
-//! Two modules that the tests of the facade share.
+//! Modules that tests share, without those that are not needed here.
 
-#[path = "../../../tests/common/bits.rs"]
+#[path = "../common/bits.rs"]
 pub mod bits;
-#[path = "../../../tests/common/derivatives.rs"]
+#[path = "../common/derivatives.rs"]
 pub mod derivatives;
 
 use hamiltonian::lanes::Cpu;

@@ -1,8 +1,7 @@
 //! Loops over pairs and loops on threads, of systems that the macro makes: what takes many steps. `cargo test` leaves this
-//! out, and `.ci/run` does not: `cargo test --release -p hamiltonian-core --test loops`. The tests of the facade
-//! have the shapes of loops.
+//! out, and `.ci/run` does not: `cargo test --release --test pairs`. `tests/loops.rs` has the shapes of loops.
 
-#[path = "../common/allocator.rs"]
+#[path = "../../hamiltonian-core/tests/common/allocator.rs"]
 mod allocator;
 mod calls;
 #[allow(dead_code)]
@@ -11,9 +10,9 @@ mod common;
 mod counting;
 mod pairs;
 #[allow(dead_code)]
-#[path = "../../../hamiltonian-symbolic/tests/common/mod.rs"]
+#[path = "../../hamiltonian-symbolic/tests/common/mod.rs"]
 mod symbolic;
 mod threads;
 #[allow(dead_code, unused_imports)]
-#[path = "../../../hamiltonian-symbolic/tests/tree/mod.rs"]
+#[path = "../../hamiltonian-symbolic/tests/tree/mod.rs"]
 mod tree;

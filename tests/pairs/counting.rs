@@ -1,0 +1,4 @@
+//! Scalars that count.
+
+#[path = "../counting/counted.rs"]
+pub mod counted;

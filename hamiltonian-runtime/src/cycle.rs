@@ -4,9 +4,10 @@
 //! operations of the flows in their order, so the bits are theirs; the point stays in the registers of a [`CycleFrame`] from
 //! step to step, and what flows hold is loaded once.
 
+use crate::allocate::registers;
 use crate::flow::{Inside, PartFlow};
 use crate::machine::{FRAME, in_frame};
-use crate::op::FunctionCode;
+use crate::op::{FunctionCode, Op, Register};
 use crate::prepared::{Flat, Prepared};
 use hamiltonian_core::schemes::author::{Point, Scratch};
 use hamiltonian_lanes::{Mask, Real};
@@ -33,10 +34,23 @@ struct Call<T> {
     coefficients: Vec<T>,
 }
 
+/// The flows of a step as one code: a flow of few operations takes less time than to find it and to lay its coefficients.
+#[derive(Debug, Clone)]
+struct Joined {
+    ops: Vec<Op>,
+    /// The operations before the flow that joins the step to the next.
+    of_last_step: usize,
+}
+
+/// The most operations of such a code, which should stay in the nearest cache.
+const LONGEST: usize = 1024;
+
 /// The flows of a step: first those of its body, last the one that joins it to the next step.
 #[derive(Debug, Clone)]
 pub(crate) struct Cycle<T: Real> {
     calls: Vec<Call<T>>,
+    /// All of them as one code, where they are short.
+    joined: Option<Joined>,
     /// Registers from these on, with the numbers that stay in them.
     held: Vec<(usize, Vec<T>)>,
     /// By which a frame knows whether it has these numbers.
@@ -141,7 +155,13 @@ impl<T: Real> Cycle<T> {
             }
         }
         let id = NEXT.fetch_add(1, Ordering::Relaxed);
-        Some(Cycle { calls, held, id })
+        let joined = join(&calls, &mut held);
+        Some(Cycle {
+            calls,
+            joined,
+            held,
+            id,
+        })
     }
 
     /// Makes steps up to number `end`, the last one without the flow that joins it to the next.
@@ -177,28 +197,42 @@ impl<T: Real> Cycle<T> {
         numbers[..width].copy_from_slice(z.q.as_slice());
         numbers[width..2 * width].copy_from_slice(z.p.as_slice());
         let mut k = made;
-        let (mut next, mut last) = (0, self.calls.len());
+        let mut next = 0;
         loop {
-            if next == 0 {
-                last = self.calls.len() - usize::from(k + 1 == end);
-            }
-            let call = &self.calls[next];
-            let Some(framed) = &call.function.framed else {
-                break;
-            };
-            for (to, from) in
-                (numbers[framed.first_coefficient % FRAME[0]..].iter_mut()).zip(&call.coefficients)
+            let is_last = k + 1 == end;
+            let (ops, t, is_made);
+            if let Some(Joined {
+                ops: all,
+                of_last_step,
+            }) = &self.joined
             {
-                *to = *from;
+                ops = if is_last {
+                    &all[..*of_last_step]
+                } else {
+                    &all[..]
+                };
+                (t, is_made) = (T::zero(), true);
+            } else {
+                let call = &self.calls[next];
+                let Some(framed) = &call.function.framed else {
+                    break;
+                };
+                for (to, from) in (numbers[framed.first_coefficient % FRAME[0]..].iter_mut())
+                    .zip(&call.coefficients)
+                {
+                    *to = *from;
+                }
+                t = match (framed.reads_time, call.at) {
+                    (false, _) => T::zero(),
+                    (true, At::After(at)) => times(k) + at,
+                    (true, At::End) => times(k + 1),
+                };
+                ops = &framed.ops;
+                next += 1;
+                is_made = next == self.calls.len() - usize::from(is_last);
             }
-            let t = match (framed.reads_time, call.at) {
-                (false, _) => T::zero(),
-                (true, At::After(at)) => times(k) + at,
-                (true, At::End) => times(k + 1),
-            };
-            in_frame(&framed.ops, t, numbers, masks);
-            next += 1;
-            if next == last {
+            in_frame(ops, t, numbers, masks);
+            if is_made {
                 next = 0;
                 k += 1;
                 if k == end {
@@ -210,4 +244,50 @@ impl<T: Real> Cycle<T> {
         z.p.as_mut_slice()
             .copy_from_slice(&numbers[width..2 * width]);
     }
+}
+
+/// All calls as one code, which has a register for each coefficient of each call; `held` gets those numbers. `None` for code
+/// that is long, that reads the time, or that needs more registers than a frame has.
+fn join<T: Real>(calls: &[Call<T>], held: &mut Vec<(usize, Vec<T>)>) -> Option<Joined> {
+    let mut ops = Vec::new();
+    let mut of_last_step = 0;
+    let mut free = 0;
+    for call in calls {
+        let framed = call.function.framed.as_ref()?;
+        let ends = [
+            framed.first_held + framed.held.len(),
+            framed.first_coefficient + framed.coefficients,
+        ];
+        free = ends.into_iter().fold(free, usize::max);
+        for op in &framed.ops {
+            registers(&mut op.clone(), &mut |register, class| {
+                if class == 0 {
+                    free = free.max(*register as usize + 1);
+                }
+            });
+        }
+    }
+    let mut numbers = Vec::new();
+    for call in calls {
+        of_last_step = ops.len();
+        let framed = call.function.framed.as_ref()?;
+        let (first, count) = (framed.first_coefficient, call.coefficients.len());
+        if framed.reads_time || free + count > FRAME[0] || ops.len() + framed.ops.len() > LONGEST {
+            return None;
+        }
+        for op in &framed.ops {
+            let mut op = *op;
+            registers(&mut op, &mut |register, class| {
+                let at = *register as usize;
+                if class == 0 && (first..first + count).contains(&at) {
+                    *register = (free + at - first) as Register;
+                }
+            });
+            ops.push(op);
+        }
+        numbers.push((free, call.coefficients.clone()));
+        free += count;
+    }
+    held.extend(numbers);
+    Some(Joined { ops, of_last_step })
 }

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 type Shape = <RuntimeSystem as System>::Shape;
 
-/// What every scheme carries here: the point, then all other numbers.
+/// The carried value of every scheme here: the point, then all other numbers.
 type Words<T> = Pair<Point<Flat<T>>, Flat<T>>;
 
 /// A carried value that is a point, or a point with other numbers behind it: its first parts are those of the point that
@@ -258,7 +258,7 @@ impl<T: Real> Map for AnyMap<T> {
     }
 }
 
-/// A map, with what its carried value is made of.
+/// A map, with the scheme, the system and the step from which its carried value is made.
 struct Native<M: Runs> {
     map: M::Map<f64>,
     scheme: M,
@@ -266,7 +266,7 @@ struct Native<M: Runs> {
     h: f64,
 }
 
-/// What the maps of a scheme carry, and their scratch.
+/// The carried value of the maps of a scheme, and their scratch.
 type CarriedOf<M> = <<M as Scheme<RuntimeSystem>>::Map<f64> as Map>::Carried;
 type WorkOf<M> = <<M as Scheme<RuntimeSystem>>::Map<f64> as Map>::Work;
 

@@ -49,8 +49,8 @@ impl Listed for Many {
     }
 }
 
-/// What all of them carry: that of Gauss' method. A splitting has no numbers behind the point, and the midpoint rule its
-/// slope in the place of the low words.
+/// The carried value of all of them is that of Gauss' method. A splitting has no numbers behind the point, and the midpoint
+/// rule has its slope in the place of the low words.
 type Carried<T> = Carries<Flat<T>, 4>;
 type MidpointMap<T> = <ImplicitMidpoint as Scheme<RuntimeSystem>>::Map<T>;
 type GaussMap<T> = <Gauss<4> as Scheme<RuntimeSystem>>::Map<T>;

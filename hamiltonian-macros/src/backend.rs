@@ -14,7 +14,17 @@ use proc_macro2::{Ident, Span, TokenStream};
 /// `#root::private`.
 pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> Option<TokenStream> {
     let analysis = analyse(checked, report)?;
-    let Some(defaults) = defaults(&analysis) else {
+    code(checked, &analysis, root, report)
+}
+
+/// The code of an analysed definition.
+pub fn code(
+    checked: &Checked,
+    analysis: &Analysis,
+    root: &TokenStream,
+    report: &mut Report,
+) -> Option<TokenStream> {
+    let Some(defaults) = defaults(analysis) else {
         let at = Span::call_site();
         report.internal(at, "a default is not made of numbers alone");
         return None;
@@ -23,7 +33,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> O
         checked,
         root,
         defaults: &defaults,
-        analysis: &analysis,
+        analysis,
     };
     let pieces = analysis.pieces.iter().zip(&analysis.of_pieces);
     let mut code: TokenStream = pieces

@@ -1,8 +1,9 @@
 //! The definitions of the repository.
 //!
-//! Input: files of examples and tests. Output: the definitions in them, as text.
+//! Input: files of examples, tests, benchmarks and the book. Output: the definitions in them, as text.
 
 use proc_macro2::{TokenStream, TokenTree};
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -11,26 +12,62 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The definitions of all calls of `hamiltonian!` in examples and tests, and those that the tests of the macro accept.
+/// The definitions of all calls of `hamiltonian!` in examples, tests, benchmarks and the book, and those that the tests of the
+/// macro accept, each once.
 pub fn definitions() -> Vec<String> {
     let mut found = Vec::new();
-    let folders = ["examples", "tests"].map(|folder| root().join(folder));
-    let entries = folders
-        .iter()
-        .flat_map(|folder| fs::read_dir(folder).expect("it can be listed"));
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.expect("it can be listed").path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "rs"))
-        .collect();
-    files.sort();
-    for file in files {
-        let text = fs::read_to_string(&file).expect("it can be read");
-        calls(text.parse().expect("it is Rust"), &mut found);
+    for folder in ["examples", "tests", "benches", "book/src"] {
+        for file in files(&root().join(folder)) {
+            let text = || fs::read_to_string(&file).expect("it can be read");
+            match file.extension().and_then(|extension| extension.to_str()) {
+                Some("rs") => calls(text().parse().expect("it is Rust"), &mut found),
+                Some("md") => {
+                    for listing in listings(&text()) {
+                        calls(listing.parse().expect("it is Rust"), &mut found);
+                    }
+                }
+                _ => {}
+            }
+        }
     }
     let accepted = root().join("hamiltonian-macros/src/tests/accepted.rs");
     let accepted = fs::read_to_string(accepted).expect("it can be read");
     literals(accepted.parse().expect("it is Rust"), &mut found);
+    let mut known = HashSet::new();
+    found.retain(|text| known.insert(text.clone()));
     found
+}
+
+/// The files of a folder and of those in it, in the order of their names.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("it can be listed");
+    let mut entries: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("it can be listed").path())
+        .collect();
+    entries.sort();
+    let each = entries.into_iter().map(|path| match path.is_dir() {
+        true => files(&path),
+        false => vec![path],
+    });
+    each.flatten().collect()
+}
+
+/// The Rust listings of a page, with their hidden lines.
+fn listings(page: &str) -> Vec<String> {
+    let mut listings = Vec::new();
+    let mut lines = page.lines();
+    while let Some(line) = lines.next() {
+        if line.starts_with("```") {
+            let inside = lines.by_ref().take_while(|line| !line.starts_with("```"));
+            let inside: Vec<&str> = inside
+                .map(|line| line.strip_prefix("# ").unwrap_or(line))
+                .collect();
+            if line.starts_with("```rust") {
+                listings.push(inside.join("\n"));
+            }
+        }
+    }
+    listings
 }
 
 /// The insides of the calls of `hamiltonian!`.

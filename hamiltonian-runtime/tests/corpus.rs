@@ -1,15 +1,17 @@
-//! The functions of every definition of the repository have the bits of the engine's interpreter.
+//! Every definition of the repository has the errors, the markers and the description that the macro has, and functions with
+//! the bits of the engine's interpreter.
 //!
-//! Input: the definitions of examples and tests, numbers for their parameters and a point. Output: a panic with the first
-//! function that differs. Invariant: a definition that is left out is so by the name of a feature.
+//! Input: definitions, numbers for their parameters and a point. Output: a panic with the first difference. Invariant: a definition that is left out is so by the name of a feature.
 
+use crate::backend;
 use crate::common::{definitions, numbers};
+use crate::emitted::Statements;
 use hamiltonian::schemes::author::{self, Dynamics, Flow, Piece, Pieces, Scratch, VectorField};
 use hamiltonian::systems::function::{Function, Grid, Spline};
 use hamiltonian::{Dual, Real, Separable, Split, State, System};
-use hamiltonian_language::analyse::described::Described;
-use hamiltonian_language::analyse::structure::{Kick, Reason};
-use hamiltonian_language::analyse::{self, analyse};
+use hamiltonian_language::analyse::structure::Kick;
+use hamiltonian_language::analyse::{self, Analysis, analyse};
+use hamiltonian_language::checked::Checked;
 use hamiltonian_language::{read, report::Report};
 use hamiltonian_runtime::{Definition, Run, RuntimeSystem, SystemError, Value, Values};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Partial, Side};
@@ -17,6 +19,7 @@ use hamiltonian_symbolic::index::{Affine, Size};
 use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Purpose, Target};
+use proc_macro2::TokenStream;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
@@ -32,11 +35,24 @@ fn extent(form: &Affine, size: usize) -> usize {
     usize::try_from(value).expect("extents are not negative")
 }
 
+/// A definition as the macro has it, before its code.
+fn read_by_macro(text: &str, report: &mut Report) -> Option<(Checked, Analysis)> {
+    let checked = read(text.parse().expect("it lexes"), report).1?;
+    let analysis = analyse(&checked, report)?;
+    Some((checked, analysis))
+}
+
 /// The system for the engine's interpreter.
 pub fn analysed(text: &str) -> Option<analyse::System> {
+    read_by_macro(text, &mut Report::default()).map(|(_, analysis)| analysis.whole)
+}
+
+/// The statements of the macro's code.
+fn stated(checked: &Checked, analysis: &Analysis) -> Statements {
     let mut report = Report::default();
-    let checked = read(text.parse().expect("it lexes"), &mut report).1?;
-    analyse(&checked, &mut report).map(|analysis| analysis.whole)
+    let code = backend::code(checked, analysis, &TokenStream::new(), &mut report);
+    assert!(report.is_empty(), "the macro refuses what it analysed");
+    Statements::of_code(code.expect("there is code without an error"))
 }
 
 /// The functions with data of one and of two numbers, which repeat.
@@ -241,48 +257,12 @@ fn compare_steps(text: &str, made: &RuntimeSystem) -> bool {
     true
 }
 
-/// The pieces and the markers of a system against those of the macro: what a scheme may require is proven, or is missing for
-/// the reason of the compile error. A split that only compiled definitions have is missing for another one.
-fn markers(text: &str, system: &analyse::System, made: &RuntimeSystem) {
-    let (structure, description) = (&system.structure, made.description());
-    let reason = |verdict: Option<&Reason>| verdict.map(|reason| reason.message.clone());
-    let due = [
-        ("Separable", reason(structure.separable.as_ref().err())),
-        ("Split", reason(structure.split.as_ref().err())),
-        ("Nystrom", reason(structure.nystrom.as_ref().err())),
-        (
-            "QuadraticKinetic",
-            reason(structure.quadratic_kinetic.as_ref().err()),
-        ),
-        ("Unforced", reason(structure.unforced.as_ref().err())),
-        ("Exact", reason(structure.exact.as_ref().err())),
-        ("Autonomous", reason(structure.autonomous.as_ref().err())),
-    ];
-    for (marker, due) in due {
-        let found = description.missing.iter().find(|one| one.marker == marker);
-        let found = found.map(|one| one.message.to_string());
-        let is_later = due.is_none()
-            && matches!(marker, "Split" | "Nystrom")
-            && found
-                .as_ref()
-                .is_some_and(|found| found.contains("definitions at run time"));
-        assert!(
-            is_later || found == due,
-            "{marker} of {text}: {found:?}, {due:?}"
-        );
-    }
-    let due = Described::of(&system.model, structure, &system.text);
-    let names = |name: &str, formula: &str| (name.to_owned(), formula.to_owned());
-    let due: Vec<_> = due
-        .pieces
-        .iter()
-        .map(|of| names(&of.name, &of.formula))
-        .collect();
-    let found = description
-        .pieces
-        .iter()
-        .map(|of| names(&of.name, &of.formula));
-    assert_eq!(found.collect::<Vec<_>>(), due, "{text}");
+/// The markers, the reasons for the others, and the description against those in the code of the macro. A split that only
+/// compiled definitions have is missing for another reason.
+fn compare_statements(text: &str, due: &Statements, made: &RuntimeSystem) {
+    let mut found = Statements::of_system(made.description());
+    found.accept_later(due);
+    assert_eq!(found, *due, "{text}");
 }
 
 /// The functions of a system against the interpreter; returns how many were compared.
@@ -296,7 +276,6 @@ fn compare(text: &str, system: &analyse::System, made: &RuntimeSystem, size: usi
         let mut missing = made.description().missing.iter();
         missing.all(|missing| missing.marker != marker)
     };
-    markers(text, system, made);
     let mut compared = 0;
     for function in &system.program.functions {
         // Inner pieces are compared in runs. Derivatives by parameters are not offered.
@@ -383,20 +362,30 @@ fn compare(text: &str, system: &analyse::System, made: &RuntimeSystem, size: usi
 }
 
 #[test]
-fn functions_have_the_bits_of_the_interpreter() {
+fn definitions_have_the_statements_of_the_macro_and_the_bits_of_the_interpreter() {
     let definitions = definitions();
-    assert!(definitions.len() > 300, "{} definitions", definitions.len());
+    assert!(definitions.len() > 800, "{} definitions", definitions.len());
     let (mut functions, mut systems, mut refused, mut runs) = (0, 0, 0, 0);
     let mut left_out: BTreeMap<String, usize> = BTreeMap::new();
     // The rest belongs to the long sweeps.
     let is_heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
-    for text in definitions.iter().step_by(if is_heavy { 1 } else { 3 }) {
-        let (made, due) = (Definition::parse(text, "text"), analysed(text));
-        assert_eq!(made.is_ok(), due.is_some(), "{text}");
-        let (Ok(definition), Some(due)) = (made, due) else {
-            refused += 1;
-            continue;
+    for text in definitions.iter().step_by(if is_heavy { 1 } else { 6 }) {
+        let mut report = Report::default();
+        let by_macro = read_by_macro(text, &mut report);
+        let (definition, (checked, analysis)) = match (Definition::parse(text, "text"), by_macro) {
+            (Ok(made), Some(by_macro)) => (made, by_macro),
+            (Err(errors), None) => {
+                let due = report.errors().iter().map(|error| error.text());
+                let found = errors.list().iter();
+                let found = found.map(|error| format!("{}\nhelp: {}", error.message, error.help));
+                assert_eq!(found.collect::<Vec<_>>(), due.collect::<Vec<_>>(), "{text}");
+                refused += 1;
+                continue;
+            }
+            (made, _) => panic!("{made:?}: {text}"),
         };
+        let statements = stated(&checked, &analysis);
+        let due = analysis.whole;
         // Loops of 32 iterations and more sum in trees.
         for size in [SIZE, 37] {
             if size != SIZE && due.model.sizes.is_empty() {
@@ -404,6 +393,7 @@ fn functions_have_the_bits_of_the_interpreter() {
             }
             match system_of(&definition, values(&due, size)) {
                 Ok(made) => {
+                    compare_statements(text, &statements, &made);
                     functions += compare(text, &due, &made, size);
                     runs += usize::from(compare_steps(text, &made));
                     systems += 1;
@@ -426,7 +416,7 @@ fn functions_have_the_bits_of_the_interpreter() {
         "{systems} systems, {functions} functions, {runs} runs, {refused} refused, left out: {left_out:?}"
     );
     assert!(
-        systems > 90 && functions > 700 && runs > 60,
+        systems > 150 && functions > 1000 && runs > 100,
         "{systems}, {functions}, {runs}"
     );
     let known = ["the function", "second derivatives"];
@@ -446,4 +436,27 @@ fn another_number_has_other_bits() {
         .expect("it has all");
     let differs = std::panic::catch_unwind(|| compare(text, &due, &made, SIZE));
     assert!(differs.is_err());
+}
+
+#[test]
+fn another_structure_has_other_statements() {
+    let text = "struct Spring { k = 1.0 } H(q; p) = p^2/2 + k*q^4";
+    let (checked, analysis) = read_by_macro(text, &mut Report::default()).expect("it is one");
+    let due = stated(&checked, &analysis);
+    for (other, is_equal) in [
+        (text.to_owned(), true),
+        // The force, the coupling and the time take markers; the pieces have other formulas and names.
+        (format!("{text} + q*p^3"), false),
+        (format!("{text}; force(q; p) = -p"), false),
+        (text.replace("(q; p)", "(q; p; t)") + "*cos(t)", false),
+        (text.replace("q^4", "q^6"), false),
+        (format!("{text}; split {{ T = p^2/2; V = k*q^4 }}"), false),
+        (format!("{text}; invariant total = p^2/2 + k*q^4"), false),
+    ] {
+        let definition =
+            Definition::parse(&other, "text").unwrap_or_else(|errors| panic!("{errors}"));
+        let made = definition.system(Values::new()).expect("it has all");
+        let found = Statements::of_system(made.description());
+        assert_eq!(found == due, is_equal, "{other}");
+    }
 }

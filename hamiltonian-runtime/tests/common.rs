@@ -15,38 +15,50 @@ pub fn root() -> PathBuf {
 /// The definitions of all calls of `hamiltonian!` in examples, tests, benchmarks and the book, and those that the tests of the
 /// macro accept, each once.
 pub fn definitions() -> Vec<String> {
-    let mut found = Vec::new();
-    for folder in ["examples", "tests", "benches", "book/src"] {
-        for file in files(&root().join(folder)) {
-            let text = || fs::read_to_string(&file).expect("it can be read");
-            match file.extension().and_then(|extension| extension.to_str()) {
-                Some("rs") => calls(text().parse().expect("it is Rust"), &mut found),
-                Some("md") => {
-                    for listing in listings(&text()) {
-                        calls(listing.parse().expect("it is Rust"), &mut found);
-                    }
-                }
-                _ => {}
-            }
-        }
-    }
-    let accepted = root().join("hamiltonian-macros/src/tests/accepted.rs");
-    let accepted = fs::read_to_string(accepted).expect("it can be read");
-    literals(accepted.parse().expect("it is Rust"), &mut found);
+    let folders = ["examples", "tests", "benches", "book/src"].map(|folder| root().join(folder));
+    let mut found = of_files(folders.iter().flat_map(|folder| files(folder, true)));
     let mut known = HashSet::new();
     found.retain(|text| known.insert(text.clone()));
     found
 }
 
-/// The files of a folder and of those in it, in the order of their names.
-fn files(folder: &Path) -> Vec<PathBuf> {
+/// Those of the files that are directly in the folders of examples and tests, where no expression is made at random.
+pub fn written_definitions() -> Vec<String> {
+    let folders = ["examples", "tests"].map(|folder| root().join(folder));
+    of_files(folders.iter().flat_map(|folder| files(folder, false)))
+}
+
+/// The definitions of files, and those that the tests of the macro accept.
+fn of_files(files: impl Iterator<Item = PathBuf>) -> Vec<String> {
+    let mut found = Vec::new();
+    for file in files {
+        let text = || fs::read_to_string(&file).expect("it can be read");
+        match file.extension().and_then(|extension| extension.to_str()) {
+            Some("rs") => calls(text().parse().expect("it is Rust"), &mut found),
+            Some("md") => {
+                for listing in listings(&text()) {
+                    calls(listing.parse().expect("it is Rust"), &mut found);
+                }
+            }
+            _ => {}
+        }
+    }
+    let accepted = root().join("hamiltonian-macros/src/tests/accepted.rs");
+    let accepted = fs::read_to_string(accepted).expect("it can be read");
+    literals(accepted.parse().expect("it is Rust"), &mut found);
+    found
+}
+
+/// The files of a folder, and with `is_deep` of those in it, in the order of their names.
+fn files(folder: &Path, is_deep: bool) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("it can be listed");
     let mut entries: Vec<PathBuf> = entries
         .map(|entry| entry.expect("it can be listed").path())
         .collect();
     entries.sort();
     let each = entries.into_iter().map(|path| match path.is_dir() {
-        true => files(&path),
+        true if is_deep => files(&path, true),
+        true => Vec::new(),
         false => vec![path],
     });
     each.flatten().collect()

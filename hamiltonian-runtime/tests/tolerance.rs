@@ -3,7 +3,7 @@
 //! Input: the definitions of the repository, each from several starts. Output: a panic if a run neither reaches its end
 //! nor has an error, or ends with a number that is not finite.
 
-use crate::common::{definitions, numbers};
+use crate::common::{numbers, written_definitions};
 use crate::corpus::{SIZE, analysed, values};
 use hamiltonian::errors::Error;
 use hamiltonian::nalgebra::DVector;
@@ -43,7 +43,7 @@ fn end(system: &RuntimeSystem, seed: usize) -> Result<(), Error> {
 fn a_tolerance_leads_to_the_end_or_to_an_error() {
     let is_heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
     let wanted = if is_heavy { 1000 } else { 30 };
-    let definitions = definitions();
+    let definitions = written_definitions();
     let mut order: Vec<usize> = (0..definitions.len()).collect();
     let mut next = numbers(11);
     let [mut reached, mut failed] = [0, 0];

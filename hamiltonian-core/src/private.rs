@@ -497,6 +497,8 @@ macro_rules! __halves {
     };
     (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Separable for $system {
+            const JUMPS: $crate::private::Option<[$crate::private::bool; 2]> =
+                $crate::private::Option::Some(__DESCRIPTION.jumps);
             type Kick<T: $crate::private::Real> = $kick;
             #[inline(always)]
             fn kick<T: $crate::private::Real>() -> $kick {

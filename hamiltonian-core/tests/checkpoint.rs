@@ -135,10 +135,9 @@ fn another_run_is_refused() {
     assert_eq!(other(found).as_deref(), Some("scheme"));
     assert_eq!(few.entry(), many.entry());
     // A variant alone says nothing without the name of its scheme.
-    let pair = [StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift];
     let start = State::new([0.3], [0.1]);
-    let run = Integrator::new(&system, pair[0], start, 0.01).unwrap();
-    let found = Integrator::resume(&system, pair[1], run.checkpoint());
+    let run = Integrator::new(&system, StormerVerlet::KickDriftKick, start, 0.01).unwrap();
+    let found = Integrator::resume(&system, StormerVerlet::DriftKickDrift, run.checkpoint());
     assert_eq!(
         found.unwrap_err().to_string(),
         "the saved run has another scheme: saved `StormerVerlet (kick-drift-kick)`, given \

@@ -36,13 +36,13 @@ pub fn is(order: f64, slope: f64) {
 fn yoshidas_composition_of_a_symmetric_scheme_has_order_4() {
     let (q, p) = (&[1.1][..], &[0.7][..]);
     let relativistic = Hand(Relativistic);
-    for verlet in [StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift] {
-        is(2.0, slope(&relativistic, verlet, q, p));
-        is(
-            4.0,
-            slope(&relativistic, Composition::yoshida(verlet), q, p),
-        );
+    macro_rules! of_both_orders {
+        ($($verlet:expr),+) => {$(
+            is(2.0, slope(&relativistic, $verlet, q, p));
+            is(4.0, slope(&relativistic, Composition::yoshida($verlet), q, p));
+        )+};
     }
+    of_both_orders!(StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift);
     let midpoint = Composition::yoshida(ImplicitMidpoint::default());
     is(4.0, slope(&relativistic, midpoint, q, p));
     is(4.0, slope(&Hand(Paper34), midpoint, &[0.9], &[0.4]));

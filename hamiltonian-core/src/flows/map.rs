@@ -11,6 +11,7 @@
 use crate::systems::flow::Scratch;
 use crate::systems::state::Carried;
 use crate::systems::vector::Vector;
+use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 
 /// The scalar of the value that a map carries.
@@ -269,26 +270,59 @@ impl<T: Real> Clock<T> {
     }
 }
 
-/// One of two maps, between which a scheme chooses at run time. The choice is made once per block of steps.
+/// One of two maps, between which a scheme chooses at run time, or by `C` when a program is compiled. The choice is made
+/// once per block of steps.
 #[derive(Debug, Clone)]
-pub enum Either<A, B> {
+pub enum Either<A, B, C = AtRunTime> {
     /// The first.
     First(A),
     /// The second.
-    Second(B),
+    Second(B, PhantomData<C>),
+}
+
+impl<A, B, C> Either<A, B, C> {
+    /// Makes the second map.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    pub(crate) fn second(map: B) -> Self {
+        Either::Second(map, PhantomData)
+    }
+}
+
+/// What the type of a map says about its choice between two. No code is compiled for a map that is never chosen.
+pub trait Choice {
+    /// `Some(true)` if the first map is always chosen, `Some(false)` if the second is, `None` if that is known at run time
+    /// alone.
+    const IS_FIRST: Option<bool>;
+    /// True if the first map may be chosen.
+    const MAY_BE_FIRST: bool = !matches!(Self::IS_FIRST, Some(false));
+    /// True if the second map may be chosen.
+    const MAY_BE_SECOND: bool = !matches!(Self::IS_FIRST, Some(true));
+}
+
+/// A choice that is made at run time.
+#[derive(Debug, Clone)]
+pub struct AtRunTime;
+
+impl Choice for AtRunTime {
+    const IS_FIRST: Option<bool> = None;
 }
 
 /// Calls the same method of the chosen map.
 macro_rules! either {
-    ($self:ident.$method:ident($($argument:expr),*; $work:ident)) => {
+    ($self:ident.$method:ident($($argument:expr),* $(; $work:ident)?)) => {
         match $self {
-            Either::First(map) => map.$method($($argument),*, &mut $work.0),
-            Either::Second(map) => map.$method($($argument),*, &mut $work.1),
+            Either::First(map) if const { C::MAY_BE_FIRST } => {
+                map.$method($($argument),* $(, &mut $work.0)?)
+            }
+            Either::Second(map, _) if const { C::MAY_BE_SECOND } => {
+                map.$method($($argument),* $(, &mut $work.1)?)
+            }
+            _ => unreachable!("a map that is never chosen"),
         }
     };
 }
 
-impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
+impl<A: Map, B: Map<Carried = A::Carried>, C: Choice> Map for Either<A, B, C> {
     type Carried = A::Carried;
     /// The scratch of the first map, and of the second.
     type Work = (A::Work, B::Work);
@@ -307,10 +341,7 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn closing(&self) -> [bool; 2] {
-        match self {
-            Either::First(map) => map.closing(),
-            Either::Second(map) => map.closing(),
-        }
+        either!(self.closing())
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn join(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
@@ -350,9 +381,9 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
         either!(self.join_and_close(t, z, copy, closes; work));
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn go_on<C: Times<ScalarOf<A>>>(
+    fn go_on<K: Times<ScalarOf<A>>>(
         &self,
-        times: &C,
+        times: &K,
         made: u64,
         end: u64,
         z: &mut A::Carried,

@@ -206,7 +206,7 @@ where
         if stages.iter().all(|stage| stage.joins) {
             Either::First(Composed { stages })
         } else {
-            Either::Second(Composed { stages })
+            Either::second(Composed { stages })
         }
     }
     fn start<T: Real>(

@@ -138,7 +138,7 @@ impl<S: System + Unforced> Scheme<S> for Pihajoki {
                 Either::First(Zigzag::new(&Strang, &(second, first), prepared, step))
             }
             Pihajoki::MomentumFirst => {
-                Either::Second(Zigzag::new(&Strang, &(first, second), prepared, step))
+                Either::second(Zigzag::new(&Strang, &(first, second), prepared, step))
             }
         }
     }

@@ -6,10 +6,12 @@
 use super::splitting::{Durations, Splitting, Weight};
 use super::strang::Strang;
 use super::zigzag::{Zigzag, ZigzagOf};
-use crate::flows::map::{Either, Step};
+use crate::flows::map::{Choice, Either, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::systems::state::{Point, State};
 use crate::systems::system::{Description, Dynamics, Separable, VectorOf};
+use core::fmt::{self, Debug};
+use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 
 /// Störmer–Verlet (leapfrog): order 2, symplectic, time-reversible; equations (27).
@@ -45,78 +47,111 @@ use hamiltonian_lanes::Real;
 /// assert!((end.q[0] - 1.0_f64.cos()).abs() < 5e-6);
 /// # Ok::<(), Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum StormerVerlet {
-    /// Kick, drift, kick: (27d–f).
-    #[default]
-    KickDriftKick,
-    /// Drift, kick, drift: (27a–c).
-    DriftKickDrift,
+///
+/// The order is part of the type, so that a program contains the one that it names.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct StormerVerlet<const KICK_FIRST: bool = true>(());
+
+/// The order kick, drift, kick.
+impl Default for StormerVerlet {
+    fn default() -> Self {
+        StormerVerlet::KickDriftKick
+    }
 }
 
-impl Listed for StormerVerlet {
+#[expect(
+    non_upper_case_globals,
+    reason = "they are used as the variants of an enum"
+)]
+impl StormerVerlet {
+    /// Kick, drift, kick: (27d–f). This is the default.
+    pub const KickDriftKick: Self = StormerVerlet(());
+}
+
+#[expect(
+    non_upper_case_globals,
+    reason = "they are used as the variants of an enum"
+)]
+impl StormerVerlet<false> {
+    /// Drift, kick, drift: (27a–c).
+    pub const DriftKickDrift: Self = StormerVerlet(());
+}
+
+/// The name of the order.
+impl<const KICK_FIRST: bool> Debug for StormerVerlet<KICK_FIRST> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match KICK_FIRST {
+            true => "KickDriftKick",
+            false => "DriftKickDrift",
+        })
+    }
+}
+
+impl<const KICK_FIRST: bool> Listed for StormerVerlet<KICK_FIRST> {
     fn entry(&self) -> Entry {
-        const KICK_FIRST: Entry = Entry {
+        let (variant, equations) = match KICK_FIRST {
+            true => ("kick-drift-kick", "27d-f"),
+            false => ("drift-kick-drift", "27a-c"),
+        };
+        Entry {
             name: "StormerVerlet",
-            variant: "kick-drift-kick",
-            equations: "27d-f",
+            variant,
+            equations,
             order: 2,
             duration: 1,
             needs: Needs::SEPARABLE,
             preserves: Form::OnePoint,
             source: "Verlet 1967, eq. 4, doi:10.1103/PhysRev.159.98",
-        };
-        match self {
-            StormerVerlet::KickDriftKick => KICK_FIRST,
-            StormerVerlet::DriftKickDrift => Entry {
-                variant: "drift-kick-drift",
-                equations: "27a-c",
-                ..KICK_FIRST
-            },
         }
     }
 }
 
-impl StormerVerlet {
-    /// The order on a system: a piece that jumps in time is not first.
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn on(self, system: &Description) -> Self {
-        match system.jumps {
-            [true, false] => StormerVerlet::DriftKickDrift,
-            [false, true] => StormerVerlet::KickDriftKick,
-            _ => self,
-        }
+/// Returns true if a step begins with the kick: a piece that jumps in time is not first.
+const fn is_kick_first(kick_first: bool, jumps: [bool; 2]) -> bool {
+    match jumps {
+        [true, false] => false,
+        [false, true] => true,
+        _ => kick_first,
     }
 }
 
-impl<S: Separable> Scheme<S> for StormerVerlet {
+/// The order of [`StormerVerlet`] on `S`, as far as types decide it.
+#[derive(Debug, Clone)]
+pub struct OrderOn<S, const KICK_FIRST: bool>(PhantomData<S>);
+
+impl<S: Separable, const KICK_FIRST: bool> Choice for OrderOn<S, KICK_FIRST> {
+    const IS_FIRST: Option<bool> = match S::JUMPS {
+        Some(jumps) => Some(is_kick_first(KICK_FIRST, jumps)),
+        None => None,
+    };
+}
+
+impl<S: Separable, const KICK_FIRST: bool> Scheme<S> for StormerVerlet<KICK_FIRST> {
     type Carried = Point<S::Shape>;
     type Map<T: Real> = Either<
         ZigzagOf<T, S, (S::Kick<T>, S::Drift<T>), Strang>,
         ZigzagOf<T, S, (S::Drift<T>, S::Kick<T>), Strang>,
+        OrderOn<S, KICK_FIRST>,
     >;
     fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
         let [kick, drift] = of.jumps;
-        match self.on(of) {
-            StormerVerlet::KickDriftKick => Strang.times_on([kick, drift]),
-            StormerVerlet::DriftKickDrift => Strang.times_on([drift, kick]),
+        match is_kick_first(KICK_FIRST, of.jumps) {
+            true => Strang.times_on([kick, drift]),
+            false => Strang.times_on([drift, kick]),
         }
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
-        match self.on(prepared.description()) {
-            StormerVerlet::KickDriftKick => Either::First(Zigzag::new(
-                &Strang,
-                &(S::kick::<T>(), S::drift::<T>()),
-                prepared,
-                step,
-            )),
-            StormerVerlet::DriftKickDrift => Either::Second(Zigzag::new(
-                &Strang,
-                &(S::drift::<T>(), S::kick::<T>()),
-                prepared,
-                step,
-            )),
+        // No code is compiled for an order that the type excludes.
+        if const { !OrderOn::<S, KICK_FIRST>::MAY_BE_SECOND }
+            || const { OrderOn::<S, KICK_FIRST>::MAY_BE_FIRST }
+                && is_kick_first(KICK_FIRST, prepared.description().jumps)
+        {
+            let pieces = (S::kick::<T>(), S::drift::<T>());
+            Either::First(Zigzag::new(&Strang, &pieces, prepared, step))
+        } else {
+            let pieces = (S::drift::<T>(), S::kick::<T>());
+            Either::second(Zigzag::new(&Strang, &pieces, prepared, step))
         }
     }
     fn start<T: Real>(
@@ -129,7 +164,7 @@ impl<S: Separable> Scheme<S> for StormerVerlet {
     }
 }
 
-symmetric!(StormerVerlet);
+symmetric!(StormerVerlet<KICK_FIRST>, const KICK_FIRST: bool);
 
 /// Symplectic Euler: order 1, symplectic; one kick and one drift a step.
 ///

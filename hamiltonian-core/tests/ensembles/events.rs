@@ -41,11 +41,18 @@ fn sought(member: Member) -> Events<hamiltonian::private::SVector<f64, 1>> {
 #[test]
 #[ignore = "many steps: `.ci/run` makes them"]
 fn events_of_members_are_those_of_single_runs() {
+    // Long steps: functions come near 0 and turn within two of them. Closing pieces move momenta, or coordinates.
+    events_are_those_of_single_runs(StormerVerlet::KickDriftKick, [0.03, 0.9]);
+    events_are_those_of_single_runs(StormerVerlet::DriftKickDrift, [0.7, -0.2]);
+}
+
+fn events_are_those_of_single_runs<const KICK_FIRST: bool>(
+    scheme: StormerVerlet<KICK_FIRST>,
+    steps: [f64; 2],
+) {
     // More than the lanes of a level, and not a multiple of them.
     const COUNT: usize = 67;
-    // Long steps: functions come near 0 and turn within two of them. Closing pieces move momenta, or coordinates.
-    let (kicks, drifts) = (StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift);
-    for (scheme, step) in [(kicks, 0.03), (kicks, 0.9), (drifts, 0.7), (drifts, -0.2)] {
+    for step in steps {
         // Single runs find the same on every level.
         let single: Vec<_> = (0..COUNT)
             .map(|index| {
@@ -89,22 +96,22 @@ fn closing_pieces_and_observables_are_of_the_halves_they_name() {
         [[false, true], [true, false]]
     );
     let prepared = System::prepare::<f64>(&system);
-    for (scheme, moves) in [
-        (StormerVerlet::KickDriftKick, [false, true]),
-        (StormerVerlet::DriftKickDrift, [true, false]),
-    ] {
-        let map = Scheme::<Pendulum>::prepare(&scheme, &prepared, Step::of(0.1));
-        let mut carried = Scheme::<Pendulum>::start(&scheme, &prepared, &start, 0.1);
-        let mut work = Scratch::like(&carried);
-        map.step(0.0, 0.1, &mut carried, &mut work);
-        let before = carried.clone();
-        map.close(0.1, &mut carried, &mut work);
-        assert_eq!(map.closing(), moves, "{scheme:?}");
-        assert_eq!(
-            [carried.q != before.q, carried.p != before.p],
-            moves,
-            "{scheme:?}"
-        );
+    macro_rules! moves {
+        ($($scheme:expr => $moves:expr),+ $(,)?) => {$(
+            let (scheme, moves) = ($scheme, $moves);
+            let map = Scheme::<Pendulum>::prepare(&scheme, &prepared, Step::of(0.1));
+            let mut carried = Scheme::<Pendulum>::start(&scheme, &prepared, &start, 0.1);
+            let mut work = Scratch::like(&carried);
+            map.step(0.0, 0.1, &mut carried, &mut work);
+            let before = carried.clone();
+            map.close(0.1, &mut carried, &mut work);
+            assert_eq!(map.closing(), moves, "{scheme:?}");
+            assert_eq!([carried.q != before.q, carried.p != before.p], moves, "{scheme:?}");
+        )+};
+    }
+    moves! {
+        StormerVerlet::KickDriftKick => [false, true],
+        StormerVerlet::DriftKickDrift => [true, false],
     }
 }
 

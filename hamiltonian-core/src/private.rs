@@ -38,7 +38,7 @@ pub use crate::flows::emitted::{
     Whole, WithData, add_field, gradient_by_field, hessian_by_gradient, slopes_by_kick,
     velocities_by_drift,
 };
-pub use crate::flows::exponential::Exponential;
+pub use crate::flows::exponential::{Exponential, exponentiate, image, raised};
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
 /// For maps of other crates.
 pub use crate::flows::map::Times;

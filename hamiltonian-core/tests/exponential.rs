@@ -1,7 +1,7 @@
 //! Exponentials of quadratic forms: lanes by themselves, and the digits of short steps.
 
 use crate::common::four::Four;
-use hamiltonian_core::private::{Exponential, SVector};
+use hamiltonian_core::private::{Exponential, SVector, raised};
 use hamiltonian_core::{
     Real,
     schemes::author::{Flow, Point},
@@ -27,7 +27,7 @@ impl<T: Real> Flow<Point<SVector<T, 1>>> for Rates<T> {
 
 fn exponential<T: Real>(c: T) -> Exponential<Rates<T>, T, 2> {
     let zero = SVector::from([T::zero()]);
-    let rates = Rates(Exponential::<Rates<T>, T, 2>::raised(c));
+    let rates = Rates(raised(c));
     Exponential::new(&rates, &Point { q: zero, p: zero })
 }
 

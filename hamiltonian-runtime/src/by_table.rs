@@ -4,10 +4,10 @@
 //! take a splitting. Invariant: a step applies the same flows in the same order as the scheme of the type, so the bits are
 //! the same; the map is compiled once.
 
+use crate::beside::PartWork;
 use crate::cycle::{Cycle, CycleFrame};
 use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
-use crate::pushing::PartWork;
 use crate::system::{RuntimePieces, RuntimeSystem};
 use hamiltonian_core::private::Times;
 use hamiltonian_core::schemes::author::{

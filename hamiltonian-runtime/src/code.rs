@@ -33,6 +33,17 @@ pub(crate) enum Part {
     Piece(usize),
 }
 
+/// The kind of the flow of a piece of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FlowKind {
+    /// The side that it reads, if it moves the other one alone.
+    pub(crate) one_way: Option<Side>,
+    /// Its function from the last term to the first, if terms do not commute.
+    pub(crate) backward: Option<Arc<FunctionCode>>,
+    /// True if the function adds rates, whose matrix is exponentiated.
+    pub(crate) is_exponential: bool,
+}
+
 /// The purposes that steps ask for.
 const OFTEN: [Purpose; 9] = [
     Purpose::Energy,
@@ -79,8 +90,8 @@ pub(crate) struct Code {
     pub(crate) vectors: Vec<VectorUse>,
     /// The pieces of `Split`, the outermost first; none if it is missing.
     pub(crate) pieces: Vec<Part>,
-    /// Of each piece of the model the side that its flow reads, if it moves the other one alone.
-    pub(crate) one_way: Vec<Option<Side>>,
+    /// Of each piece of the model the kind of its flow.
+    pub(crate) flows: Vec<FlowKind>,
     /// Those of `Nystrom`: the kick, and the piece that is at most quadratic in the momenta.
     pub(crate) nystrom: Option<[Part; 2]>,
 }
@@ -124,12 +135,18 @@ impl Code {
         let functions = functions.map(|(purpose, code)| (purpose, Arc::new(code)));
         let functions: Vec<_> = functions.collect();
         let halves = [Purpose::GradientQ, Purpose::GradientP];
-        let (pieces, split) = pieces(model, structure);
-        let (nystrom, nystrom_missing) = nystrom(structure, &pieces);
-        let one_way = |number: usize| {
-            let function = program.function(Purpose::Piece(number as u16))?;
-            program.one_way(function)
+        let flow_kind = |(number, piece): (usize, &model::Piece)| {
+            let purpose = Purpose::Piece(number as u16);
+            let function = program.function(purpose);
+            let code = position(&functions, purpose).map(|at| &functions[at].1);
+            let backward = code.filter(|_| !piece.flow.merges());
+            FlowKind {
+                one_way: function.and_then(|function| program.one_way(function)),
+                backward: backward.map(|code| Arc::new(code.reversed())),
+                is_exponential: piece.flow == ExactFlow::Exponential,
+            }
         };
+        let flow_kinds = model.pieces.iter().enumerate().map(flow_kind).collect();
         let described = Described::of(model, structure, &system.text);
         let mut description = description(model, structure, described, &places);
         let mut lack = |marker: &'static str, reason: Option<Reason>| {
@@ -142,8 +159,8 @@ impl Code {
             description.missing.to_mut().extend(missing);
         };
         lack("Separable", structure.separable.clone().err());
-        lack("Split", split);
-        lack("Nystrom", nystrom_missing);
+        lack("Split", structure.split.clone().err());
+        lack("Nystrom", structure.nystrom.clone().err());
         lack(
             "QuadraticKinetic",
             structure.quadratic_kinetic.clone().err(),
@@ -168,9 +185,13 @@ impl Code {
             vectors: model.vectors.iter().map(|vector| vector.usage).collect(),
             declared: declared.map(|declared| Declared::of(declared, &coordinates, sizes)),
             coordinates,
-            pieces,
-            one_way: (0..model.pieces.len()).map(one_way).collect(),
-            nystrom,
+            pieces: pieces(model, structure),
+            flows: flow_kinds,
+            nystrom: match &structure.nystrom {
+                Err(_) => None,
+                Ok(Nystrom::Halves) => Some([Part::Kick, Part::Drift]),
+                Ok(Nystrom::Pieces(numbers)) => Some(numbers.map(Part::Piece)),
+            },
             places,
         })
     }
@@ -183,7 +204,11 @@ impl Code {
 
     /// True if flows of a part for two durations are the flow for their sum.
     pub(crate) fn merges(&self, part: Part) -> bool {
-        part != Part::Kick || self.kick != Some(Kick::SubStep)
+        match part {
+            Part::Kick => self.kick != Some(Kick::SubStep),
+            Part::Drift => true,
+            Part::Piece(number) => self.flows[number].backward.is_none(),
+        }
     }
 
     /// The function of a purpose.
@@ -302,57 +327,20 @@ fn of_function(
     Ok((code, flow))
 }
 
-/// The reason for what compiled definitions alone have.
-fn later(what: &str) -> Reason {
-    Reason {
-        message: format!("{what} is not there for definitions at run time"),
-        label: "needs it".to_owned(),
-        note: "compile the definition with `hamiltonian!`, or use a scheme for any H: `Gauss`, `ImplicitMidpoint`"
-            .to_owned(),
-    }
-}
-
-/// The pieces of the splitting, or the reason against one.
-fn pieces(model: &Model, structure: &Verdicts) -> (Vec<Part>, Option<Reason>) {
-    if let Err(reason) = &structure.split {
-        return (Vec::new(), Some(reason.clone()));
+/// The pieces of the splitting; none if there is no splitting.
+fn pieces(model: &Model, structure: &Verdicts) -> Vec<Part> {
+    if structure.split.is_err() {
+        return Vec::new();
     }
     if model.pieces.is_empty() {
-        let mut halves = vec![Part::Kick, Part::Drift];
-        if structure.is_drift_first() {
-            halves.reverse();
-        }
-        return (halves, None);
+        return match structure.is_drift_first() {
+            true => vec![Part::Drift, Part::Kick],
+            false => vec![Part::Kick, Part::Drift],
+        };
     }
-    for piece in &model.pieces {
-        let name = &piece.name;
-        if !piece.flow.merges() {
-            let what = format!("the piece `{name}`, whose terms do not commute,");
-            return (Vec::new(), Some(later(&what)));
-        }
-        if piece.flow == ExactFlow::Exponential {
-            let what = format!("the matrix exponential of the piece `{name}`");
-            return (Vec::new(), Some(later(&what)));
-        }
-    }
-    let mut all: Vec<Part> = (0..model.pieces.len()).map(Part::Piece).collect();
-    if structure.is_forced_apart() {
-        all.push(Part::Kick);
-    }
-    (all, None)
-}
-
-/// The two pieces of Nyström schemes, or the reason against them.
-fn nystrom(structure: &Verdicts, pieces: &[Part]) -> (Option<[Part; 2]>, Option<Reason>) {
-    match &structure.nystrom {
-        Err(reason) => (None, Some(reason.clone())),
-        Ok(_) if pieces.is_empty() => {
-            let missing = "the splitting of this H";
-            (None, Some(later(missing)))
-        }
-        Ok(Nystrom::Halves) => (Some([Part::Kick, Part::Drift]), None),
-        Ok(Nystrom::Pieces(numbers)) => (Some(numbers.map(Part::Piece)), None),
-    }
+    let kick = structure.is_forced_apart().then_some(Part::Kick);
+    let numbers = 0..model.pieces.len();
+    numbers.map(Part::Piece).chain(kick).collect()
 }
 
 fn description(

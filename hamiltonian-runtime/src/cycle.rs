@@ -126,7 +126,7 @@ impl<T: Real> Cycle<T> {
             inner.0.first()?;
             let inner = inner.0.iter().map(|flow| (flow, inner_at));
             for (flow, at) in inner.chain([(outer, outer_at)]) {
-                if flow.pushing.is_some() {
+                if flow.beside.is_some() || flow.backward.is_some() {
                     return None;
                 }
                 let function = flow.folded.function.clone()?;

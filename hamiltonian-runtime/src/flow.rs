@@ -3,17 +3,21 @@
 //! Input: a prepared system and a coefficient. Output: [`Field`], [`PartFlow`], and [`Pieces`] of a splitting. Invariant:
 //! the numbers of the coefficient are computed when a flow is made; nothing allocates when it moves a point.
 
+use crate::beside::{Beside, PartWork};
 use crate::code::Part;
 use crate::folded::Folded;
 use crate::machine::{Arrays, Home};
+use crate::matrix::Matrix;
+use crate::op::FunctionCode;
 use crate::prepared::{Flat, Prepared, at};
-use crate::pushing::{PartWork, Pushing};
 use hamiltonian_core::Vector;
-use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, VectorField};
+use hamiltonian_core::private::raised;
+use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, Scratch, VectorField};
 use hamiltonian_lanes::Real;
 use hamiltonian_language::analyse::structure::FieldSource;
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::program::Purpose;
+use std::sync::Arc;
 
 /// The vector field of a system that is defined at run time, scaled by a step coefficient.
 #[derive(Debug, Clone)]
@@ -69,26 +73,58 @@ pub struct PartFlow<T: Real> {
     /// The side that is read, if the other one alone moves.
     one_way: Option<Side>,
     pub(crate) folded: Folded<T>,
-    /// The part of a kick that reads momenta, before the rest.
-    pub(crate) pushing: Option<Pushing<T>>,
+    /// What moves the point before.
+    pub(crate) beside: Option<Beside<T>>,
+    /// The function with loops from their last iteration to the first, if their terms do not commute.
+    pub(crate) backward: Option<Arc<FunctionCode>>,
 }
 
 impl<T: Real> PartFlow<T> {
     pub(crate) fn new(prepared: &Prepared<T>, part: Part, c: T) -> Self {
+        let mut flow = PartFlow::of_function(prepared, part, c);
+        match part {
+            Part::Kick => flow.beside = Beside::of_kick(prepared, c),
+            Part::Piece(number) if prepared.code.flows[number].is_exponential => {
+                let rates = PartFlow::of_function(prepared, part, raised(c));
+                let mut work = None;
+                let matrix = Matrix::new(prepared.code.places.len, |point| {
+                    let work = work.get_or_insert_with(|| PartWork::like(point));
+                    rates.apply(T::zero(), point, work);
+                });
+                flow.beside = Some(Beside::Exponential(matrix));
+                flow.folded.function = None;
+            }
+            Part::Drift | Part::Piece(_) => {}
+        }
+        flow
+    }
+
+    /// What the function of a part does.
+    fn of_function(prepared: &Prepared<T>, part: Part, c: T) -> Self {
+        let of_piece = match part {
+            Part::Piece(number) => Some(&prepared.code.flows[number]),
+            Part::Kick | Part::Drift => None,
+        };
         PartFlow {
             prepared: prepared.clone(),
             part,
             one_way: match part {
                 Part::Kick => Some(Side::Q),
                 Part::Drift => Some(Side::P),
-                Part::Piece(number) => prepared.code.one_way[number],
+                Part::Piece(_) => of_piece.and_then(|flow| flow.one_way),
             },
             folded: Folded::new(prepared, PartFlow::<T>::purpose(part), c),
-            pushing: match part {
-                Part::Kick => Pushing::new(prepared, c),
-                Part::Drift | Part::Piece(_) => None,
-            },
+            beside: None,
+            backward: of_piece.and_then(|flow| flow.backward.clone()),
         }
+    }
+
+    /// The flow with loops from their last iteration to the first.
+    pub(crate) fn reversed(mut self) -> Self {
+        if self.backward.is_some() {
+            std::mem::swap(&mut self.folded.function, &mut self.backward);
+        }
+        self
     }
 
     fn purpose(part: Part) -> Purpose {
@@ -113,9 +149,31 @@ impl<T: Real> Flow<Point<Flat<T>>> for PartFlow<T> {
 
     #[inline(always)]
     fn apply(&self, t: T, x: &mut Point<Flat<T>>, work: &mut PartWork<T>) {
-        if let Some(pushing) = &self.pushing {
-            pushing.apply(&self.prepared, t, x, work);
+        self.apply_by(self.folded.function.as_ref(), t, x, work);
+    }
+
+    #[inline(always)]
+    fn apply_reversed(&self, t: T, x: &mut Point<Flat<T>>, work: &mut PartWork<T>) {
+        let function = self.backward.as_ref().or(self.folded.function.as_ref());
+        self.apply_by(function, t, x, work);
+    }
+}
+
+impl<T: Real> PartFlow<T> {
+    #[inline(always)]
+    fn apply_by(
+        &self,
+        function: Option<&Arc<FunctionCode>>,
+        t: T,
+        x: &mut Point<Flat<T>>,
+        work: &mut PartWork<T>,
+    ) {
+        if let Some(beside) = &self.beside {
+            beside.apply(&self.prepared, t, x, work);
         }
+        let Some(function) = function else {
+            return;
+        };
         let (q, p) = (&mut x.q, &mut x.p);
         let point = Arrays {
             t,
@@ -138,8 +196,9 @@ impl<T: Real> Flow<Point<Flat<T>>> for PartFlow<T> {
                 ..point
             },
         };
-        self.folded
-            .evaluate(&self.prepared, Home::Own(&mut work.registers), arrays);
+        let (home, numbers) = (Home::Own(&mut work.registers), &self.folded.numbers);
+        let prepared = &self.prepared;
+        prepared.evaluate_in(home, function, numbers, arrays, &mut []);
     }
 }
 

@@ -48,6 +48,7 @@
 mod readme {}
 
 mod allocate;
+mod beside;
 mod by_table;
 mod code;
 mod command;
@@ -63,11 +64,11 @@ mod folded;
 mod interleave;
 mod machine;
 mod many;
+mod matrix;
 mod names;
 mod nests;
 mod op;
 mod prepared;
-mod pushing;
 mod run;
 mod schemes;
 mod sizes;
@@ -82,13 +83,13 @@ mod values;
 mod variables;
 mod watching;
 
+pub use beside::PartWork;
 pub use command::command;
 pub use definition::Definition;
 pub use diagnostics::{Diagnostic, Diagnostics, Place};
 pub use error::{RunError, SystemError};
 pub use flow::{Field, Inside, PartFlow};
 pub use prepared::Prepared;
-pub use pushing::PartWork;
 pub use run::{Crossing, FlatState, Run};
 pub use schemes::{NamedScheme, scheme_of_members, schemes};
 pub use swarm::{MemberStates, Swarm};

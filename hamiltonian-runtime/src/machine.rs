@@ -274,8 +274,10 @@ fn derivative_apart<T: Real>(function: &Tabulated, derivative: Derivative, at: [
 /// A loop that runs.
 #[derive(Clone, Copy)]
 struct Frame {
-    start: i64,
-    end: i64,
+    /// The first value of its variable.
+    first: i64,
+    /// The value behind the last one.
+    behind: i64,
     /// True if its sums are trees.
     is_long: bool,
 }
@@ -455,8 +457,8 @@ fn with_loops<T: Real>(
 ) {
     let mut variables = [0_i64; DEPTH];
     let none = Frame {
-        start: 0,
-        end: 0,
+        first: 0,
+        behind: 0,
         is_long: false,
     };
     let mut frames = [none; DEPTH];
@@ -487,7 +489,7 @@ fn with_loops<T: Real>(
                 let level = usize::from(level);
                 let frame = frames[level];
                 let to = match frame.is_long {
-                    true => partial as usize + ((variables[level] - frame.start) % 8) as usize,
+                    true => partial as usize + ((variables[level] - frame.first) % 8) as usize,
                     false => sum as usize,
                 };
                 r[to] += term;
@@ -515,18 +517,22 @@ fn with_loops<T: Real>(
                         }
                     }
                 }
+                let [first, behind] = match of.step < 0 {
+                    true => [end - 1, start - 1],
+                    false => [start, end],
+                };
                 frames[of.level] = Frame {
-                    start,
-                    end,
+                    first,
+                    behind,
                     is_long,
                 };
-                variables[of.level] = start;
+                variables[of.level] = first;
             }
             Op::End(number) => {
                 let of = &stage.loops[number as usize];
                 let frame = frames[of.level];
-                variables[of.level] += 1;
-                if variables[of.level] < frame.end {
+                variables[of.level] += of.step;
+                if variables[of.level] != frame.behind {
                     next = of.body;
                 } else if frame.is_long {
                     for (sum, partial) in &of.trees {

@@ -91,6 +91,7 @@ impl Builder<'_> {
             most: most.unwrap_or(i64::MAX),
             zero,
             trees: trees.clone(),
+            step: 1,
             long,
             body: 0,
             after: 0,

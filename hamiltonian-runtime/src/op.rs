@@ -235,6 +235,8 @@ pub(crate) struct LoopCode {
     pub(crate) zero: Vec<Register>,
     /// Sums with the first of their partial sums, if the loop is innermost and its sums are trees.
     pub(crate) trees: Vec<(Register, Register)>,
+    /// 1, or −1 from the last iteration to the first.
+    pub(crate) step: i64,
     /// The least number of iterations of such trees.
     pub(crate) long: i64,
     /// The operation behind the beginning.
@@ -279,6 +281,15 @@ pub(crate) struct Stage {
     pub(crate) cleared: Vec<(To, usize, usize)>,
 }
 
+impl Stage {
+    /// The same with loops from their last iteration to the first. It has no sums in trees.
+    pub(crate) fn reversed(&self) -> Stage {
+        let mut stage = self.clone();
+        stage.loops.iter_mut().for_each(|of| of.step = -of.step);
+        stage
+    }
+}
+
 /// A function of a system.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct FunctionCode {
@@ -287,6 +298,17 @@ pub(crate) struct FunctionCode {
     pub(crate) evaluation: Stage,
     /// The evaluation in a frame, if it is the flow of a piece and short.
     pub(crate) framed: Option<Framed>,
+}
+
+impl FunctionCode {
+    /// The same with loops from their last iteration to the first, for the numbers that this one folds.
+    pub(crate) fn reversed(&self) -> FunctionCode {
+        FunctionCode {
+            coefficient: Stage::default(),
+            evaluation: self.evaluation.reversed(),
+            framed: None,
+        }
+    }
 }
 
 /// A flow as straight code in a frame, whose registers hold the point and the numbers of all flows.

@@ -316,12 +316,15 @@ impl<T: Real> Pieces<T, Prepared<T>> for RuntimePieces {
             .map(|part| PartFlow::new(prepared, *part, down));
         let turn = match prepared.code.merges(*last) {
             true => vec![PartFlow::new(prepared, *last, down + up)],
-            false => [down, up].map(|c| PartFlow::new(prepared, *last, c)).into(),
+            false => {
+                let [down, up] = [down, up].map(|c| PartFlow::new(prepared, *last, c));
+                vec![down, up.reversed()]
+            }
         };
         let way_up = between
             .iter()
             .rev()
-            .map(|part| PartFlow::new(prepared, *part, up));
+            .map(|part| PartFlow::new(prepared, *part, up).reversed());
         Inside(way_down.chain(turn).chain(way_up).collect())
     }
 

@@ -116,16 +116,6 @@ impl Statements {
         }
     }
 
-    /// Takes from the macro the markers that only compiled definitions have.
-    pub fn accept_later(&mut self, due: &Statements) {
-        for (marker, found) in &mut self.markers {
-            let is_later = |texts: &[String; 3]| texts[0].contains("for definitions at run time");
-            if found.as_ref().is_some_and(is_later) {
-                found.clone_from(&due.markers[marker]);
-            }
-        }
-    }
-
     /// Those of a system at run time.
     pub fn of_system(description: &Description) -> Statements {
         let reason = |marker: &str| {

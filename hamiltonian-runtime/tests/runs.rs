@@ -5,9 +5,11 @@
 
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::Srkn6b;
-use hamiltonian::schemes::author::{Dynamics, Listed};
-use hamiltonian::{Error, Vector};
+use hamiltonian::schemes::author::{Dynamics, Flow, Listed, Pieces, Point, Scratch};
+use hamiltonian::{Error, Split, Vector};
 use hamiltonian_runtime::{Definition, FlatState, Run, RunError, RuntimeSystem, Swarm, Values};
+
+type Flat = hamiltonian::nalgebra::DVector<f64>;
 
 /// The name of a scheme, with the number of its stages.
 fn name_of(scheme: &impl Listed) -> String {
@@ -66,6 +68,20 @@ both!(cloud: pub struct Cloud { n: usize }
     H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n, j in 0..i) { 1/(1 + (q[i] - q[j])^2) });
 both!(switched: pub struct Switched { k = 3.0 }
     H(x, y; u, v) = (u^2 + v^2)/2 + if x > y { k*(x - y)^2/2 } else { sqrt(1 + (x - y)^2) } + atan2(y, 2 + x));
+both!(shifted: pub struct Shifted { n: usize, g = 0.7 }
+    H(q[n]; p[n]) = g*sum(i in 1..n) { q[i]*p[i - 1] });
+both!(between: pub struct Between { n: usize, g = 0.7 }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 } + g*sum(i in 1..n) { q[i]*p[i - 1] } + g*q[0]*p[n - 1]/2
+        + q[n - 1]^2*p[n - 1]/4);
+both!(innermost: pub struct Innermost { n: usize, g = 0.7 }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + q[i]^2/2 } + g*sum(i in 1..n) { q[i]*p[i - 1] - q[i - 1]*p[i] } + sum(i in 0..n) { q[i]^4 });
+both!(outermost: pub struct Outermost { n: usize, g = 0.7 }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + q[i]^4 } + g*sum(i in 1..n) { q[i]*p[i - 1] };
+    split { Sweep = g*sum(i in 1..n) { q[i]*p[i - 1] }; T = sum(i in 0..n) { p[i]^2/2 }; V = sum(i in 0..n) { q[i]^4 } });
+both!(coupled: pub struct Coupled { a = 1.1, b = 2.3, k = 0.4 }
+    H(x, y, z; u, v, w) = (u^2 + a*v^2 + b*w^2)/2 + (x^2 + 2*y^2 + 3*z^2)/2 + k*(x*y + y*z + x*w - z*u) + y + u*v/3);
+both!(trapped: pub struct Trapped { a = 1.1, b = 2.3, k = 0.4 }
+    H(x, y, z; u, v, w) = (u^2 + a*v^2 + b*w^2)/2 + (x^2 + 2*y^2 + 3*z^2)/2 + k*(x*y + y*z + x*w - z*u) + y + u*v/3 + x^4 + y^2*z^2);
 
 /// The end of a compiled run, or its error.
 fn end<S: System, M: Scheme<S>>(
@@ -491,4 +507,87 @@ fn pairs_in_tiles() {
     (own.prepare::<f64>()).gradient_q(0.0, &flat, &zero(), &mut found);
     assert_ne!(due[7], 0.0);
     assert_eq!(found, due);
+}
+
+/// A sweep is the whole of H, the outermost piece, one between others, or the innermost; a matrix exponential is the whole or
+/// the innermost piece.
+#[test]
+fn terms_that_do_not_commute_and_matrices() {
+    for n in [2, 5] {
+        let (q, p): (Vec<f64>, Vec<f64>) = (0..n)
+            .map(|i| (0.3 * f64::sin(i as f64), 0.2 * f64::cos(i as f64)))
+            .unzip();
+        let values = || Values::new().with("n", n);
+        macro_rules! sweeps {
+            ($($name:ident: $system:ident),+) => {$(
+                let system = || $name::$system::new(n).unwrap();
+                agree!(system(), $name::TEXT, values(), BlanesMoan4, q, p, 0.01);
+            )+};
+        }
+        sweeps!(shifted: Shifted, between: Between, innermost: Innermost, outermost: Outermost);
+        // Up is not down: the terms do not commute. Two sites are one term.
+        let system = made(shifted::TEXT, values());
+        let flow = <RuntimeSystem as Split>::pieces::<f64>().outer(&system.prepare::<f64>(), 0.3);
+        let start = || Point {
+            q: Flat::from_column_slice(&q),
+            p: Flat::from_column_slice(&p),
+        };
+        let (mut down, mut up) = (start(), start());
+        let mut work = Scratch::like(&down);
+        flow.apply(0.0, &mut down, &mut work);
+        flow.apply_reversed(0.0, &mut up, &mut work);
+        assert_eq!(down == up, n == 2);
+    }
+    let (q, p) = ([0.3, -0.2, 0.1], [0.1, 0.7, -0.4]);
+    let definition = Definition::parse(coupled::TEXT, "text").unwrap();
+    let mut facts = definition.facts();
+    assert!(facts.any(|fact| fact.contains("(matrix exponential)")));
+    let whole = coupled::Coupled::default();
+    agree!(
+        whole.clone(),
+        coupled::TEXT,
+        Values::new(),
+        BlanesMoan4,
+        q,
+        p,
+        0.1
+    );
+    // Long steps, whose matrices are squared.
+    agree!(whole, coupled::TEXT, Values::new(), BlanesMoan4, q, p, 9.0);
+    let trapped = trapped::Trapped::default();
+    agree!(
+        trapped,
+        trapped::TEXT,
+        Values::new(),
+        BlanesMoan4,
+        q,
+        p,
+        0.05
+    );
+    let systems: Vec<RuntimeSystem> = (0..9)
+        .map(|k| {
+            made(
+                trapped::TEXT,
+                Values::new().with("k", 0.1 + 0.05 * f64::from(k)),
+            )
+        })
+        .collect();
+    let mut swarm = Swarm::new(
+        &systems,
+        "BlanesMoan4",
+        &q.repeat(9),
+        &p.repeat(9),
+        0.0,
+        0.05,
+    )
+    .unwrap();
+    swarm.advance(200).unwrap();
+    let states = swarm.states();
+    for (index, system) in systems.iter().enumerate() {
+        let start = State::new(q.to_vec(), p.to_vec());
+        let due = end_by_name(system, "BlanesMoan4", start, 0.05).unwrap();
+        let rows = [&states.q, &states.p].map(|rows| &rows[3 * index..3 * index + 3]);
+        let found: Vec<u64> = rows.concat().into_iter().map(f64::to_bits).collect();
+        assert_eq!(found, due, "member {index}");
+    }
 }

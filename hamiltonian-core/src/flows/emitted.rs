@@ -6,7 +6,7 @@
 //! for each map. The second computes the change of a point from the held values, the data of the prepared system and the
 //! point.
 
-use crate::flows::exponential::Exponential;
+use crate::flows::exponential::{Exponential, raised};
 use crate::flows::narrow::{Varied, along, derivatives, fixed};
 use crate::flows::push::{Both, Coupled, SubStep};
 use crate::systems::flow::{Flow, Piece, VectorField};
@@ -492,8 +492,7 @@ piece!(
     [FlowBody<K, T> + Origin<T>],
     Exponential<FlowBodyOf<D, K, T>, T, N>,
     |prepared, c| {
-        let raised = Self::Flow::raised(c);
-        let rates = FlowBodyOf::<D, K, T>::holding((prepared.fold(raised), prepared.data().clone()));
+        let rates = FlowBodyOf::<D, K, T>::holding((prepared.fold(raised(c)), prepared.data().clone()));
         Exponential::new(&rates, &Point { q: D::origin(), p: D::origin() })
     }
 );

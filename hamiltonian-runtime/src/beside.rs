@@ -1,10 +1,11 @@
-//! Kicks with a force that depends on momenta.
+//! Flows that are not one function: kicks with a force that depends on momenta, and matrix exponentials.
 //!
-//! Input: a prepared system and a coefficient. Output: [`Pushing`], by core's flows of such kicks. Invariant: a flow
-//! allocates its scratch when it is first applied.
+//! Input: a prepared system and a coefficient. Output: [`Beside`], by core's flows of such kicks, or by a [`Matrix`].
+//! Invariant: a flow allocates its scratch when it is first applied.
 
 use crate::folded::Folded;
 use crate::machine::{Arrays, Home, Registers};
+use crate::matrix::Matrix;
 use crate::prepared::{Flat, Prepared, at};
 use hamiltonian_core::private::{Coupled, SubStep};
 use hamiltonian_core::schemes::author::{Flow, Point, Scratch, VectorField};
@@ -41,15 +42,17 @@ impl<T: Real> VectorField<Flat<T>> for Rates<T> {
     }
 }
 
-/// The part of a kick that reads momenta.
+/// What moves a point before the function of a flow does.
 #[derive(Debug, Clone)]
-pub(crate) enum Pushing<T: Real> {
+pub(crate) enum Beside<T: Real> {
     /// An exact flow in place. The kick of the rest follows.
     Damped(Folded<T>),
     /// The exact flow of momenta that push each other.
     Coupled(Box<Coupled<Rates<T>, Rates<T>>>),
     /// A symmetric sub-step.
     Stepped(Box<SubStep<Rates<T>>>),
+    /// The flow of a quadratic form. No function follows.
+    Exponential(Matrix<T>),
 }
 
 /// Scratch momenta of a series or of a sub-step.
@@ -60,6 +63,8 @@ type Momenta<T> = <SubStep<Rates<T>> as Flow<Point<Flat<T>>>>::Work;
 pub struct PartWork<T: Real> {
     pub(crate) registers: Registers<T>,
     momenta: Option<Momenta<T>>,
+    /// A point of one vector, and its image.
+    phase: [Vec<T>; 2],
 }
 
 impl<T: Real> Scratch<Point<Flat<T>>> for PartWork<T> {
@@ -67,26 +72,27 @@ impl<T: Real> Scratch<Point<Flat<T>>> for PartWork<T> {
         PartWork {
             registers: Registers::new(),
             momenta: None,
+            phase: [Vec::new(), Vec::new()],
         }
     }
 }
 
-impl<T: Real> Pushing<T> {
-    /// The part of the kick of a system for a coefficient; `None` if no momentum is read.
-    pub(crate) fn new(prepared: &Prepared<T>, c: T) -> Option<Self> {
+impl<T: Real> Beside<T> {
+    /// The part of the kick of a system that reads momenta, for a coefficient; `None` if no momentum is read.
+    pub(crate) fn of_kick(prepared: &Prepared<T>, c: T) -> Option<Self> {
         let rates = |purpose| Rates::new(prepared, purpose, c);
         Some(match prepared.code.kick? {
             Kick::Plain => return None,
-            Kick::Damped { .. } => Pushing::Damped(Folded::new(prepared, Purpose::Push, c)),
-            Kick::Coupled => Pushing::Coupled(Box::new(Coupled {
+            Kick::Damped { .. } => Beside::Damped(Folded::new(prepared, Purpose::Push, c)),
+            Kick::Coupled => Beside::Coupled(Box::new(Coupled {
                 field: rates(Purpose::Rates),
                 linear: rates(Purpose::Linear),
             })),
-            Kick::SubStep => Pushing::Stepped(Box::new(SubStep(rates(Purpose::Rates)))),
+            Kick::SubStep => Beside::Stepped(Box::new(SubStep(rates(Purpose::Rates)))),
         })
     }
 
-    /// Moves the momenta; compiled once for all flows.
+    /// Moves the point; compiled once for all flows.
     #[inline(always)]
     pub(crate) fn apply(
         &self,
@@ -110,7 +116,7 @@ impl<T: Real> Pushing<T> {
         work: &mut PartWork<T>,
     ) {
         match self {
-            Pushing::Damped(folded) => {
+            Beside::Damped(folded) => {
                 let arrays = Arrays {
                     t,
                     into_q: x.q.as_mut_slice(),
@@ -119,14 +125,15 @@ impl<T: Real> Pushing<T> {
                 };
                 folded.evaluate(prepared, Home::Own(&mut work.registers), arrays);
             }
-            Pushing::Coupled(flow) => {
+            Beside::Coupled(flow) => {
                 let momenta = work.momenta.get_or_insert_with(|| Scratch::like(x));
                 flow.apply(t, x, momenta);
             }
-            Pushing::Stepped(flow) => {
+            Beside::Stepped(flow) => {
                 let momenta = work.momenta.get_or_insert_with(|| Scratch::like(x));
                 flow.apply(t, x, momenta);
             }
+            Beside::Exponential(matrix) => matrix.apply(x, &mut work.phase),
         }
     }
 }

@@ -22,6 +22,7 @@ use hamiltonian_real::{Mask, Pack, Real, itself_in_lanes};
 /// let x = W([1.0, 2.0, f64::NAN, 4.0]);
 /// assert_eq!((x + x).lane(3), 8.0);
 /// assert_eq!((!x.finite()).first(), Some(2));
+/// assert_eq!((W([1.0; 9]) + W([2.0; 9])).lane(8), 3.0);
 /// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
@@ -50,16 +51,26 @@ impl<P: Real, const K: usize> Debug for Masks<P, K> {
 }
 
 /// The array whose element `k` is `$each`; it replaces `$before`, which is not read.
+///
+/// The first eight elements are written out. A loop around an instruction of a level is unrolled only where all is
+/// inlined, and a block of steps would have a thousand of them: LLVM takes longer for these loops than for all else.
 macro_rules! each {
     ($K:ident, $before:expr, $k:ident => $each:expr) => {{
         let mut out = $before;
-        let mut $k = 0;
+        each! { @ 0 1 2 3 4 5 6 7; $K, out, $k => $each }
+        let mut $k = 8;
         while $k < $K {
             out[$k] = $each;
             $k += 1;
         }
         out
     }};
+    (@ $($number:literal)*; $K:ident, $out:ident, $k:ident => $each:expr) => {
+        $(if const { $number < $K } {
+            let $k = $number;
+            $out[$k] = $each;
+        })*
+    };
 }
 
 /// An operator by that of the packs.

@@ -7,7 +7,7 @@
 use crate::prepared::{Flat, Prepared};
 use crate::system::RuntimeSystem;
 use hamiltonian_core::schemes::author::{
-    Carried, Cause, Clock, Description, Entry, Listed, Map, Pair, Point, Scratch, Step,
+    Carried, Cause, Clock, Description, Entry, Listed, Map, Pair, Point, ScalarOf, Scratch, Step,
 };
 use hamiltonian_core::{Error, Scheme, State, System, Vector};
 use hamiltonian_lanes::Real;
@@ -61,29 +61,33 @@ trait Erased: Send + Sync {
     -> Words<f64>;
 }
 
-impl<M: Runs> Erased for M {
+/// A scheme. With `ONCE`, its step is compiled once, for one step and for a loop over them: core inlines it in both. Without
+/// it, the loop is that of the map, which may be its own.
+struct Typed<M, const ONCE: bool>(M);
+
+impl<M: Runs, const ONCE: bool> Erased for Typed<M, ONCE> {
     fn entry(&self) -> Entry {
-        Listed::entry(self)
+        self.0.entry()
     }
     fn debug(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        self.fmt(f)
+        self.0.fmt(f)
     }
     fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
-        Scheme::times_of_jumps(self, of)
+        self.0.times_of_jumps(of)
     }
     fn check(&self, prepared: &Prepared<f64>, state: &State<Flat<f64>>) -> Result<(), Error> {
-        Scheme::check(self, prepared, state)
+        self.0.check(prepared, state)
     }
     fn prepare(&self, prepared: &Prepared<f64>, step: Step<f64>) -> AnyMap<f64> {
-        AnyMap(Box::new(Native {
-            map: Scheme::prepare(self, prepared, step),
-            scheme: self.clone(),
+        AnyMap(Box::new(Native::<M, ONCE> {
+            map: self.0.prepare(prepared, step),
+            scheme: self.0.clone(),
             prepared: prepared.clone(),
             h: step.h,
         }))
     }
     fn start(&self, prepared: &Prepared<f64>, state: &State<Flat<f64>>, h: f64) -> Words<f64> {
-        words(&Scheme::start(self, prepared, state, h))
+        words(&self.0.start(prepared, state, h))
     }
     fn start_alone(
         &self,
@@ -91,13 +95,14 @@ impl<M: Runs> Erased for M {
         state: &State<Flat<f64>>,
         h: f64,
     ) -> Words<f64> {
-        words(&Scheme::start_alone(self, prepared, state, h))
+        words(&self.0.start_alone(prepared, state, h))
     }
 }
 
 impl AnyScheme {
-    pub(crate) fn new(scheme: impl Runs) -> Self {
-        AnyScheme(Arc::new(scheme))
+    /// A scheme by its type, with its step compiled once or with the loop of its map.
+    pub(crate) fn new<const ONCE: bool>(scheme: impl Runs) -> Self {
+        AnyScheme(Arc::new(Typed::<_, ONCE>(scheme)))
     }
 }
 
@@ -259,7 +264,7 @@ impl<T: Real> Map for AnyMap<T> {
 }
 
 /// A map, with the scheme, the system and the step from which its carried value is made.
-struct Native<M: Runs> {
+struct Native<M: Runs, const ONCE: bool> {
     map: M::Map<f64>,
     scheme: M,
     prepared: Prepared<f64>,
@@ -270,7 +275,13 @@ struct Native<M: Runs> {
 type CarriedOf<M> = <<M as Scheme<RuntimeSystem>>::Map<f64> as Map>::Carried;
 type WorkOf<M> = <<M as Scheme<RuntimeSystem>>::Map<f64> as Map>::Work;
 
-impl<M: Runs> Native<M> {
+/// A step in a function of its own.
+#[inline(never)]
+fn once<M: Map>(map: &M, [t, end]: [ScalarOf<M>; 2], z: &mut M::Carried, work: &mut M::Work) {
+    map.body(t, end, z, work);
+}
+
+impl<M: Runs, const ONCE: bool> Native<M, ONCE> {
     /// The scratch, with the carried value that these words are.
     fn own<'a>(
         &self,
@@ -306,12 +317,15 @@ impl<M: Runs> Native<M> {
     }
 }
 
-impl<M: Runs> MapOver<f64> for Native<M> {
+impl<M: Runs, const ONCE: bool> MapOver<f64> for Native<M, ONCE> {
     fn open(&self, t: f64, z: &mut Words<f64>, work: &mut AnyWork<f64>) {
         self.on(z, work, |map, z, work| map.open(t, z, work));
     }
     fn body(&self, [t, end]: [f64; 2], z: &mut Words<f64>, work: &mut AnyWork<f64>) {
-        self.on(z, work, |map, z, work| map.body(t, end, z, work));
+        self.on(z, work, |map, z, work| match ONCE {
+            true => once(map, [t, end], z, work),
+            false => map.body(t, end, z, work),
+        });
     }
     fn close(&self, t: f64, z: &mut Words<f64>, work: &mut AnyWork<f64>) {
         self.on(z, work, |map, z, work| map.close(t, z, work));
@@ -326,7 +340,19 @@ impl<M: Runs> MapOver<f64> for Native<M> {
         z: &mut Words<f64>,
         work: &mut AnyWork<f64>,
     ) {
-        self.on(z, work, |map, z, work| map.run(clock, made, n, z, work));
+        if !ONCE {
+            return self.on(z, work, |map, z, work| map.run(clock, made, n, z, work));
+        }
+        self.on(z, work, |map, z, work| {
+            for k in made..made + n {
+                let t = clock.at(k);
+                match k {
+                    0 => map.open(t, z, work),
+                    _ => map.join(t, z, work),
+                }
+                once(map, [t, clock.at(k + 1)], z, work);
+            }
+        });
     }
     fn explain(
         &self,

@@ -47,9 +47,10 @@ pub fn schemes() -> impl Iterator<Item = NamedScheme> {
     })
 }
 
-/// The schemes by their types, of which those of splittings are tables.
+/// The schemes by their types, of which those of splittings are tables. With `true`, a step is compiled once; with `false`,
+/// the loop over steps is that of the scheme.
 macro_rules! known {
-    ($($type:ident: $of:ty;)+) => {
+    ($($type:ident: $of:ty, $once:literal;)+) => {
         /// A scheme.
         enum Known {
             $($type($of),)+
@@ -64,7 +65,7 @@ macro_rules! known {
 
             fn any(&self) -> AnyScheme {
                 match self {
-                    $(Known::$type(scheme) => AnyScheme::new(scheme.clone()),)+
+                    $(Known::$type(scheme) => AnyScheme::new::<$once>(scheme.clone()),)+
                 }
             }
         }
@@ -72,24 +73,24 @@ macro_rules! known {
 }
 
 known! {
-    Many: Many;
-    Processed: core::Processed<Weights, Weights>;
-    MidpointProjected: core::MidpointProjected<Weights>;
-    Semiexplicit: core::Semiexplicit<Weights>;
-    RungeKutta4: core::RungeKutta4;
-    Gauss2: core::Gauss<2>;
-    Gauss8: core::Gauss<8>;
-    GaussNystrom4: core::GaussNystrom<4>;
-    GaussNystrom8: core::GaussNystrom<8>;
-    Line: core::Variational<1, 2>;
-    Parabola: core::Variational<2, 2>;
-    Momentum: core::MomentumVariational<2>;
-    DiscreteGradient: core::DiscreteGradient;
-    Tao: core::Tao;
-    Pihajoki: core::Pihajoki;
-    TwoStep: core::TwoStepMidpoint;
-    Consecutive: core::ConsecutiveSubTrajectories;
-    Intersecting: core::IntersectingSubTrajectories;
+    Many: Many, false;
+    Processed: core::Processed<Weights, Weights>, true;
+    MidpointProjected: core::MidpointProjected<Weights>, true;
+    Semiexplicit: core::Semiexplicit<Weights>, true;
+    RungeKutta4: core::RungeKutta4, true;
+    Gauss2: core::Gauss<2>, false;
+    Gauss8: core::Gauss<8>, false;
+    GaussNystrom4: core::GaussNystrom<4>, false;
+    GaussNystrom8: core::GaussNystrom<8>, false;
+    Line: core::Variational<1, 2>, false;
+    Parabola: core::Variational<2, 2>, false;
+    Momentum: core::MomentumVariational<2>, false;
+    DiscreteGradient: core::DiscreteGradient, true;
+    Tao: core::Tao, true;
+    Pihajoki: core::Pihajoki, true;
+    TwoStep: core::TwoStepMidpoint, false;
+    Consecutive: core::ConsecutiveSubTrajectories, true;
+    Intersecting: core::IntersectingSubTrajectories, true;
 }
 
 /// The name without spaces and without the signs of Rust's generics.

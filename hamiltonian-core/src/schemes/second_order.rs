@@ -522,18 +522,24 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
         z: &mut CarriesForces<P::Vector, S>,
         work: &mut EliminatedWork<P::Vector, S>,
     ) -> Cause {
-        let (bundles, sums) = (&mut work.bundles, &mut work.sums);
-        let gradients = &mut z.y.x.0;
-        let outcome = self.fixed_point::<Apart, _>(
-            &self.tableau(),
-            &self.dynamics,
-            t,
-            &z.x,
-            gradients,
-            bundles,
-            sums,
-        );
-        self.complete(t, outcome, z, sums)
+        // Compiled once for steps and for the repetition of a step.
+        T::out_of_line(
+            #[cfg_attr(not(unoptimised), inline(always))]
+            || {
+                let (bundles, sums) = (&mut work.bundles, &mut work.sums);
+                let gradients = &mut z.y.x.0;
+                let outcome = self.fixed_point::<Apart, _>(
+                    &self.tableau(),
+                    &self.dynamics,
+                    t,
+                    &z.x,
+                    gradients,
+                    bundles,
+                    sums,
+                );
+                self.complete(t, outcome, z, sums)
+            },
+        )
     }
 }
 

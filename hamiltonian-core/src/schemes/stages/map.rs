@@ -90,23 +90,29 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
         z: &mut Carries<P::Vector, S>,
         work: &mut CollocatedWork<P::Vector, S>,
     ) -> Cause {
-        let Pair { x: point, y } = &mut *z;
-        let unknowns = &mut y.x;
-        let outcome = if self.modes.is_some() {
-            self.solve_between(t, point, None, unknowns, work, |_, _| {})
-        } else {
-            fixed_point::<T, Apart, _, _, _, S>(
-                self.fixed_point_limit(),
-                &self.tableau(),
-                &self.field,
-                t,
-                point,
-                &mut unknowns.0,
-                &mut work.next.0,
-                &mut work.stage,
-            )
-        };
-        self.complete(t, outcome, z, work)
+        // Compiled once for steps and for the repetition of a step.
+        T::out_of_line(
+            #[cfg_attr(not(unoptimised), inline(always))]
+            || {
+                let Pair { x: point, y } = &mut *z;
+                let unknowns = &mut y.x;
+                let outcome = if self.modes.is_some() {
+                    self.solve_between(t, point, None, unknowns, work, |_, _| {})
+                } else {
+                    fixed_point::<T, Apart, _, _, _, S>(
+                        self.fixed_point_limit(),
+                        &self.tableau(),
+                        &self.field,
+                        t,
+                        point,
+                        &mut unknowns.0,
+                        &mut work.next.0,
+                        &mut work.stage,
+                    )
+                };
+                self.complete(t, outcome, z, work)
+            },
+        )
     }
 
     #[cfg_attr(not(unoptimised), inline(always))]

@@ -75,7 +75,10 @@ macro_rules! known {
 known! {
     Many: Many, false;
     Processed: core::Processed<Weights, Weights>, true;
+    CheapProcessed: core::CheapProcessed<Weights, Weights, Weights>, true;
+    Compensated: core::Compensated<Weights>, true;
     MidpointProjected: core::MidpointProjected<Weights>, true;
+    Mixed: core::Mixed<Weights>, true;
     Semiexplicit: core::Semiexplicit<Weights>, true;
     RungeKutta4: core::RungeKutta4, true;
     Gauss2: core::Gauss<2>, false;
@@ -144,6 +147,15 @@ fn all() -> Vec<(String, Known)> {
         WisdomHolman11,
         WisdomHolman17
     );
+    let cheap = core::CheapProcessed4::default();
+    let [kernel, processor] = [
+        weights(cheap.processed().kernel()),
+        weights(cheap.processed().processor()),
+    ];
+    add(Known::CheapProcessed(core::CheapProcessed::new(
+        core::Processed::new(kernel, processor),
+        weights(cheap.mean_of()),
+    )));
     add(Known::Many(Many::ImplicitMidpoint(
         core::ImplicitMidpoint::default(),
     )));
@@ -170,7 +182,9 @@ fn all() -> Vec<(String, Known)> {
         ));
     }
     for table in &on_copies {
+        add(Known::Compensated(core::Compensated(*table)));
         add(Known::MidpointProjected(core::MidpointProjected(*table)));
+        add(Known::Mixed(core::Mixed::new(*table)));
         add(Known::Semiexplicit(core::Semiexplicit::new(*table)));
     }
     macro_rules! staged {

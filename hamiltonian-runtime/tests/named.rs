@@ -36,15 +36,8 @@ fn plain(name: &str) -> String {
 fn every_scheme_of_the_catalogue_has_a_name() {
     let names: Vec<String> = schemes().map(|scheme| scheme.name).collect();
     for entry in catalogue() {
-        // They are types alone.
-        if [
-            "TransformedVerlet",
-            "CheapProcessed4",
-            "Mixed",
-            "Compensated",
-        ]
-        .contains(&entry.name)
-        {
+        // Its systems have another type.
+        if entry.name == "TransformedVerlet" {
             continue;
         }
         let has_stages = ["Gauss", "GaussNystrom", "MomentumVariational"].contains(&entry.name);
@@ -61,6 +54,26 @@ fn every_scheme_of_the_catalogue_has_a_name() {
     sorted.sort();
     sorted.dedup();
     assert_eq!(sorted.len(), names.len(), "two schemes have one name");
+}
+
+/// The names of the table in the README are there, and in ensembles those that it says.
+#[test]
+fn the_table_of_the_readme_is_true() {
+    let mut rows = 0;
+    for line in include_str!("../README.md").lines() {
+        let cells: Vec<&str> = line.split('|').collect();
+        let [_, _, examples, in_swarms @ (" yes " | " no "), _] = cells[..] else {
+            continue;
+        };
+        rows += 1;
+        for name in examples.split('`').skip(1).step_by(2) {
+            let found = schemes()
+                .find(|scheme| scheme.name == name || scheme.name.split('(').next() == Some(name));
+            let found = found.unwrap_or_else(|| panic!("there is no `{name}`"));
+            assert_eq!(found.in_ensembles, in_swarms == " yes ", "{name}");
+        }
+    }
+    assert_eq!(rows, 8);
 }
 
 /// Every scheme is right to its order on a spring: one step of half the size has an error smaller by about 2^(order + 1).

@@ -448,6 +448,8 @@ macro_rules! __described {
 macro_rules! __gathers {
     ($prepared:ident $($arguments:tt)*) => {
         type Prepared<T: $crate::private::Real> = $prepared $($arguments)*;
+        const JUMPS: $crate::private::Option<[$crate::private::bool; 2]> =
+            $crate::private::Option::Some(__DESCRIPTION.jumps);
         #[inline(always)]
         fn description(&self) -> &$crate::private::Description {
             __DESCRIPTION
@@ -497,8 +499,6 @@ macro_rules! __halves {
     };
     (@Separable [$($impl:tt)*] $system:ty, $kick:ty, $drift:ty) => {
         $($impl)* $crate::private::Separable for $system {
-            const JUMPS: $crate::private::Option<[$crate::private::bool; 2]> =
-                $crate::private::Option::Some(__DESCRIPTION.jumps);
             type Kick<T: $crate::private::Real> = $kick;
             #[inline(always)]
             fn kick<T: $crate::private::Real>() -> $kick {

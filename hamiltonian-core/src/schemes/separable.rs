@@ -9,7 +9,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::flows::map::{Choice, Either, Step};
 use crate::schemes::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::systems::state::{Point, State};
-use crate::systems::system::{Description, Dynamics, Separable, VectorOf};
+use crate::systems::system::{Description, Dynamics, Separable, System, VectorOf};
 use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
@@ -119,7 +119,7 @@ const fn is_kick_first(kick_first: bool, jumps: [bool; 2]) -> bool {
 #[derive(Debug, Clone)]
 pub struct OrderOn<S, const KICK_FIRST: bool>(PhantomData<S>);
 
-impl<S: Separable, const KICK_FIRST: bool> Choice for OrderOn<S, KICK_FIRST> {
+impl<S: System, const KICK_FIRST: bool> Choice for OrderOn<S, KICK_FIRST> {
     const IS_FIRST: Option<bool> = match S::JUMPS {
         Some(jumps) => Some(is_kick_first(KICK_FIRST, jumps)),
         None => None,

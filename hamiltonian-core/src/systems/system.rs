@@ -199,6 +199,10 @@ pub trait System {
     /// then share packs that are as wide as the CPU level has, not as wide as stays in registers.
     const INTERPRETED: bool = false;
 
+    /// The [`jumps`](Description::jumps) of the description. `None`, the default, if they are known at run time alone:
+    /// [`StormerVerlet`](crate::schemes::StormerVerlet) then has both orders of kick and drift in a program.
+    const JUMPS: Option<[bool; 2]> = None;
+
     /// Writes each parameter with its value and all its digits, one per line, `m = 1.5`.
     ///
     /// [`resume`](crate::Integrator::resume) compares these lines with those of the saved run. The provided method writes

@@ -34,9 +34,6 @@ pub trait Split: System {
     note = "a system written by hand implements `Separable`"
 )]
 pub trait Separable: System {
-    /// The [`jumps`](super::Description::jumps) of the description. `None`, the default, if they are known at run time
-    /// alone: both orders of kick and drift are then compiled.
-    const JUMPS: Option<[bool; 2]> = None;
     /// V: its flow is `p −= c·∂V/∂q(q, t)`; with a force, `p += c·(f − ∂V/∂q)`.
     type Kick<T: Real>: Piece<T, Self::Prepared<T>, Point = Point<VectorOf<Self, T>>>;
     /// T: its flow is `q += c·∂T/∂p(p, t)`.

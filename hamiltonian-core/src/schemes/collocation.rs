@@ -327,6 +327,7 @@ fn known<A, B: 'static>(_: fn(&'static Eight) -> &'static B) -> Option<A> {
 
 /// `part·h` for a part from 0 to 1, rounded to a multiple of the last place of h: sums and differences of such
 /// numbers up to h are exact.
+#[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn whole_ulps<T: Real>(part: DoubleDouble, h: T) -> T {
     (constant::<T>(part) * h + h) - h
 }

@@ -196,7 +196,8 @@ pub trait System {
     const DUALS: u32 = 0;
 
     /// True if starting an operation takes longer than computing it, as in code that is interpreted. Members of an ensemble
-    /// then share packs that are as wide as the CPU level has, not as wide as stays in registers.
+    /// then share packs that are as wide as the CPU level has, not as wide as stays in registers; those over dual numbers do
+    /// not.
     const INTERPRETED: bool = false;
 
     /// The [`jumps`](Description::jumps) of the description. `None`, the default, if they are known at run time alone:

@@ -7,8 +7,7 @@
 use super::host::{Host, MemberRun};
 use crate::observers::observe::Deviation;
 use crate::systems::domain::inside;
-use crate::systems::state::State;
-use crate::systems::system::{System, VectorOf};
+use crate::systems::system::System;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
@@ -85,6 +84,11 @@ impl<T: Real, S: System> Occupants<T, S> {
             any_followed: false,
             change: None,
         }
+    }
+
+    /// Returns the number of lanes.
+    pub(crate) fn lanes(&self) -> usize {
+        self.status.len()
     }
 
     /// Fills the empty lanes. Returns true if any lane has a member.
@@ -344,21 +348,6 @@ impl<T: Real, S: System> Occupants<T, S> {
     /// Returns true if any running member is at its stop.
     pub(crate) fn is_any_due(&self) -> bool {
         self.running().any(|run| run.made == run.stop)
-    }
-
-    /// Writes a number of each lane into the states of the members at their stops.
-    #[cfg_attr(not(unoptimised), inline(always))]
-    pub(crate) fn write_states(
-        &mut self,
-        numbers: &[T],
-        to: impl Fn(&mut State<VectorOf<S, T>>) -> &mut T,
-    ) {
-        for ((run, status), number) in self.runs.iter_mut().zip(&self.status).zip(numbers) {
-            let running = run.as_mut().filter(|_| *status == LaneStatus::Running);
-            if let Some(run) = running.filter(|run| run.made == run.stop) {
-                *to(&mut run.state) = *number;
-            }
-        }
     }
 
     /// Calls a function with each member at its stop. The function returns true if the member stays.

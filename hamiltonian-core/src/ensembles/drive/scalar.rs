@@ -20,18 +20,23 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use hamiltonian_lanes::Real;
 
-/// Passes the states of members at their stops to the host.
+/// Passes the states of members at their stops to the host. The rows are those that
+/// [`Close`](crate::ensembles::close::Close) writes; `carries_duration` is true if they have the duration of a step.
 #[inline(never)]
 pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
     scheme: &M,
     occupants: &mut Occupants<T, S>,
     host: &mut dyn Host<T, S>,
-    durations: Option<&[T]>,
+    (rows, carries_duration): (&[T], bool),
     words: Option<&[T]>,
 ) {
+    let lanes = occupants.lanes();
     let recipe: &dyn Recipe<T, S, M::Map<T>> = scheme;
     let (mut is_any_changed, mut is_any_moved) = (false, false);
     occupants.for_each_due(|lane, run| {
+        let mut rows = rows.chunks_exact(lanes);
+        let mut next = || rows.next().map_or(T::zero(), |row| row[lane]);
+        write_state(&mut run.state, core::iter::from_fn(|| Some(next())));
         let carried = carried_after::<T, S, M>(scheme, run, run.made, lane, words);
         let part = Part {
             prepared: &run.prepared,
@@ -39,7 +44,7 @@ pub(super) fn pass_to_host<T: Real, S: System, M: Scheme<S>>(
             state: &run.state,
             step: run.step,
             clock: run.clock,
-            duration: durations.map(|durations| durations[lane]),
+            duration: carries_duration.then(next),
             last: last_step(carried.as_ref()),
         };
         let view = View {

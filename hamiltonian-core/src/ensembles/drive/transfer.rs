@@ -12,7 +12,7 @@ use crate::systems::system::{System, VectorOf};
 use crate::systems::vector::Vector;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
-use hamiltonian_lanes::{Kernel, Level, Pack, Real};
+use hamiltonian_lanes::{Kernel, Level, Mask, Pack, Real};
 
 /// Writes a number of each member to its lane of an existing pack. A returned pack would be copied register by
 /// register at every call.
@@ -57,6 +57,22 @@ impl<T: Real, P: Pack> Kernel for LanesOf<'_, T, P> {
         let number = |flag: &bool| if *flag { T::one() } else { T::zero() };
         let numbers: Vec<T> = self.flags.iter().map(number).collect();
         T::gather::<P>(&numbers).equals(<T::Over<P> as Real>::one())
+    }
+}
+
+/// Writes the flag of each lane to a slice.
+pub(super) struct FlagsOf<'a, M> {
+    pub(super) mask: &'a M,
+    pub(super) flags: &'a mut [bool],
+}
+
+impl<M: Mask> Kernel for FlagsOf<'_, M> {
+    type Output = ();
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn run<L: Level>(self) {
+        for (lane, flag) in self.flags.iter_mut().enumerate() {
+            *flag = self.mask.lane(lane as u32);
+        }
     }
 }
 

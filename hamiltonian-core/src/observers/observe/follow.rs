@@ -132,14 +132,14 @@ pub(crate) struct LaneDrift<U> {
 }
 
 impl<U: Real> LaneDrift<U> {
-    /// Creates a drift whose numbers are written later.
-    pub(crate) fn new(quantity: Quantity) -> Self {
+    /// Creates a drift whose numbers, here `any`, are written later.
+    pub(crate) fn new(quantity: Quantity, any: U) -> Self {
         LaneDrift {
             quantity,
-            start: U::zero(),
-            max: U::zero(),
-            sum_of_sizes: U::zero(),
-            sum: U::zero(),
+            start: any,
+            max: any,
+            sum_of_sizes: any,
+            sum: any,
         }
     }
 

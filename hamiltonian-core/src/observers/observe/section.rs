@@ -54,12 +54,12 @@ fn nearest<U: Real>(x: U) -> U {
 }
 
 impl<U: Real> LaneSection<U> {
-    /// Creates a function whose values are written later.
-    pub(crate) fn new(observable: usize, period: Option<U>) -> Self {
+    /// Creates a function whose values, here `any`, are written later.
+    pub(crate) fn new(observable: usize, period: Option<U>, any: U) -> Self {
         LaneSection {
             observable,
             period,
-            values: [U::zero(); 2],
+            values: [any; 2],
             newest: 0,
             is_far: false,
         }

@@ -239,7 +239,15 @@ impl<C: Vector, M: Mask> Kernel for Mark<'_, C, M> {
 }
 
 /// A block of steps of all lanes.
-pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: System> {
+///
+/// Without `FOLLOWS` nothing is followed, and no code is compiled for it.
+pub(crate) struct Block<
+    'a,
+    R: Map<Carried: Carried<Scalar = U>>,
+    U: Real,
+    S: System,
+    const FOLLOWS: bool,
+> {
     pub(crate) map: &'a R,
     pub(crate) times: &'a LaneClock<U>,
     /// Steps since the count of times began.
@@ -255,7 +263,7 @@ pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: Sy
     pub(crate) marks: &'a mut Marks<R::Carried, U::Mask>,
 }
 
-impl<R, U, S> Kernel for Block<'_, R, U, S>
+impl<R, U, S, const FOLLOWS: bool> Kernel for Block<'_, R, U, S, FOLLOWS>
 where
     R: Map<Carried: Carried<Vector = VectorOf<S, U>, Scalar = U>>,
     U: Real,
@@ -283,6 +291,10 @@ where
         } = self;
         let times = *times;
         let mut end = made + n;
+        if const { !FOLLOWS } {
+            (followed.drifts, followed.sections) = (&mut [], &mut []);
+            (followed.closes, followed.by_lane, followed.attach) = (false, None, None);
+        }
         // Steps with few numbers are so fast that another loop, with nothing but them and the signs, is worth its code.
         let is_small = const {
             let size = size_of::<R::Carried>() + size_of::<R::Work>();

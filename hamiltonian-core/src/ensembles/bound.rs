@@ -20,15 +20,23 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, Real, W, dispatch};
 
-/// Drives the members of a host to their ends.
-pub(super) fn drive<T: Real, S: System, M: Scheme<S>, A: Rounding>(
+/// Drives the members of a host to their ends, whose observers are of the type `O`.
+pub(super) fn drive<T: Real, S: System, M: Scheme<S>, O, A: Rounding>(
     scheme: &M,
     host: &mut dyn Host<T, S>,
 ) {
-    dispatch(WorkOnMembers::<T, S, M, A, _>::new(
-        scheme,
-        DriveMembers(host),
-    ));
+    // Lanes follow drifts and signs, which an observer keeps. One without data, such as `()`, has none.
+    if const { size_of::<O>() > 0 } {
+        dispatch(WorkOnMembers::<T, S, M, A, _>::new(
+            scheme,
+            DriveMembers::<T, S, true>(host),
+        ));
+    } else {
+        dispatch(WorkOnMembers::<T, S, M, A, _>::new(
+            scheme,
+            DriveMembers::<T, S, false>(host),
+        ));
+    }
 }
 
 /// Advances members with deviations to their ends.
@@ -49,12 +57,12 @@ trait MemberWork<T: Real, S: System> {
 }
 
 /// Drives the members of a host to their ends.
-struct DriveMembers<'a, T: Real, S: System>(&'a mut dyn Host<T, S>);
+struct DriveMembers<'a, T: Real, S: System, const FOLLOWS: bool>(&'a mut dyn Host<T, S>);
 
-impl<T: Real, S: System> MemberWork<T, S> for DriveMembers<'_, T, S> {
+impl<T: Real, S: System, const FOLLOWS: bool> MemberWork<T, S> for DriveMembers<'_, T, S, FOLLOWS> {
     #[cfg_attr(not(unoptimised), inline(always))]
     fn at<L: Level, P: Pack, M: Scheme<S>>(self, scheme: &M) {
-        drive::drive::<L, T, S, P, M>(scheme, self.0);
+        drive::drive::<L, T, S, P, M, FOLLOWS>(scheme, self.0);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Integration of members to their ends, in the lanes of one pack type.
+//! Integration of members to their ends, in the lanes of a pack.
 //!
 //! Input: a scheme and a host. Output: the host has received every member at each of its stops. Invariants:
 //! a member's bits depend only on its own run and on the arithmetic of the pack. Lanes are refilled only between
@@ -39,16 +39,21 @@ type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;
 
 /// Drives all members of the host to their ends, inside the level `L` of the pack.
 #[cfg_attr(not(unoptimised), inline(always))]
-pub(super) fn drive<L: Level, T: Real, S: System, P: Pack, M: Scheme<S>>(
-    scheme: &M,
-    host: &mut dyn Host<T, S>,
-) {
+pub(super) fn drive<L, T, S, P, M, const FOLLOWS: bool>(scheme: &M, host: &mut dyn Host<T, S>)
+where
+    L: Level,
+    T: Real,
+    S: System,
+    P: Pack,
+    M: Scheme<S>,
+{
     let Some(first) = Occupied::first(P::LANES as usize, host) else {
         return;
     };
     let systems = first.systems();
-    let mut lanes = Lanes::<L, T, S, P, M>::new(scheme, &systems, &first.steps, first.state());
-    first.drive(scheme, host, &mut lanes);
+    let mut lanes =
+        Lanes::<L, T, S, P, M, FOLLOWS>::new(scheme, &systems, &first.steps, first.state());
+    first.drive::<M, FOLLOWS>(scheme, host, &mut lanes);
 }
 
 /// The first members in the lanes, with the step of each.
@@ -83,13 +88,13 @@ impl<T: Real, S: System> Occupied<T, S> {
 
     /// Drives all members to their ends, in lanes that were made for these.
     #[inline(never)]
-    fn drive<M: Scheme<S>>(
+    fn drive<M: Scheme<S>, const FOLLOWS: bool>(
         self,
         scheme: &M,
         host: &mut dyn Host<T, S>,
         lanes: &mut dyn Packed<T, S>,
     ) {
-        Driver {
+        Driver::<'_, T, S, M, FOLLOWS> {
             scheme,
             host,
             lanes,
@@ -112,7 +117,7 @@ impl<T: Real, S: System> Occupied<T, S> {
 }
 
 /// The members of a host on their way through lanes.
-struct Driver<'a, T: Real, S: System, M> {
+struct Driver<'a, T: Real, S: System, M, const FOLLOWS: bool> {
     scheme: &'a M,
     host: &'a mut dyn Host<T, S>,
     lanes: &'a mut dyn Packed<T, S>,
@@ -143,7 +148,7 @@ struct Driver<'a, T: Real, S: System, M> {
     passed: Vec<T>,
 }
 
-impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
+impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, FOLLOWS> {
     fn run(&mut self) {
         while !self.host.is_cancelled() {
             self.load_lanes();
@@ -175,7 +180,7 @@ impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
             if !is_finite || inside.contains(&false) {
                 self.remove_failed(inside);
             }
-            if !self.sections.is_empty() {
+            if self.has_sections() {
                 self.pass_marked(n);
             }
             self.occupants.made(n);
@@ -192,7 +197,9 @@ impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
         let Some(changed) = self.occupants.changed() else {
             return;
         };
-        self.write_sections(When::Now);
+        if self.has_sections() {
+            self.write_sections(When::Now);
+        }
         let runs = self.occupants.runs();
         self.rows
             .resize(runs[0].words.len() * runs.len(), T::zero());
@@ -221,6 +228,23 @@ impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
                 (false, _) => Opening::Join,
                 _ => Opening::Mixed(&at_start),
             });
+        if const { FOLLOWS } {
+            self.load_followed();
+        }
+    }
+
+    /// Returns true if the drift of a quantity is followed.
+    fn has_drifts(&self) -> bool {
+        FOLLOWS && !self.drifts.is_empty()
+    }
+
+    /// Returns true if the sign of a function is followed.
+    fn has_sections(&self) -> bool {
+        FOLLOWS && !self.sections.is_empty()
+    }
+
+    /// Loads what lanes follow for observers.
+    fn load_followed(&mut self) {
         self.load_drifts();
         self.load_sections();
         let closing = self.lanes.closing();
@@ -297,8 +321,10 @@ impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
         let bad: Vec<bool> = (0..lanes).map(is_bad).collect();
         let mut before = vec![T::zero(); self.rows.len()];
         self.lanes.store(Carrying::Before, &mut before);
-        self.write_drifts(When::Before);
-        if !self.sections.is_empty() {
+        if self.has_drifts() {
+            self.write_drifts(When::Before);
+        }
+        if self.has_sections() {
             self.write_sections(When::Before);
             self.pass_states(self.made, (true, &bad));
         }
@@ -333,16 +359,16 @@ impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
     /// Passes members at their stops to the host, which takes back those that leave.
     fn pass_due(&mut self, carries_duration: bool) {
         let is_any_due = self.occupants.is_any_due();
-        if !self.drifts.is_empty() && (is_any_due || self.occupants.has_changed()) {
+        if self.has_drifts() && (is_any_due || self.occupants.has_changed()) {
             self.write_drifts(When::Now);
         }
         if !is_any_due {
             return;
         }
-        let Driver {
-            occupants, host, ..
-        } = self;
-        if !self.drifts.is_empty() {
+        if self.has_drifts() {
+            let Driver {
+                occupants, host, ..
+            } = self;
             occupants.for_each_due(|_, run| {
                 if !run.followed.drifts.is_empty() {
                     host.take_drifts(run.key, run.prepared.description(), &mut run.followed);
@@ -350,6 +376,9 @@ impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
                 true
             });
         }
+        let Driver {
+            occupants, host, ..
+        } = self;
         if host.observes() {
             let has_parts = self.lanes.has_parts();
             if has_parts {

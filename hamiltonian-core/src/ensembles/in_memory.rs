@@ -496,7 +496,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
         };
         let scheme = &*self.scheme;
         threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
-            bound::drive::<f64, S, M, A>(scheme, host);
+            bound::drive::<f64, S, M, O, A>(scheme, host);
         });
         let member = |key: usize, error: Error| SweepError::member(chunk.first + key, error);
         keys.map(|key| match (chunk.finished.get(&key), states[key].take()) {
@@ -540,7 +540,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
             };
             let scheme = &*self.scheme;
             threads::for_each(core::slice::from_mut(&mut host), 1, |host| {
-                bound::drive::<f64, S, M, A>(scheme, host);
+                bound::drive::<f64, S, M, O, A>(scheme, host);
             });
             chunk.finished.extend(finished);
         }
@@ -568,7 +568,7 @@ impl<S: System, M: Scheme<S>, O, A: Rounding> Ensemble<S, M, O, A> {
                 next: 0,
                 receive: &receive,
             };
-            bound::drive::<f64, S, M, A>(scheme, &mut host);
+            bound::drive::<f64, S, M, O, A>(scheme, &mut host);
         });
     }
 }

@@ -10,7 +10,7 @@
 //!   [`block`]: a block of steps;
 //! - [`marks`], [`close`]: the steps whose states observers of signs require;
 //! - [`rounding`]: whether products and sums are fused, as a type;
-//! - [`drive`]: the integration of members to their ends in one pack type; [`bound`]: its choice at each level;
+//! - [`drive`]: the integration of members to their ends, in lanes of any pack; [`bound`]: the pack of each level;
 //! - [`chunk`], [`in_memory`], [`to_time`], [`until`], [`saved`]: members in memory;
 //! - [`sweep`], `sweep::host`, [`record`], [`collected`], `stored`: members that are run to their ends and recorded;
 //! - [`lyapunov`], `drive::deviations`: indicators of chaos of members.

@@ -127,6 +127,7 @@ impl<T: Real, S: System> Occupants<T, S> {
     }
 
     /// Returns the runs whose numbers are in the lanes. A lane without a member repeats the first occupied one.
+    #[inline(never)]
     pub(crate) fn runs(&self) -> Vec<&MemberRun<T, S>> {
         let occupied = |lane: usize| {
             let is_occupied = self.status[lane] != LaneStatus::Empty;

@@ -174,7 +174,7 @@ impl<S: System, M: Scheme<S>, O: Observer<f64, S> + Send, A: Rounding> Ensemble<
             })
             .collect();
         threads::for_each(&mut hosts, self.threads, |host| {
-            bound::drive::<f64, S, M, A>(scheme, host);
+            bound::drive::<f64, S, M, O, A>(scheme, host);
         });
         let mut all = Vec::new();
         let mut most = common.steps;

@@ -20,8 +20,9 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Kernel, Level, Mask, Pack, Real};
 
-/// The occupants in lanes, inside the level `L` of the pack.
-pub(super) struct Lanes<'m, L, T, S, P, M>
+/// The occupants in lanes, inside the level `L` of the pack. Without `FOLLOWS` they follow nothing for observers, and no
+/// code is compiled for it.
+pub(super) struct Lanes<'m, L, T, S, P, M, const FOLLOWS: bool>
 where
     T: Real,
     P: Pack,
@@ -61,7 +62,7 @@ where
     level: PhantomData<L>,
 }
 
-impl<'m, L, T, S, P, M> Lanes<'m, L, T, S, P, M>
+impl<'m, L, T, S, P, M, const FOLLOWS: bool> Lanes<'m, L, T, S, P, M, FOLLOWS>
 where
     L: Level,
     T: Real,
@@ -106,7 +107,7 @@ where
     }
 }
 
-impl<L, T, S, P, M> Packed<T, S> for Lanes<'_, L, T, S, P, M>
+impl<L, T, S, P, M, const FOLLOWS: bool> Packed<T, S> for Lanes<'_, L, T, S, P, M, FOLLOWS>
 where
     L: Level,
     T: Real,
@@ -161,6 +162,9 @@ where
     }
 
     fn load_drifts(&mut self, drifts: &[DriftRows<T>], begins: Option<&[bool]>) {
+        if const { !FOLLOWS } {
+            return;
+        }
         let any = self.times.start;
         let new = |drift: &DriftRows<T>| LaneDrift::new(drift.quantity, any);
         self.drifts.clear();
@@ -175,6 +179,9 @@ where
     }
 
     fn store_drift(&self, k: usize, when: When, rows: &mut [Vec<T>; 4]) {
+        if const { !FOLLOWS } {
+            return;
+        }
         let drifts = match when {
             When::Now => &self.drifts,
             When::Before => &self.drifts_before,
@@ -185,6 +192,9 @@ where
     }
 
     fn load_sections(&mut self, sections: &[SectionRows<T>], lanes: &[bool]) {
+        if const { !FOLLOWS } {
+            return;
+        }
         self.section_lanes = lanes_of::<L, T, P>(lanes);
         self.sections.clear();
         for SectionRows { function, rows } in sections {
@@ -203,6 +213,9 @@ where
     }
 
     fn store_section(&self, k: usize, when: When, rows: &mut [Vec<T>; 2]) {
+        if const { !FOLLOWS } {
+            return;
+        }
         let sections = match when {
             When::Now => &self.sections,
             When::Before => &self.sections_before,
@@ -231,6 +244,9 @@ where
     }
 
     fn mark(&mut self, k: usize, lanes: &mut [bool]) -> Option<u64> {
+        if const { !FOLLOWS } {
+            return None;
+        }
         let (step, mask) = self.marks.steps.get(k)?;
         L::enter(FlagsOf { mask, flags: lanes });
         self.last_three.clone_from(self.marks.states(k));
@@ -238,10 +254,16 @@ where
     }
 
     fn take_last(&mut self) {
+        if const { !FOLLOWS } {
+            return;
+        }
         self.marks.copy_last(&mut self.last_three);
     }
 
     fn close_last(&mut self, at: usize, made: u64, rows: &mut Vec<T>) -> bool {
+        if const { !FOLLOWS } {
+            return false;
+        }
         let (carries_duration, _) = L::enter(Close::<'_, _, T, P> {
             map: &self.map,
             times: &self.times,
@@ -255,19 +277,19 @@ where
 }
 
 /// A block of steps, with what comes before and after it in lanes.
-struct Run<'a, 'm, L, T, S, P, M>
+struct Run<'a, 'm, L, T, S, P, M, const FOLLOWS: bool>
 where
     T: Real,
     P: Pack,
     S: System,
     M: Scheme<S>,
 {
-    lanes: &'a mut Lanes<'m, L, T, S, P, M>,
+    lanes: &'a mut Lanes<'m, L, T, S, P, M, FOLLOWS>,
     steps: Steps<'a>,
     rows: &'a mut Vec<T>,
 }
 
-impl<A, T, S, P, M> Kernel for Run<'_, '_, A, T, S, P, M>
+impl<A, T, S, P, M, const FOLLOWS: bool> Kernel for Run<'_, '_, A, T, S, P, M, FOLLOWS>
 where
     T: Real,
     P: Pack,
@@ -287,8 +309,10 @@ where
             schedule,
         } = steps;
         lanes.before.copy_from(&lanes.carried);
-        lanes.drifts_before.copy_from_slice(&lanes.drifts);
-        if !lanes.sections.is_empty() {
+        if FOLLOWS {
+            lanes.drifts_before.copy_from_slice(&lanes.drifts);
+        }
+        if FOLLOWS && !lanes.sections.is_empty() {
             lanes.sections_before.copy_from_slice(&lanes.sections);
             lanes.marks.copy_last(&mut lanes.last_three);
             lanes.marks.steps.clear();
@@ -305,7 +329,7 @@ where
             by_lane: schedule.by_lane.as_ref().map(|_| &mut lanes.schedule),
             attach: lanes.attach.take(),
         };
-        let (mut finite, end) = L::enter(Block {
+        let (mut finite, end) = L::enter(Block::<_, _, _, FOLLOWS> {
             map: &lanes.map,
             times: &lanes.times,
             made,
@@ -319,7 +343,7 @@ where
             marks: &mut lanes.marks,
         });
         let carries_duration;
-        if !closes && end < made + n {
+        if FOLLOWS && !closes && end < made + n {
             (carries_duration, finite) = L::enter(Close::<'_, _, T, P> {
                 map: &lanes.map,
                 times: &lanes.times,
@@ -341,7 +365,7 @@ where
         let mut energies = MaskIn::<T, P>::splat(true);
         if n > 0 {
             lanes.opening = Opening::Join;
-            for drift in &lanes.drifts {
+            for drift in lanes.drifts.iter().filter(|_| FOLLOWS) {
                 if drift.quantity == Quantity::Energy {
                     energies = energies & drift.numbers()[2].finite();
                 }

@@ -14,7 +14,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
-impl<T: Real, S: System, M: Scheme<S>> Driver<'_, T, S, M> {
+impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, FOLLOWS> {
     /// Loads the functions whose sign is followed for at least one member into lanes.
     pub(super) fn load_sections(&mut self) {
         let runs = self.occupants.runs();

@@ -90,7 +90,7 @@ where
     /// Advances all members to their ends.
     pub(crate) fn batch(mut self) -> Batch {
         let sweep = self.sweep;
-        bound::drive::<f64, S, M, A>(&sweep.scheme, &mut self);
+        bound::drive::<f64, S, M, O, A>(&sweep.scheme, &mut self);
         let missing = |outcome: Option<MemberOutcome>| {
             outcome.unwrap_or(MemberOutcome {
                 status: Status::Missing,

@@ -22,6 +22,7 @@ pub mod flows;
 mod forces;
 pub mod geometry;
 mod given;
+mod halves;
 pub mod hygiene;
 pub mod invariants;
 pub mod lagrangian;

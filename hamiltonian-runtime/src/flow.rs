@@ -63,6 +63,38 @@ impl<T: Real> VectorField<Flat<T>> for Field<T> {
             part.evaluate(&self.prepared, Home::Pool(&self.prepared.pool), arrays);
         }
     }
+    #[inline(always)]
+    fn has_halves(&self) -> bool {
+        self.parts.len() == 2
+    }
+    #[inline(always)]
+    fn add_half<const KICKS: bool>(&self, t: T, from: &Flat<T>, into: &mut Flat<T>) {
+        let (from, into) = (from.as_slice(), into.as_mut_slice());
+        let none = Arrays {
+            t,
+            ..Arrays::none()
+        };
+        let (part, arrays) = match (&*self.parts, KICKS) {
+            ([kick, _], true) => (
+                kick,
+                Arrays {
+                    q: from,
+                    into_p: into,
+                    ..none
+                },
+            ),
+            ([_, drift], false) => (
+                drift,
+                Arrays {
+                    p: from,
+                    into_q: into,
+                    ..none
+                },
+            ),
+            _ => return,
+        };
+        part.evaluate(&self.prepared, Home::Pool(&self.prepared.pool), arrays);
+    }
 }
 
 /// The flow of a piece of H for a duration.

@@ -130,6 +130,19 @@ pub trait FieldBody<K, T: Real>: WithData<T> {
         into_q: &mut Self::Vector,
         into_p: &mut Self::Vector,
     );
+    /// See [`VectorField::has_halves`].
+    const HALVES: bool = false;
+    /// See [`VectorField::add_half`].
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn add_half<const KICKS: bool>(
+        held: &Self::Held,
+        data: &Self::Data,
+        t: T,
+        from: &Self::Vector,
+        into: &mut Self::Vector,
+    ) {
+        let _ = (held, data, t, from, into);
+    }
 }
 
 /// A call of a body, in a function of its own if its code is shared.
@@ -207,6 +220,21 @@ impl<T: Real, D: Shift<Kick, T> + Shift<Drift, T>> FieldBody<Halves, T> for D {
     ) {
         shift::<Kick, T, D>(kick, data, t, q, into_p);
         shift::<Drift, T, D>(drift, data, t, p, into_q);
+    }
+    const HALVES: bool = true;
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn add_half<const KICKS: bool>(
+        (kick, drift): &Self::Held,
+        data: &Self::Data,
+        t: T,
+        from: &Self::Vector,
+        into: &mut Self::Vector,
+    ) {
+        if KICKS {
+            shift::<Kick, T, D>(kick, data, t, from, into);
+        } else {
+            shift::<Drift, T, D>(drift, data, t, from, into);
+        }
     }
 }
 
@@ -449,6 +477,15 @@ where
     fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
         let (held, data) = &self.held;
         add_field::<K, V::Scalar, D>(held, data, t, [q, p], [into_q, into_p]);
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn has_halves(&self) -> bool {
+        D::HALVES
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn add_half<const KICKS: bool>(&self, t: V::Scalar, from: &V, into: &mut V) {
+        let (held, data) = &self.held;
+        D::add_half::<KICKS>(held, data, t, from, into);
     }
 }
 

@@ -343,16 +343,31 @@ where
 pub(super) trait Equations<T: Real, L: StageLayout<T>, const S: usize> {
     /// The unknowns of a bundle, and the point at which they are evaluated.
     type Unknowns: Vector<Scalar = L::Bundle>;
-    /// The points of all bundles, by the matrices of this number: 0 the first time, when the unknowns are those of the
-    /// step before and the points those of the guess that is made of them; 1 later.
+    /// The number of groups of unknowns that an iteration computes one after the other, each from the new ones of those
+    /// before it.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn groups(&self) -> usize {
+        1
+    }
+    /// The points of all bundles that a group is computed from, by the matrices of this number: 0 where the unknowns are
+    /// those of the step before and the points those of the guess that is made of them; 1 later.
     fn points(
         &self,
+        group: usize,
         matrices: usize,
         unknowns: &[Self::Unknowns; S],
         points: &mut [Self::Unknowns; S],
     );
-    /// The right-hand side of a bundle.
-    fn evaluate(&mut self, bundle: usize, point: &mut Self::Unknowns, next: &mut Self::Unknowns);
+    /// Replaces a group of the unknowns of a bundle by the right-hand side, but for the lanes that are solved. Returns
+    /// the size of the change.
+    fn improve(
+        &mut self,
+        group_and_bundle: (usize, usize),
+        solved: T::Mask,
+        point: &mut Self::Unknowns,
+        unknowns: &mut Self::Unknowns,
+        next: &mut Self::Unknowns,
+    ) -> <L::Bundle as Real>::Size;
     /// The size of the numbers that the unknowns of a stage are made of, besides their own.
     fn scale(&self) -> T::Size;
 }
@@ -368,6 +383,18 @@ const REST: f64 = 1.0 / 16.0;
 /// The same for a step alone, which is half as long as the unknowns allow at most: the state then changes by two ε of what
 /// a step changes it by.
 const ALONE: f64 = 4.0;
+
+/// Replaces unknowns by the next ones, but for the lanes that are solved. Returns the size of the change.
+#[cfg_attr(not(unoptimised), inline(always))]
+pub(super) fn replace<T: Real, L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
+    solved: T::Mask,
+    next: &X,
+    unknowns: &mut X,
+) -> <L::Bundle as Real>::Size {
+    let change = next.size_of_difference(unknowns);
+    L::copy_unless(solved, next, unknowns);
+    change
+}
 
 /// Iterates `y ← g(y)` of all stages, at most `limit` times, until the change, the largest of all stages,
 /// - is 0,
@@ -399,12 +426,20 @@ pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: 
     let matrices = core::hint::black_box([0, 1]);
     while iterations < limit {
         let later = iterations > 0 || is_own;
-        equations.points(matrices[usize::from(later)], unknowns, points);
         let mut changes = [<L::Bundle as Real>::Size::zero(); S];
-        for bundle in 0..bundles::<T, L, S>() {
-            equations.evaluate(bundle, &mut points[bundle], next);
-            changes[bundle] = next.size_of_difference(&unknowns[bundle]);
-            L::copy_unless(solved, next, &mut unknowns[bundle]);
+        for group in 0..equations.groups() {
+            // What the first group computes belongs to this step.
+            let matrices = matrices[usize::from(later || group > 0)];
+            equations.points(group, matrices, unknowns, points);
+            for bundle in 0..bundles::<T, L, S>() {
+                let (point, of) = (&mut points[bundle], &mut unknowns[bundle]);
+                let change = equations.improve((group, bundle), solved, point, of, next);
+                changes[bundle] = if group == 0 {
+                    change
+                } else {
+                    changes[bundle] + change
+                };
+            }
         }
         iterations += 1;
         if iterations == 1 {

@@ -6,8 +6,8 @@
 mod beside;
 
 use super::bundles::{
-    Abreast, Apart, Equations, StageLayout, Width, bundles, of_the_guess, product, solve, spread,
-    sum,
+    Abreast, Apart, Equations, StageLayout, Width, bundles, of_the_guess, product, replace, solve,
+    spread, sum,
 };
 use super::collocation::{Collocation, multiples, whole_ulps};
 use super::compensated::carry;
@@ -278,7 +278,7 @@ where
 {
     type Unknowns = X;
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn points(&self, matrix: usize, gradients: &[X; S], points: &mut [X; S]) {
+    fn points(&self, _: usize, matrix: usize, gradients: &[X; S], points: &mut [X; S]) {
         let matrix = &self.tableau.double[matrix];
         for k in 0..X::PARTS {
             for i in 0..points[0].part(k).len() {
@@ -290,12 +290,20 @@ where
         }
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn evaluate(&mut self, bundle: usize, impulse: &mut X, next: &mut X) {
+    fn improve(
+        &mut self,
+        (_, bundle): (usize, usize),
+        solved: T::Mask,
+        impulse: &mut X,
+        gradients: &mut X,
+        next: &mut X,
+    ) -> <L::Bundle as Real>::Size {
         let t = self.t + self.tableau.times[bundle];
         let free = &self.free[bundle];
         self.dynamics.gradient_p(t, free, impulse, self.moved);
         self.moved.accumulate(L::Bundle::one(), free);
         self.dynamics.gradient_q(t, self.moved, impulse, next);
+        replace::<T, L, _>(solved, next, gradients)
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self) -> T::Size {

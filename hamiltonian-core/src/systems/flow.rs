@@ -12,6 +12,19 @@ use hamiltonian_lanes::Real;
 pub trait VectorField<V: Vector>: Clone + Debug {
     /// `into_q += c·∂H/∂p(q, p, t)`, `into_p += c·(f(q, p, t) − ∂H/∂q(q, p, t))`.
     fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V);
+    /// True if ∂H/∂p depends on p and t alone and f − ∂H/∂q on q and t alone, and
+    /// [`add_half`](VectorField::add_half) computes one without the other. Implicit schemes then compute the forces from
+    /// the new velocities.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn has_halves(&self) -> bool {
+        false
+    }
+    /// The part of [`add`](VectorField::add) that is added to the coordinates (`KICKS` is false) or to the momenta, from
+    /// the other half of phase space, if the field has halves; otherwise nothing.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn add_half<const KICKS: bool>(&self, t: V::Scalar, from: &V, into: &mut V) {
+        let _ = (t, from, into);
+    }
 }
 
 /// Scratch memory of a flow or a map of `X`; its contents never matter: `()`, an `X`, or a struct

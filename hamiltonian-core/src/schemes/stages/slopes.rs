@@ -8,7 +8,7 @@ use crate::flows::iterate::Outcome;
 use crate::flows::map::Clock;
 use crate::schemes::bundles::{
     Abreast, Beside, Equations, LEVELS, StageLayout, Width, bundles, copy, in_bundles,
-    lay_in_bundles, load, product, solve, spread, store, sum,
+    lay_in_bundles, load, product, replace, solve, spread, store, sum,
 };
 use crate::schemes::compensated::carry;
 use crate::schemes::staged::Inspect;
@@ -51,11 +51,33 @@ where
     X: Vector<Scalar = L::Bundle>,
 {
     type Unknowns = Point<X>;
+    /// If forces and velocities depend on one half of phase space each, the velocities are computed from the momenta at
+    /// the stages, then the forces from the coordinates that these velocities lead to. One iteration then shrinks the
+    /// error as two do that compute both at once.
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn points(&self, matrices: usize, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
+    fn groups(&self) -> usize {
+        if S > 1 && self.field.has_halves() {
+            2
+        } else {
+            1
+        }
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn points(
+        &self,
+        group: usize,
+        matrices: usize,
+        slopes: &[Point<X>; S],
+        points: &mut [Point<X>; S],
+    ) {
         // One unknown is its own guess: the same factors in every iteration.
         let matrices = &self.tableau.matrices[if S == 1 { 1 } else { matrices }];
-        for k in 0..Point::<X>::PARTS {
+        let parts = match (self.groups(), group) {
+            (1, _) => 0..2 * X::PARTS,
+            (_, 0) => X::PARTS..2 * X::PARTS,
+            _ => 0..X::PARTS,
+        };
+        for k in parts {
             let matrix = &matrices[usize::from(k >= X::PARTS)];
             for i in 0..self.point.part(k).len() {
                 let base = L::splat(self.point.part(k)[i]);
@@ -75,20 +97,47 @@ where
         }
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn evaluate(&mut self, bundle: usize, point: &mut Point<X>, next: &mut Point<X>) {
-        // From −0, x + (−0) = x to the bit; if c is known to be 1, the compiler removes the sum.
-        for k in 0..Point::<X>::PARTS {
-            for slope in next.part_mut(k) {
-                *slope = -L::Bundle::zero();
+    fn improve(
+        &mut self,
+        (group, bundle): (usize, usize),
+        solved: T::Mask,
+        point: &mut Point<X>,
+        slopes: &mut Point<X>,
+        next: &mut Point<X>,
+    ) -> <L::Bundle as Real>::Size {
+        let t = self.t + self.tableau.times[bundle];
+        match (self.groups(), group) {
+            (1, _) => {
+                clear(next);
+                let Point { q, p } = &mut *next;
+                self.field.add(t, &point.q, &point.p, q, p);
+                replace::<T, L, _>(solved, next, slopes)
+            }
+            (_, 0) => {
+                clear(&mut next.q);
+                self.field.add_half::<false>(t, &point.p, &mut next.q);
+                replace::<T, L, _>(solved, &next.q, &mut slopes.q)
+            }
+            _ => {
+                clear(&mut next.p);
+                self.field.add_half::<true>(t, &point.q, &mut next.p);
+                replace::<T, L, _>(solved, &next.p, &mut slopes.p)
             }
         }
-        let t = self.t + self.tableau.times[bundle];
-        let Point { q, p } = next;
-        self.field.add(t, &point.q, &point.p, q, p);
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self) -> T::Size {
         self.point.size() / self.tableau.h.size()
+    }
+}
+
+/// From −0, x + (−0) = x to the bit; if c is known to be 1, the compiler removes the sum.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn clear<X: Vector>(slopes: &mut X) {
+    for k in 0..X::PARTS {
+        for slope in slopes.part_mut(k) {
+            *slope = -X::Scalar::zero();
+        }
     }
 }
 

@@ -101,7 +101,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 pub(crate) use words::Known;
 
 /// An error of any [phase](self). Memory is allocated only when one happened.
-#[derive(Clone, PartialEq)]
+#[derive(PartialEq)]
 #[non_exhaustive]
 pub enum Error {
     /// A system, a state or coordinates cannot be made.
@@ -182,6 +182,23 @@ macro_rules! phases {
                 }
             }
         )*
+
+        /// Not derived: a derived copy is inlined, and compiled anew in each program.
+        impl Clone for Error {
+            fn clone(&self) -> Self {
+                match self {
+                    $($(#[$with])* Error::$Variant(error) => Error::$Variant(error.clone()),)*
+                    #[cfg(feature = "std")]
+                    Error::Io { kind, message } => Error::Io {
+                        kind: *kind,
+                        message: message.clone(),
+                    },
+                    Error::Other { message } => Error::Other {
+                        message: message.clone(),
+                    },
+                }
+            }
+        }
 
         impl Display for Error {
             fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

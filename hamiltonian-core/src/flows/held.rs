@@ -6,9 +6,10 @@
 use crate::flows::narrow::{Varied, fixed, fixed_vector};
 use crate::systems::function::Function;
 use crate::systems::system::Arithmetic;
-use crate::systems::system::gather::{MAX_MEMBERS, masks, numbers, vectors};
+use crate::systems::system::gather::{masks, numbers, vectors};
 use crate::systems::vector::{Over, Vector};
 use alloc::sync::Arc;
+use alloc::vec::Vec;
 use core::fmt::Debug;
 use hamiltonian_lanes::{Mask, Pack, Real};
 
@@ -97,12 +98,13 @@ pub fn gathered<'a, T: Real, P: Pack, W, D: LaneValue<T>>(
     members: &[&'a W],
     of: impl Fn(&'a W) -> &'a D,
 ) -> D::Over<T::Over<P>> {
-    let mut parts = [of(members[0]); MAX_MEMBERS];
-    let count = members.len().min(MAX_MEMBERS);
-    for (part, member) in parts.iter_mut().zip(members) {
-        *part = of(member);
-    }
-    D::gather::<P>(&parts[..count])
+    D::gather::<P>(&parts_of(members, &of))
+}
+
+/// A part of each member. It is not inlined, since no pack concerns it.
+#[inline(never)]
+fn parts_of<'a, W, D>(members: &[&'a W], of: &dyn Fn(&'a W) -> &'a D) -> Vec<&'a D> {
+    members.iter().map(|member| of(member)).collect()
 }
 
 /// A value that is the same in all lanes of a pack.

@@ -54,10 +54,23 @@ impl<T: Real, P: Pack> Kernel for LanesOf<'_, T, P> {
     type Output = MaskIn<T, P>;
     #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> MaskIn<T, P> {
-        let number = |flag: &bool| if *flag { T::one() } else { T::zero() };
-        let numbers: Vec<T> = self.flags.iter().map(number).collect();
-        T::gather::<P>(&numbers).equals(<T::Over<P> as Real>::one())
+        gathered::<L, T, P>(&as_numbers(self.flags)).equals(<T::Over<P> as Real>::one())
     }
+}
+
+/// Returns 1 for each flag that is set.
+#[inline(never)]
+fn as_numbers<T: Real>(flags: &[bool]) -> Vec<T> {
+    let number = |flag: &bool| if *flag { T::one() } else { T::zero() };
+    flags.iter().map(number).collect()
+}
+
+/// Returns a pack with a number of each member. In a kernel this is a call, where [`Real::gather`] is written out.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn gathered<L: Level, T: Real, P: Pack>(numbers: &[T]) -> T::Over<P> {
+    let mut pack = T::Over::<P>::default();
+    gather::<L, T, P>(numbers, &mut pack);
+    pack
 }
 
 /// Writes the flag of each lane to a slice.
@@ -165,7 +178,7 @@ where
     #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
         let prepared = S::gather::<T, P>(self.systems);
-        let step = Step::of(T::gather::<P>(self.steps));
+        let step = Step::of(gathered::<L, T, P>(self.steps));
         let map = self.scheme.prepare(&prepared, step);
         (prepared, map)
     }
@@ -219,7 +232,7 @@ where
                 }
             }
         }
-        let h = T::gather::<P>(self.steps);
+        let h = gathered::<L, T, P>(self.steps);
         self.scheme.start(self.prepared, &start, h)
     }
 }

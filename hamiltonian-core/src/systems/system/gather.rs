@@ -13,6 +13,7 @@ use super::{Dynamics, System, VectorOf};
 use crate::systems::compiled::Compiled;
 use crate::systems::vector::{Over, Vector};
 use alloc::boxed::Box;
+use alloc::vec::Vec;
 use core::any::Any;
 use core::fmt;
 use core::marker::PhantomData;
@@ -225,10 +226,21 @@ pub fn numbers<T: Real, P: Pack, M, const N: usize>(
     of: impl Fn(&M) -> &[T; N],
 ) -> [T::Over<P>; N] {
     let mut all = [T::Over::<P>::default(); N];
-    for (k, to) in all.iter_mut().enumerate() {
-        *to = number::<T, P, M>(members, |member| of(member)[k]);
+    let rows = rows_of(members, &of);
+    for (to, row) in all.iter_mut().zip(rows.chunks_exact(members.len().max(1))) {
+        *to = T::gather::<P>(row);
     }
     all
+}
+
+/// The numbers of all members, number by number. It is not inlined, since no pack concerns it.
+#[inline(never)]
+fn rows_of<T: Real, M, const N: usize>(members: &[&M], of: &dyn Fn(&M) -> &[T; N]) -> Vec<T> {
+    let mut rows = Vec::with_capacity(N * members.len());
+    for k in 0..N {
+        rows.extend(members.iter().map(|member| of(member)[k]));
+    }
+    rows
 }
 
 /// Conditions of each member, in its lane.

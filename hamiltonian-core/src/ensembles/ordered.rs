@@ -122,7 +122,7 @@ mod parallel {
                 shared.changed.notify_all();
             }
         };
-        with_workers(threads, worker, |started| {
+        with_workers(threads, &worker, &mut |started| {
             if started == 0 {
                 return super::in_rounds(count, 1, &work, &mut take);
             }

@@ -2,7 +2,8 @@
 //!
 //! Input: items and a closure. Output: the work done on each item. Invariants: one thread works on an item, so that
 //! results depend on neither the number of threads nor their order; a caller in a rayon pool starts no threads besides
-//! those of the pool. Both are the same in unoptimised code, where only the stacks are larger.
+//! those of the pool. Both are the same in unoptimised code, where only the stacks are larger. Threads are started by
+//! functions that are not generic, so that no program compiles them.
 
 /// Returns the number of threads that run at once: those of the caller's rayon pool, or of the machine.
 pub(crate) fn available() -> usize {
@@ -42,9 +43,9 @@ const STACK: usize = 64 << 20;
 ///
 /// With the panic of the worker.
 #[cfg(feature = "std")]
-fn on_large_stack(worker: &(impl Fn() + Sync)) {
+fn on_large_stack(worker: &(dyn Fn() + Sync)) {
     if cfg!(debug_assertions) {
-        with_workers(1, worker, |started| {
+        with_workers(1, worker, &mut |started| {
             if started == 0 {
                 worker();
             }
@@ -62,25 +63,42 @@ fn on_large_stack(worker: &(impl Fn() + Sync)) {
 ///
 /// With the panic of a worker or of the caller's part.
 #[cfg(feature = "std")]
-pub(crate) fn with_workers<A>(
+pub(crate) fn with_workers(
     threads: usize,
-    worker: impl Fn() + Sync,
-    caller: impl FnOnce(usize) -> A,
-) -> A {
+    worker: &(dyn Fn() + Sync),
+    caller: &mut dyn FnMut(usize),
+) {
     std::thread::scope(|scope| {
         let spawn = |_| {
             let builder = std::thread::Builder::new().stack_size(STACK);
-            builder.spawn_scoped(scope, &worker).ok()
+            builder.spawn_scoped(scope, worker).ok()
         };
         let started: Vec<_> = (0..threads).map_while(spawn).collect();
-        let made = caller(started.len());
+        caller(started.len());
         for thread in started {
             if let Err(panic) = thread.join() {
                 std::panic::resume_unwind(panic);
             }
         }
-        made
-    })
+    });
+}
+
+/// Runs the worker on several threads, or on the caller's.
+#[cfg(feature = "std")]
+fn on_threads(threads: usize, worker: &(dyn Fn() + Sync)) {
+    if threads == 1 {
+        return on_large_stack(worker);
+    }
+    #[cfg(feature = "rayon")]
+    if let Some(pool) = of_pool() {
+        return rayon_core::in_place_scope(|scope| {
+            for _ in 1..threads.min(pool) {
+                scope.spawn(|_| on_large_stack(worker));
+            }
+            on_large_stack(worker);
+        });
+    }
+    with_workers(threads - 1, worker, &mut |_| on_large_stack(worker));
 }
 
 /// Does the work on every item. A thread that has finished an item takes the next one.
@@ -101,19 +119,7 @@ pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&
                 work(item);
             }
         };
-        if threads == 1 {
-            return on_large_stack(&worker);
-        }
-        #[cfg(feature = "rayon")]
-        if let Some(pool) = of_pool() {
-            return rayon_core::in_place_scope(|scope| {
-                for _ in 1..threads.min(pool) {
-                    scope.spawn(|_| on_large_stack(&worker));
-                }
-                on_large_stack(&worker);
-            });
-        }
-        with_workers(threads - 1, worker, |_| on_large_stack(&worker));
+        on_threads(threads, &worker);
     }
     #[cfg(not(feature = "std"))]
     {

@@ -72,6 +72,14 @@ impl Derivative {
     }
 }
 
+/// The most words of a number that is taken apart into lanes.
+const WORDS: usize = 128;
+
+/// True for numbers over a pack with no more words.
+const fn is_pack<T: Real>() -> bool {
+    T::LANES > 1 && (T::LANES as usize) << T::DUALS <= WORDS
+}
+
 /// The arguments as dual numbers, argument i as the variable.
 #[inline(always)]
 fn duals<T: Real>(at: [T; 2], i: u8) -> [Dual<T>; 2] {
@@ -98,21 +106,85 @@ impl Tabulated {
         }
     }
 
-    #[inline(always)]
-    fn value<T: Real>(&self, [x, y]: [T; 2]) -> T {
-        match self {
-            Tabulated::Spline(spline) => spline.value([x]),
-            Tabulated::Grid(grid) => grid.value([x, y]),
-        }
-    }
-
-    /// A derivative at a point; a spline does not read the second number.
+    /// A derivative at a point; a spline does not read the second number. Dual numbers over a pack have that of a grid lane by
+    /// lane: a product of three dual numbers inside each other is many products, in each register of the pack.
     #[inline(always)]
     pub(crate) fn derivative<T: Real>(&self, derivative: Derivative, at: [T; 2]) -> T {
-        match derivative {
-            Derivative::Value => self.value(at),
-            Derivative::First(i) => self.value(duals(at, i)).eps,
-            Derivative::Second(i, j) => self.value(duals(duals(at, j), i)).eps.eps,
+        match self {
+            Tabulated::Spline(spline) => spline.derivative(derivative, at),
+            Tabulated::Grid(grid) => {
+                if const { is_pack::<T>() && T::DUALS == 1 } {
+                    by_lanes::<T, Dual<f64>>(grid, derivative, at)
+                } else if const { is_pack::<T>() && T::DUALS == 2 } {
+                    by_lanes::<T, Dual<Dual<f64>>>(grid, derivative, at)
+                } else {
+                    grid.derivative(derivative, at)
+                }
+            }
         }
     }
+}
+
+/// A function of two numbers, or of the first of them.
+trait OfTwo {
+    fn at<T: Real>(&self, at: [T; 2]) -> T;
+
+    #[inline(always)]
+    fn derivative<T: Real>(&self, derivative: Derivative, at: [T; 2]) -> T {
+        match derivative {
+            Derivative::Value => self.at(at),
+            Derivative::First(i) => self.at(duals(at, i)).eps,
+            Derivative::Second(i, j) => self.at(duals(duals(at, j), i)).eps.eps,
+        }
+    }
+}
+
+impl OfTwo for Spline {
+    #[inline(always)]
+    fn at<T: Real>(&self, [x, _]: [T; 2]) -> T {
+        self.value([x])
+    }
+}
+
+impl OfTwo for Grid {
+    #[inline(always)]
+    fn at<T: Real>(&self, at: [T; 2]) -> T {
+        self.value(at)
+    }
+}
+
+/// A derivative over the scalar `E` of each lane.
+#[inline(always)]
+fn by_lanes<T: Real, E: Real>(grid: &Grid, derivative: Derivative, at: [T; 2]) -> T {
+    // The lanes of the value, then those of its derivative.
+    let lanes = T::LANES as usize;
+    let words = at.map(|x| {
+        let (mut words, mut next) = ([0.0; WORDS], 0);
+        x.write_words(&mut |word| {
+            words[next % WORDS] = word;
+            next += 1;
+        });
+        words
+    });
+    let mut found = [0.0; WORDS];
+    for lane in 0..lanes {
+        let at = words.each_ref().map(|words| {
+            let mut parts = words.iter().skip(lane).step_by(lanes);
+            E::read_words(&mut || parts.next().copied().unwrap_or(f64::NAN))
+        });
+        let mut places = found.iter_mut().skip(lane).step_by(lanes);
+        of_lane(grid, derivative, at).write_words(&mut |word| {
+            if let Some(place) = places.next() {
+                *place = word;
+            }
+        });
+    }
+    let mut words = found.into_iter();
+    T::read_words(&mut || words.next().unwrap_or(f64::NAN))
+}
+
+/// The same of one lane, of which all packs have one copy.
+#[inline(never)]
+fn of_lane<E: Real>(grid: &Grid, derivative: Derivative, at: [E; 2]) -> E {
+    grid.derivative(derivative, at)
 }

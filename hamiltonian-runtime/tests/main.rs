@@ -19,5 +19,6 @@ mod emitted;
 mod named;
 mod refusals;
 mod runs;
+mod tabulated;
 mod tolerance;
 mod variables;

@@ -13,6 +13,7 @@ use super::{Dynamics, System, VectorOf};
 use crate::systems::compiled::Compiled;
 use crate::systems::vector::{Over, Vector};
 use alloc::boxed::Box;
+use alloc::vec;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::fmt;
@@ -236,9 +237,12 @@ pub fn numbers<T: Real, P: Pack, M, const N: usize>(
 /// The numbers of all members, number by number. It is not inlined, since no pack concerns it.
 #[inline(never)]
 fn rows_of<T: Real, M, const N: usize>(members: &[&M], of: &dyn Fn(&M) -> &[T; N]) -> Vec<T> {
-    let mut rows = Vec::with_capacity(N * members.len());
-    for k in 0..N {
-        rows.extend(members.iter().map(|member| of(member)[k]));
+    let count = members.len();
+    let mut rows = vec![T::default(); N * count];
+    for (lane, member) in members.iter().enumerate() {
+        for (k, number) in of(member).iter().enumerate() {
+            rows[k * count + lane] = *number;
+        }
     }
     rows
 }

@@ -13,7 +13,7 @@ mod sections;
 mod transfer;
 
 use self::lanes::Lanes;
-use self::packed::{BlockEnd, Carrying, DriftRows, Packed, Steps, When};
+use self::packed::{BlockEnd, BlockSteps, CarriedAt, DriftRows, Packed, When};
 use self::scalar::{explain, pass_to_host};
 use super::block::Opening;
 use super::host::{Host, MemberRun};
@@ -158,7 +158,7 @@ impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, 
                 true => 0,
                 false => self.occupants.steps(BLOCK, self.host),
             };
-            let steps = Steps {
+            let steps = BlockSteps {
                 made: self.made,
                 n,
                 energy: self.drifts.contains(&Quantity::Energy),
@@ -203,7 +203,7 @@ impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, 
         let runs = self.occupants.runs();
         self.rows
             .resize(runs[0].words.len() * runs.len(), T::zero());
-        self.lanes.store(Carrying::Now, &mut self.rows);
+        self.lanes.store(CarriedAt::Now, &mut self.rows);
         self.occupants.write_columns(&mut self.rows);
         let runs = self.occupants.runs();
         let steps = number_of_each(&runs, |run| run.step);
@@ -320,7 +320,7 @@ impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, 
         let is_bad = |lane: usize| !(numbers[lane] && energies[lane] && inside[lane]);
         let bad: Vec<bool> = (0..lanes).map(is_bad).collect();
         let mut before = vec![T::zero(); self.rows.len()];
-        self.lanes.store(Carrying::Before, &mut before);
+        self.lanes.store(CarriedAt::Before, &mut before);
         if self.has_drifts() {
             self.write_drifts(When::Before);
         }
@@ -382,7 +382,7 @@ impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, 
         if host.observes() {
             let has_parts = self.lanes.has_parts();
             if has_parts {
-                self.lanes.store(Carrying::Now, &mut self.rows);
+                self.lanes.store(CarriedAt::Now, &mut self.rows);
             }
             let states = (&*self.shown, carries_duration);
             let words = has_parts.then_some(&*self.rows);
@@ -391,7 +391,7 @@ impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, 
             occupants.for_each_due(|_, _| false);
         }
         if self.occupants.is_any_leaving() {
-            self.lanes.store(Carrying::Now, &mut self.rows);
+            self.lanes.store(CarriedAt::Now, &mut self.rows);
             self.occupants.leave(&self.rows, self.host);
         }
     }

@@ -3,7 +3,7 @@
 //! Input: numbers of members, lane by lane. Output: the same after a block of steps. Invariant: operations of packs stand
 //! in kernels, which enter the level; the functions around them only move numbers.
 
-use super::packed::{BlockEnd, Carrying, DriftRows, Packed, SectionRows, Steps, When};
+use super::packed::{BlockEnd, BlockSteps, CarriedAt, DriftRows, Packed, SectionRows, When};
 use super::transfer::{Begin, FlagsOf, Prepare, gather, lanes_of, load, scatter, store};
 use super::{CarriedIn, MapIn, MaskIn, as_scalars};
 use crate::ensembles::block::{Block, Followed, LaneClock, LaneSchedule, Opening};
@@ -133,11 +133,11 @@ where
         self.marks.replace(&self.carried);
     }
 
-    fn store(&self, values: Carrying, rows: &mut [T]) {
+    fn store(&self, values: CarriedAt, rows: &mut [T]) {
         let values = match values {
-            Carrying::Now => &self.carried,
-            Carrying::Before => &self.before,
-            Carrying::Last(at) => &self.last_three[at],
+            CarriedAt::Now => &self.carried,
+            CarriedAt::Before => &self.before,
+            CarriedAt::Last(at) => &self.last_three[at],
         };
         store::<L, T, P, _>(values, rows);
     }
@@ -225,12 +225,12 @@ where
         }
     }
 
-    fn block(&mut self, steps: Steps<'_>, rows: &mut Vec<T>) -> BlockEnd {
+    fn block(&mut self, steps: BlockSteps<'_>, rows: &mut Vec<T>) -> BlockEnd {
         if let Some([left, interval]) = &steps.schedule.by_lane {
             gather::<L, T, P>(&as_scalars(left), &mut self.schedule.left);
             gather::<L, T, P>(&as_scalars(interval), &mut self.schedule.interval);
         }
-        L::enter(Run {
+        L::enter(RunBlock {
             lanes: self,
             steps,
             rows,
@@ -277,7 +277,7 @@ where
 }
 
 /// A block of steps, with what comes before and after it in lanes.
-struct Run<'a, 'm, L, T, S, P, M, const FOLLOWS: bool>
+struct RunBlock<'a, 'm, L, T, S, P, M, const FOLLOWS: bool>
 where
     T: Real,
     P: Pack,
@@ -285,11 +285,11 @@ where
     M: Scheme<S>,
 {
     lanes: &'a mut Lanes<'m, L, T, S, P, M, FOLLOWS>,
-    steps: Steps<'a>,
+    steps: BlockSteps<'a>,
     rows: &'a mut Vec<T>,
 }
 
-impl<A, T, S, P, M, const FOLLOWS: bool> Kernel for Run<'_, '_, A, T, S, P, M, FOLLOWS>
+impl<A, T, S, P, M, const FOLLOWS: bool> Kernel for RunBlock<'_, '_, A, T, S, P, M, FOLLOWS>
 where
     T: Real,
     P: Pack,
@@ -300,8 +300,8 @@ where
 
     #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> BlockEnd {
-        let Run { lanes, steps, rows } = self;
-        let Steps {
+        let RunBlock { lanes, steps, rows } = self;
+        let BlockSteps {
             made,
             n,
             energy,

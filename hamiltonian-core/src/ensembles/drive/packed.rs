@@ -21,7 +21,7 @@ pub(super) trait Packed<T: Real, S: System> {
     /// Reads the carried values after a change of the members.
     fn load(&mut self, rows: &[T]);
     /// Writes carried values.
-    fn store(&self, values: Carrying, rows: &mut [T]);
+    fn store(&self, values: CarriedAt, rows: &mut [T]);
     /// Sets the times at which the lanes started, the durations of their steps and the steps that they have made.
     fn set_clocks(&mut self, numbers: [&[T]; 3]);
     /// Sets the piece before the first body of the next block, with the lanes that are at their starts.
@@ -36,13 +36,13 @@ pub(super) trait Packed<T: Real, S: System> {
     /// Writes the last value of function `k` and the one before, now or at the beginning of the block.
     fn store_section(&self, k: usize, when: When, rows: &mut [Vec<T>; 2]);
     /// Makes a block of steps and writes the closed states, as [`Close`](crate::ensembles::close::Close) does.
-    fn block(&mut self, steps: Steps<'_>, rows: &mut Vec<T>) -> BlockEnd;
+    fn block(&mut self, steps: BlockSteps<'_>, rows: &mut Vec<T>) -> BlockEnd;
     /// Writes the lanes in which all numbers were finite after the last block, and those in which H was so wherever the
     /// block evaluated it.
     fn finite(&self, numbers: &mut [bool], energies: &mut [bool]);
-    /// Returns the step of mark `k` of the last block, and writes its lanes. `Carrying::Last` is the three states there.
+    /// Returns the step of mark `k` of the last block, and writes its lanes. `CarriedAt::Last` is the three states there.
     fn mark(&mut self, k: usize, lanes: &mut [bool]) -> Option<u64>;
-    /// Sets `Carrying::Last` to the last three states of the block.
+    /// Sets `CarriedAt::Last` to the last three states of the block.
     fn take_last(&mut self);
     /// Writes the closed states at one of the last three, after a number of steps. Returns true if the duration of a step
     /// is carried.
@@ -51,7 +51,7 @@ pub(super) trait Packed<T: Real, S: System> {
 
 /// Carried values of all lanes.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Carrying {
+pub(super) enum CarriedAt {
     /// Those of now.
     Now,
     /// Those at the beginning of the last block.
@@ -83,7 +83,7 @@ pub(super) struct SectionRows<T> {
 }
 
 /// A block of steps.
-pub(super) struct Steps<'a> {
+pub(super) struct BlockSteps<'a> {
     /// The steps since the occupants last changed.
     pub(super) made: u64,
     pub(super) n: u64,

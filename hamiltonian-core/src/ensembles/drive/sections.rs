@@ -3,7 +3,7 @@
 //! Input: the marks of a block. Output: states passed to observers: those after which a sign may have changed and the
 //! two before each. Invariant: afterwards an observer has the data that it would have after receiving every state.
 
-use super::packed::{Carrying, SectionRows, When};
+use super::packed::{CarriedAt, SectionRows, When};
 use super::scalar::PassedStates;
 use super::{Driver, number_of_each};
 use crate::ensembles::host::MemberRun;
@@ -101,7 +101,7 @@ impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, 
             let made = step.wrapping_sub(back);
             let carries_duration = self.lanes.close_last(at, made, &mut self.passed);
             if has_parts {
-                self.lanes.store(Carrying::Last(at), &mut self.rows);
+                self.lanes.store(CarriedAt::Last(at), &mut self.rows);
             }
             let passed = PassedStates {
                 rows: &self.passed,
@@ -115,7 +115,7 @@ impl<T: Real, S: System, M: Scheme<S>, const FOLLOWS: bool> Driver<'_, T, S, M, 
             passed.pass(self.scheme, &mut self.occupants, self.host);
         }
         if self.occupants.is_any_leaving() {
-            self.lanes.store(Carrying::Last(2), &mut self.rows);
+            self.lanes.store(CarriedAt::Last(2), &mut self.rows);
             self.occupants.leave(&self.rows, self.host);
         }
     }

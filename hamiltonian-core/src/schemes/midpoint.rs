@@ -126,11 +126,20 @@ struct MidpointEquation<'a, V: Vector, F> {
 impl<V: Vector, F: VectorField<V>> Contraction<Point<V>> for MidpointEquation<'_, V, F> {
     #[cfg_attr(not(unoptimised), inline(always))]
     fn map(&mut self, slope: &Point<V>, next: &mut Point<V>) {
+        let (t, half, field) = (self.t, self.map.half, &self.map.field);
         self.middle.copy_from(self.point);
-        self.middle.accumulate(self.map.half, slope);
         next.set_zero();
         let Point { q, p } = next;
-        (self.map.field).add(self.t, &self.middle.q, &self.middle.p, q, p);
+        if field.has_halves() {
+            // The velocities, then the forces at the coordinates that they lead to: half as many iterations.
+            self.middle.p.accumulate(half, &slope.p);
+            field.add_half::<false>(t, &self.middle.p, q);
+            self.middle.q.accumulate(half, q);
+            field.add_half::<true>(t, &self.middle.q, p);
+        } else {
+            self.middle.accumulate(half, slope);
+            field.add(t, &self.middle.q, &self.middle.p, q, p);
+        }
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self, slope: &Point<V>) -> <V::Scalar as Real>::Size {

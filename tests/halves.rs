@@ -1,7 +1,6 @@
 //! Stages of a separable H: forces are computed from the new velocities, which takes about half the iterations.
 
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::author::Listed;
 use std::cell::Cell;
 
 thread_local! {

@@ -428,7 +428,7 @@ pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: 
         let later = iterations > 0 || is_own;
         let mut changes = [<L::Bundle as Real>::Size::zero(); S];
         for group in 0..equations.groups() {
-            // What the first group computes belongs to this step.
+            // The first group already belongs to this step.
             let matrices = matrices[usize::from(later || group > 0)];
             equations.points(group, matrices, unknowns, points);
             for bundle in 0..bundles::<T, L, S>() {

@@ -1,4 +1,4 @@
-//! What the driver of members requires of their lanes: the only part of it that is compiled for each level.
+//! The lanes of members as their driver sees them: the only part of it that is compiled for each level.
 //!
 //! Input: numbers of members, lane by lane. Output: the same after a block of steps. Invariant: no type here depends on the
 //! level, on the pack or on the map.

@@ -4,7 +4,7 @@
 //! same time share registers. Invariant: a value that a loop reads and that is computed before it keeps its register to
 //! the end of the loop.
 
-use crate::op::{COEFFICIENT, HELD, Op, PHASE, Register, Stage};
+use crate::op::{COEFFICIENT, EIGHT, HELD, Op, PHASE, Register, Stage};
 use hamiltonian_symbolic::dag::Map;
 
 /// The first and the last operation that needs a register.
@@ -34,8 +34,8 @@ impl Layout {
     }
 }
 
-/// Numbers the registers of a stage anew.
-pub(crate) fn allocate(stage: &mut Stage, layout: Layout) {
+/// Numbers the registers of a stage anew. The results of eight operations from each of `groups` on are neighbours.
+pub(crate) fn allocate(stage: &mut Stage, layout: Layout, groups: &[usize]) {
     let first = layout.values as Register;
     let mut spans: [Map<Register, Span>; 2] = [Map::default(), Map::default()];
     for (at, op) in stage.ops.iter().enumerate() {
@@ -85,6 +85,9 @@ pub(crate) fn allocate(stage: &mut Stage, layout: Layout) {
         let mut busy: Vec<(usize, Register)> = Vec::new();
         let mut free: Vec<Register> = Vec::new();
         for ((from, to), register) in order {
+            if images[class].contains_key(&register) {
+                continue;
+            }
             busy.retain(|(last, image)| {
                 let is_busy = *last > from;
                 if !is_busy {
@@ -92,6 +95,17 @@ pub(crate) fn allocate(stage: &mut Stage, layout: Layout) {
                 }
                 is_busy
             });
+            if class == 0 && groups.binary_search(&from).is_ok() {
+                let first = neighbours(&mut free, &mut counts[0]);
+                let results = stage.ops[from..from + EIGHT]
+                    .iter()
+                    .filter_map(first_register);
+                for (image, result) in (first..).zip(results) {
+                    busy.push((spans[0][&result].1, image));
+                    images[0].insert(result, image);
+                }
+                continue;
+            }
             let image = free.pop().unwrap_or_else(|| {
                 counts[class] += 1;
                 counts[class] - 1
@@ -131,6 +145,33 @@ pub(crate) fn allocate(stage: &mut Stage, layout: Layout) {
     stage.masks = counts[1] as usize;
 }
 
+/// The first register of an operation: that of its result, if it has one and no condition.
+pub(crate) fn first_register(op: &Op) -> Option<Register> {
+    let mut first = None;
+    registers(&mut op.clone(), &mut |register, _| {
+        first.get_or_insert(*register);
+    });
+    first
+}
+
+/// The first of eight free registers.
+fn neighbours(free: &mut Vec<Register>, count: &mut Register) -> Register {
+    free.sort_unstable();
+    let few = EIGHT as Register;
+    let run = free
+        .windows(EIGHT)
+        .find(|run| run[EIGHT - 1] == run[0] + few - 1);
+    let first = match run {
+        Some(run) => run[0],
+        None => {
+            *count += few;
+            return *count - few;
+        }
+    };
+    free.retain(|register| !(first..first + few).contains(register));
+    first
+}
+
 fn note(spans: &mut Map<Register, Span>, register: Register, at: usize) {
     let span = spans.entry(register).or_insert((at, at));
     *span = (span.0.min(at), span.1.max(at));
@@ -160,18 +201,37 @@ pub(crate) fn registers(op: &mut Op, visit: &mut impl FnMut(&mut Register, usize
         | Op::AddToQ(_, a)
         | Op::AddToP(_, a)
         | Op::LoadAt(a, ..) => visit(a, 0),
-        Op::Copy(a, b) | Op::Neg(a, b) | Op::Recip(a, b) | Op::Sqrt(a, b) | Op::Call(a, _, b) => {
+        Op::LastSquare(a) | Op::LastCall(a, _) => visit(a, 0),
+        Op::Copy(a, b)
+        | Op::Neg(a, b)
+        | Op::Recip(a, b)
+        | Op::Sqrt(a, b)
+        | Op::Call(a, _, b)
+        | Op::LastAdd(a, b)
+        | Op::LastSub(a, b)
+        | Op::SubLast(a, b)
+        | Op::LastMul(a, b)
+        | Op::EightRecip(a, b)
+        | Op::EightSqrt(a, b) => {
             [a, b].into_iter().for_each(|r| visit(r, 0));
         }
         Op::Add(a, b, c)
         | Op::Sub(a, b, c)
         | Op::Mul(a, b, c)
+        | Op::EightAdd(a, b, c)
+        | Op::EightSub(a, b, c)
+        | Op::EightMul(a, b, c)
+        | Op::LastMulAdd(a, b, c)
+        | Op::MulAddLast(a, b, c)
+        | Op::LastNegMulAdd(a, b, c)
+        | Op::NegMulAddLast(a, b, c)
         | Op::Div(a, b, c)
         | Op::CallTwo(a, _, b, c)
         | Op::External(a, _, _, b, c)
         | Op::SinCos(a, b, c) => [a, b, c].into_iter().for_each(|r| visit(r, 0)),
         Op::CallThree(a, _, b, c, d)
         | Op::MulAdd(a, b, c, d)
+        | Op::EightMulAdd(a, b, c, d)
         | Op::MulSub(a, b, c, d)
         | Op::NegMulAdd(a, b, c, d) => {
             [a, b, c, d].into_iter().for_each(|r| visit(r, 0));

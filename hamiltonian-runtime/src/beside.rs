@@ -4,9 +4,10 @@
 //! Invariant: a flow allocates its scratch when it is first applied.
 
 use crate::folded::Folded;
-use crate::machine::{Arrays, Home, Registers};
+use crate::machine::Arrays;
 use crate::matrix::Matrix;
 use crate::prepared::{Flat, Prepared, at};
+use crate::registers::Registers;
 use hamiltonian_core::private::{Coupled, SubStep};
 use hamiltonian_core::schemes::author::{Flow, Point, Scratch, VectorField};
 use hamiltonian_lanes::Real;
@@ -37,8 +38,7 @@ impl<T: Real> VectorField<Flat<T>> for Rates<T> {
             into_p: into_p.as_mut_slice(),
             ..at(t, q, p)
         };
-        let home = Home::Pool(&self.prepared.pool);
-        self.folded.evaluate(&self.prepared, home, arrays);
+        self.folded.evaluate(&self.prepared, arrays);
     }
 }
 
@@ -123,7 +123,7 @@ impl<T: Real> Beside<T> {
                     into_p: x.p.as_mut_slice(),
                     ..Arrays::none()
                 };
-                folded.evaluate(prepared, Home::Own(&mut work.registers), arrays);
+                folded.evaluate_in(&mut work.registers, prepared, arrays);
             }
             Beside::Coupled(flow) => {
                 let momenta = work.momenta.get_or_insert_with(|| Scratch::like(x));

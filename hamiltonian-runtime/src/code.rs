@@ -4,9 +4,10 @@
 //! scheme may require is proven, or missing in the description with the reason.
 
 use crate::flatten::{Kind, Places, Setting, computed, stage};
+use crate::joined::Cycles;
 use crate::op::{FunctionCode, Stage, To};
 use crate::sizes::value;
-use crate::unroll::{frames, straight};
+use crate::unroll::{Straight, frames, straight};
 use crate::variables::{Coordinates, Declared, coordinates};
 use hamiltonian_core::schemes::author::{Description, Group, Observable, ObservableKind};
 use hamiltonian_core::systems::{Missing, NamedPiece};
@@ -92,6 +93,8 @@ pub(crate) struct Code {
     pub(crate) pieces: Vec<Part>,
     /// Of each piece of the model the kind of its flow.
     pub(crate) flows: Vec<FlowKind>,
+    /// The codes of its steps.
+    pub(crate) cycles: Cycles,
     /// Those of `Nystrom`: the kick, and the piece that is at most quadratic in the momenta.
     pub(crate) nystrom: Option<[Part; 2]>,
 }
@@ -187,6 +190,7 @@ impl Code {
             coordinates,
             pieces: pieces(model, structure),
             flows: flow_kinds,
+            cycles: Cycles::default(),
             nystrom: match &structure.nystrom {
                 Err(_) => None,
                 Ok(Nystrom::Halves) => Some([Part::Kick, Part::Drift]),
@@ -288,7 +292,7 @@ fn places(system: &System, len: usize, sizes: &[usize]) -> Places {
 fn of_function(
     setting: Setting,
     function: &Function,
-) -> Result<(FunctionCode, Option<Stage>), String> {
+) -> Result<(FunctionCode, Option<Straight>), String> {
     let mut coefficients = Vec::new();
     computed(&function.coefficient, &mut coefficients);
     let kind = match function.purpose {

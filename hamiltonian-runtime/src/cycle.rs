@@ -4,13 +4,14 @@
 //! operations of the flows in their order, so the bits are theirs; the point stays in the registers of a [`CycleFrame`] from
 //! step to step, and what flows hold is loaded once.
 
-use crate::allocate::registers;
 use crate::flow::{Inside, PartFlow};
-use crate::machine::{FRAME, in_frame};
-use crate::op::{FunctionCode, Op, Register};
+use crate::frame::in_frame;
+use crate::joined::{Joined, Joins, SEVERAL};
+use crate::op::FunctionCode;
 use crate::prepared::{Flat, Prepared};
+use crate::registers::{FRAME, Frame};
 use hamiltonian_core::schemes::author::{Point, Scratch};
-use hamiltonian_lanes::{Mask, Real};
+use hamiltonian_lanes::Real;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -34,23 +35,23 @@ struct Call<T> {
     coefficients: Vec<T>,
 }
 
-/// The flows of a step as one code: a flow of few operations takes less time than to find it and to lay its coefficients.
-#[derive(Debug, Clone)]
-struct Joined {
-    ops: Vec<Op>,
-    /// The operations before the flow that joins the step to the next.
-    of_last_step: usize,
+impl<T> Call<T> {
+    /// The function, its number, and that of its coefficients.
+    fn joins(&self) -> Joins<'_> {
+        Joins {
+            number: self.number,
+            framed: self.function.framed.as_ref(),
+            coefficients: self.coefficients.len(),
+        }
+    }
 }
-
-/// The most operations of such a code, which should stay in the nearest cache.
-const LONGEST: usize = 1024;
 
 /// The flows of a step: first those of its body, last the one that joins it to the next step.
 #[derive(Debug, Clone)]
 pub(crate) struct Cycle<T: Real> {
     calls: Vec<Call<T>>,
     /// All of them as one code, where they are short.
-    joined: Option<Joined>,
+    joined: Option<Arc<Joined>>,
     /// Registers from these on, with the numbers that stay in them.
     held: Vec<(usize, Vec<T>)>,
     /// By which a frame knows whether it has these numbers.
@@ -63,8 +64,7 @@ pub struct CycleFrame<T: Real>(Option<Kept<T>>);
 
 #[derive(Debug, Clone)]
 struct Kept<T: Real> {
-    numbers: Box<[T; FRAME[0]]>,
-    masks: Box<[T::Mask; FRAME[1]]>,
+    frame: Frame<T>,
     /// The cycle whose numbers are loaded.
     id: u64,
 }
@@ -89,7 +89,7 @@ impl<T: Real> CycleFrame<T> {
     fn load(&mut self, cycle: &Cycle<T>) {
         let kept = self.0.get_or_insert_with(Kept::new);
         for (first, numbers) in &cycle.held {
-            kept.numbers[*first..][..numbers.len()].copy_from_slice(numbers);
+            kept.frame.numbers[*first..][..numbers.len()].copy_from_slice(numbers);
         }
         kept.id = cycle.id;
     }
@@ -98,14 +98,11 @@ impl<T: Real> CycleFrame<T> {
 impl<T: Real> Kept<T> {
     #[cold]
     fn new() -> Self {
-        let numbers = vec![T::zero(); FRAME[0]].into_boxed_slice();
-        let masks = vec![T::Mask::splat(false); FRAME[1]].into_boxed_slice();
-        let (Ok(numbers), Ok(masks)) = (numbers.try_into(), masks.try_into()) else {
-            unreachable!("as many as were made a line before")
-        };
-        // The number of no cycle.
-        let id = 0;
-        Kept { numbers, masks, id }
+        Kept {
+            frame: Frame::new(),
+            // The number of no cycle.
+            id: 0,
+        }
     }
 }
 
@@ -120,6 +117,7 @@ impl<T: Real> Cycle<T> {
     {
         static NEXT: AtomicU64 = AtomicU64::new(1);
         let mut calls: Vec<Call<T>> = Vec::new();
+        let (mut width, mut cycles) = (0, None);
         let mut held: Vec<(usize, Vec<T>)> = Vec::new();
         for (inner, inner_at, outer, outer_at) in stages {
             // A body has a flow.
@@ -133,6 +131,8 @@ impl<T: Real> Cycle<T> {
                 let framed = function.framed.as_ref()?;
                 let number = flow.number()?;
                 let of: &Prepared<T> = &flow.prepared;
+                width = of.code.places.len;
+                cycles = Some(&of.code.cycles);
                 if !calls.iter().any(|call| call.number == number) {
                     held.push((framed.first_held, of.held[number].framed.clone()));
                 }
@@ -155,7 +155,11 @@ impl<T: Real> Cycle<T> {
             }
         }
         let id = NEXT.fetch_add(1, Ordering::Relaxed);
-        let joined = join(&calls, &mut held);
+        let joined = cycles?.of(width, &calls.iter().map(Call::joins).collect::<Vec<_>>());
+        if let Some(joined) = &joined {
+            let all = calls.iter().map(|call| call.coefficients.clone());
+            held.extend(joined.coefficients.iter().copied().zip(all));
+        }
         Some(Cycle {
             calls,
             joined,
@@ -191,9 +195,9 @@ impl<T: Real> Cycle<T> {
         if made >= end {
             return;
         }
-        let frame = frame.of(self);
-        let (numbers, masks) = (&mut *frame.numbers, &mut *frame.masks);
+        let frame = &mut frame.of(self).frame;
         let width = z.q.len();
+        let numbers = &mut frame.numbers;
         numbers[..width].copy_from_slice(z.q.as_slice());
         numbers[width..2 * width].copy_from_slice(z.p.as_slice());
         let mut k = made;
@@ -201,15 +205,15 @@ impl<T: Real> Cycle<T> {
         loop {
             let is_last = k + 1 == end;
             let (ops, t, is_made);
-            if let Some(Joined {
-                ops: all,
-                of_last_step,
-            }) = &self.joined
-            {
-                ops = if is_last {
-                    &all[..*of_last_step]
-                } else {
-                    &all[..]
+            let mut steps = 1;
+            if let Some(joined) = &self.joined {
+                ops = match is_last {
+                    true => &joined.last,
+                    false if end - k > SEVERAL && !joined.several.is_empty() => {
+                        steps = SEVERAL;
+                        &joined.several
+                    }
+                    false => &joined.one,
                 };
                 (t, is_made) = (T::zero(), true);
             } else {
@@ -217,7 +221,7 @@ impl<T: Real> Cycle<T> {
                 let Some(framed) = &call.function.framed else {
                     break;
                 };
-                for (to, from) in (numbers[framed.first_coefficient % FRAME[0]..].iter_mut())
+                for (to, from) in (frame.numbers[framed.first_coefficient % FRAME[0]..].iter_mut())
                     .zip(&call.coefficients)
                 {
                     *to = *from;
@@ -231,63 +235,18 @@ impl<T: Real> Cycle<T> {
                 next += 1;
                 is_made = next == self.calls.len() - usize::from(is_last);
             }
-            in_frame(ops, t, numbers, masks);
+            in_frame(ops, t, frame);
             if is_made {
                 next = 0;
-                k += 1;
+                k += steps;
                 if k == end {
                     break;
                 }
             }
         }
+        let numbers = &frame.numbers;
         z.q.as_mut_slice().copy_from_slice(&numbers[..width]);
         z.p.as_mut_slice()
             .copy_from_slice(&numbers[width..2 * width]);
     }
-}
-
-/// All calls as one code, which has a register for each coefficient of each call; `held` gets those numbers. `None` for code
-/// that is long, that reads the time, or that needs more registers than a frame has.
-fn join<T: Real>(calls: &[Call<T>], held: &mut Vec<(usize, Vec<T>)>) -> Option<Joined> {
-    let mut ops = Vec::new();
-    let mut of_last_step = 0;
-    let mut free = 0;
-    for call in calls {
-        let framed = call.function.framed.as_ref()?;
-        let ends = [
-            framed.first_held + framed.held.len(),
-            framed.first_coefficient + framed.coefficients,
-        ];
-        free = ends.into_iter().fold(free, usize::max);
-        for op in &framed.ops {
-            registers(&mut op.clone(), &mut |register, class| {
-                if class == 0 {
-                    free = free.max(*register as usize + 1);
-                }
-            });
-        }
-    }
-    let mut numbers = Vec::new();
-    for call in calls {
-        of_last_step = ops.len();
-        let framed = call.function.framed.as_ref()?;
-        let (first, count) = (framed.first_coefficient, call.coefficients.len());
-        if framed.reads_time || free + count > FRAME[0] || ops.len() + framed.ops.len() > LONGEST {
-            return None;
-        }
-        for op in &framed.ops {
-            let mut op = *op;
-            registers(&mut op, &mut |register, class| {
-                let at = *register as usize;
-                if class == 0 && (first..first + count).contains(&at) {
-                    *register = (free + at - first) as Register;
-                }
-            });
-            ops.push(op);
-        }
-        numbers.push((free, call.coefficients.clone()));
-        free += count;
-    }
-    held.extend(numbers);
-    Some(Joined { ops, of_last_step })
 }

@@ -4,6 +4,7 @@
 //! the order of the program's steps; what has no such code is refused by name.
 
 use crate::allocate::{Layout, allocate};
+use crate::chain::{CHAINED, chained, forwarded};
 use crate::machine;
 use crate::op::{
     Address, Axis, COEFFICIENT, Change, DEPTH, Form, From, HELD, Held, Op, Register, Stage, To,
@@ -77,8 +78,17 @@ pub(crate) fn stage(
     let mut stage = builder.stage;
     stage.coefficients = read.len();
     let layout = Layout::of(&stage);
-    allocate(&mut stage, layout);
-    stage.is_short = machine::is_short(&stage);
+    let mut other = stage.clone();
+    allocate(&mut stage, layout, &[]);
+    if stage.loops.is_empty() && stage.ops.len() <= CHAINED {
+        other.ops = chained(&other.ops);
+        allocate(&mut other, layout, &[]);
+        // More registers take longer to clear than the order saves.
+        if machine::is_shortest(&other) || !machine::is_shortest(&stage) {
+            stage = other;
+        }
+    }
+    stage.short = machine::is_short(&stage).then(|| forwarded(&stage.ops));
     Ok((stage, read))
 }
 
@@ -104,6 +114,8 @@ pub(crate) struct Unrolled {
     pub(crate) partials: Option<Map<Value, [Register; 8]>>,
     /// The number of the present iteration.
     pub(crate) iteration: usize,
+    /// Of each operation the value of the program that it computes.
+    pub(crate) sites: Vec<Option<Value>>,
 }
 
 impl Unrolled {
@@ -150,7 +162,15 @@ impl<'a> Builder<'a> {
     }
 
     pub(crate) fn push(&mut self, op: Op) {
+        self.push_of(op, None);
+    }
+
+    /// An operation that computes a value of the program.
+    fn push_of(&mut self, op: Op, of: Option<Value>) {
         self.stage.ops.push(op);
+        if let Some(unrolled) = &mut self.unrolled {
+            unrolled.sites.push(of);
+        }
     }
 
     pub(crate) fn register(&mut self) -> Register {
@@ -523,7 +543,7 @@ impl<'a> Builder<'a> {
             (I::Accumulator, _) if self.numbers.contains_key(&of) => return Ok(()),
             (other, _) => return Err(format!("an instruction without code ({other:?})")),
         };
-        self.push(op);
+        self.push_of(op, Some(of));
         self.numbers.insert(of, to);
         Ok(())
     }

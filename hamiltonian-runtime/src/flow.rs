@@ -6,10 +6,11 @@
 use crate::beside::{Beside, PartWork};
 use crate::code::Part;
 use crate::folded::Folded;
-use crate::machine::{Arrays, Home};
+use crate::machine::Arrays;
 use crate::matrix::Matrix;
 use crate::op::FunctionCode;
 use crate::prepared::{Flat, Prepared, at};
+use crate::registers::Home;
 use hamiltonian_core::Vector;
 use hamiltonian_core::private::raised;
 use hamiltonian_core::schemes::author::{Dynamics, Flow, Point, Scratch, VectorField};
@@ -54,13 +55,19 @@ impl<T: Real> VectorField<Flat<T>> for Field<T> {
             into_q.accumulate(self.c, &y);
             into_p.accumulate(-self.c, &x);
         }
-        for part in &self.parts {
-            let arrays = Arrays {
-                into_q: into_q.as_mut_slice(),
-                into_p: into_p.as_mut_slice(),
-                ..at(t, q, p)
-            };
-            part.evaluate(&self.prepared, Home::Pool(&self.prepared.pool), arrays);
+        match &*self.parts {
+            [whole] => {
+                let arrays = Arrays {
+                    into_q: into_q.as_mut_slice(),
+                    into_p: into_p.as_mut_slice(),
+                    ..at(t, q, p)
+                };
+                whole.evaluate(&self.prepared, arrays);
+            }
+            _ => {
+                self.add_half::<true>(t, q, into_p);
+                self.add_half::<false>(t, p, into_q);
+            }
         }
     }
     #[inline(always)]
@@ -93,7 +100,7 @@ impl<T: Real> VectorField<Flat<T>> for Field<T> {
             ),
             _ => return,
         };
-        part.evaluate(&self.prepared, Home::Pool(&self.prepared.pool), arrays);
+        part.evaluate(&self.prepared, arrays);
     }
 }
 

@@ -32,8 +32,10 @@
 //!    The scalar is `f64`, a dual number, a pack of members or of stages. Each operation is that of `interpret` of
 //!    hamiltonian-symbolic, in the same order, so the bits are those of compiled code that does not fuse.
 //!
-//!    The flows of a splitting, if they are short, are unrolled (`unroll`, `interleave`), and made one after the other with the point in
-//!    registers, for as many steps as nobody looks at (`cycle`).
+//!    The flows of a splitting, if they are short, are unrolled (`unroll`, `interleave`), and made one after the other with the
+//!    point in the registers of a frame (`frame`), for as many steps as nobody looks at (`cycle`); those of few operations are
+//!    one code (`joined`), in which operations follow those that they wait for (`chain`). Fields of longer code are evaluated
+//!    in a frame too.
 //!
 //! [`Run`] and [`Swarm`] are core's runs and ensembles behind a trait object, so that a text names the scheme. A splitting is a
 //! table of run time (`by_table`), and all of them have one map.
@@ -50,6 +52,7 @@ mod readme {}
 mod allocate;
 mod beside;
 mod by_table;
+mod chain;
 mod code;
 mod command;
 mod cycle;
@@ -61,7 +64,9 @@ mod error;
 mod flatten;
 mod flow;
 mod folded;
+mod frame;
 mod interleave;
+mod joined;
 mod machine;
 mod many;
 mod matrix;
@@ -69,6 +74,7 @@ mod names;
 mod nests;
 mod op;
 mod prepared;
+mod registers;
 mod run;
 mod schemes;
 mod sizes;

@@ -5,19 +5,12 @@
 //! first call.
 
 use crate::op::{Change, DEPTH, From, Op, Register, Stage, To};
+use crate::registers::{Home, SHORT};
 use crate::tabulated::{Derivative, Tabulated};
 use hamiltonian_lanes::{Mask, Real};
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// The least number of iterations of an innermost loop whose sums are trees.
 pub(crate) const LONG: i64 = 32;
-
-/// The registers of a frame, and those of conditions: powers of two, as those of short code.
-pub(crate) const FRAME: [usize; 2] = [256, 16];
-
-/// The registers of short code without loops, a power of two so that a masked number of a register is one of them, and those
-/// of conditions.
-const SHORT: [usize; 2] = [32, 8];
 
 /// The same of code that is shorter still. Registers on the stack are cleared at each call, which would take longer than the
 /// code.
@@ -38,6 +31,11 @@ pub(crate) fn is_short(stage: &Stage) -> bool {
         )
     };
     stage.registers <= SHORT[0] && stage.masks <= SHORT[1] && stage.ops.iter().all(is_plain)
+}
+
+/// True if short code needs the fewest registers.
+pub(crate) fn is_shortest(stage: &Stage) -> bool {
+    stage.registers <= SHORTEST[0] && stage.masks <= SHORTEST[1]
 }
 
 /// What a stage is given.
@@ -122,69 +120,6 @@ impl<T: Real> Arrays<'_, T> {
     }
 }
 
-/// Registers that are kept from call to call, so that they are neither allocated nor cleared.
-#[derive(Debug, Clone)]
-pub struct Registers<T: Real> {
-    numbers: Box<[T; SHORT[0]]>,
-    masks: Box<[T::Mask; SHORT[1]]>,
-    /// Those of longer code.
-    long: (Vec<T>, Vec<T::Mask>),
-}
-
-impl<T: Real> Registers<T> {
-    pub(crate) fn new() -> Self {
-        Registers {
-            numbers: Box::new([T::zero(); SHORT[0]]),
-            masks: Box::new([T::Mask::splat(false); SHORT[1]]),
-            long: (Vec::new(), Vec::new()),
-        }
-    }
-
-    /// As many as longer code has.
-    #[cold]
-    fn grow(&mut self, stage: &Stage) {
-        let (numbers, masks) = &mut self.long;
-        numbers.resize(numbers.len().max(stage.registers), T::zero());
-        masks.resize(masks.len().max(stage.masks), T::Mask::splat(false));
-    }
-}
-
-/// Registers for evaluations that have none of their own.
-#[derive(Debug)]
-pub(crate) struct Pool<T: Real>(Arc<Mutex<Vec<Registers<T>>>>);
-
-impl<T: Real> Pool<T> {
-    pub(crate) fn new() -> Self {
-        Pool(Arc::new(Mutex::new(Vec::new())))
-    }
-
-    #[cold]
-    fn take(&self) -> Registers<T> {
-        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        kept.unwrap_or_else(Registers::new)
-    }
-
-    #[cold]
-    fn give(&self, registers: Registers<T>) {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.push(registers);
-    }
-}
-
-impl<T: Real> Clone for Pool<T> {
-    fn clone(&self) -> Self {
-        Pool(self.0.clone())
-    }
-}
-
-/// Where the registers of a call are.
-pub(crate) enum Home<'a, T: Real> {
-    /// Those of a flow.
-    Own(&'a mut Registers<T>),
-    /// On the stack for short code, otherwise taken from a pool.
-    Pool(&'a Pool<T>),
-}
-
 /// Runs a stage from the numbers that it is given, and writes its results.
 #[inline(always)]
 pub(crate) fn run<T: Real>(
@@ -213,14 +148,15 @@ fn run_here<T: Real>(
     for range in &stage.cleared {
         arrays.clear(*range);
     }
-    if const { T::DUALS == 0 } && stage.is_short {
+    if const { T::DUALS == 0 }
+        && let Some(ops) = &stage.short
+    {
         if let Home::Pool(_) = home
-            && stage.registers <= SHORTEST[0]
-            && stage.masks <= SHORTEST[1]
+            && is_shortest(stage)
         {
             let mut numbers = [T::zero(); SHORTEST[0]];
             let mut masks = [T::Mask::splat(false); SHORTEST[1]];
-            return straight(stage, given, &mut numbers, &mut masks, arrays, results);
+            return straight(stage, ops, given, &mut numbers, &mut masks, arrays, results);
         }
         let mut on_stack;
         let (numbers, masks) = match home {
@@ -230,7 +166,7 @@ fn run_here<T: Real>(
                 (&mut on_stack.0, &mut on_stack.1)
             }
         };
-        return straight(stage, given, numbers, masks, arrays, results);
+        return straight(stage, ops, given, numbers, masks, arrays, results);
     }
     let mut taken = None;
     let registers = match home {
@@ -255,7 +191,7 @@ fn run_here<T: Real>(
 
 /// The sine and the cosine, compiled once for all loops over a scalar.
 #[inline(always)]
-fn sin_cos_apart<T: Real>(angle: T) -> (T, T) {
+pub(crate) fn sin_cos_apart<T: Real>(angle: T) -> (T, T) {
     T::out_of_line(
         #[inline(always)]
         || angle.sin_cos(),
@@ -273,7 +209,7 @@ fn derivative_apart<T: Real>(function: &Tabulated, derivative: Derivative, at: [
 
 /// A loop that runs.
 #[derive(Clone, Copy)]
-struct Frame {
+struct Loop {
     /// The first value of its variable.
     first: i64,
     /// The value behind the last one.
@@ -282,40 +218,54 @@ struct Frame {
     is_long: bool,
 }
 
-/// Runs an operation of registers, or one of the arms behind.
+/// Writes a result, and keeps it as the last one where there is a variable for it.
+macro_rules! put {
+    ($r:ident, [$($last:ident)?], $index:expr, $value:expr) => {{
+        let value = $value;
+        $($last = value;)?
+        $r[$index] = value;
+    }};
+}
+
+/// Runs an operation of registers, or one of the arms behind. With a variable for the last result, it runs operations that
+/// read that.
 macro_rules! of_registers {
-    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, { $($arms:tt)* }) => {
+    ($op:expr, $T:ty, $r:ident, $m:ident, [$($last:ident)?], $index:ident, { $($arms:tt)* }) => {{
+        macro_rules! set {
+            ($to:expr, $value:expr) => {
+                put!($r, [$($last)?], $index($to), $value)
+            };
+        }
         match $op {
-            Op::Copy(to, a) => $r[$index(to)] = $r[$index(a)],
-            Op::Neg(to, a) => $r[$index(to)] = -$r[$index(a)],
-            Op::Add(to, a, b) => $r[$index(to)] = $r[$index(a)] + $r[$index(b)],
-            Op::Sub(to, a, b) => $r[$index(to)] = $r[$index(a)] - $r[$index(b)],
-            Op::Mul(to, a, b) => $r[$index(to)] = $r[$index(a)] * $r[$index(b)],
+            Op::Copy(to, a) => set!(to, $r[$index(a)]),
+            Op::Neg(to, a) => set!(to, -$r[$index(a)]),
+            Op::Add(to, a, b) => set!(to, $r[$index(a)] + $r[$index(b)]),
+            Op::Sub(to, a, b) => set!(to, $r[$index(a)] - $r[$index(b)]),
+            Op::Mul(to, a, b) => set!(to, $r[$index(a)] * $r[$index(b)]),
             Op::MulAdd(to, a, b, c) => {
-                $r[$index(to)] = $r[$index(a)].fma($r[$index(b)], $r[$index(c)]);
+                set!(to, $r[$index(a)].fma($r[$index(b)], $r[$index(c)]));
             }
             Op::MulSub(to, a, b, c) => {
-                $r[$index(to)] = $r[$index(a)].fma($r[$index(b)], -$r[$index(c)]);
+                set!(to, $r[$index(a)].fma($r[$index(b)], -$r[$index(c)]));
             }
             Op::NegMulAdd(to, a, b, c) => {
-                $r[$index(to)] = (-$r[$index(a)]).fma($r[$index(b)], $r[$index(c)]);
+                set!(to, (-$r[$index(a)]).fma($r[$index(b)], $r[$index(c)]));
             }
-            Op::Div(to, a, b) => $r[$index(to)] = $r[$index(a)] / $r[$index(b)],
-            Op::Recip(to, a) => $r[$index(to)] = $r[$index(a)].recip(),
-            Op::Sqrt(to, a) => $r[$index(to)] = $r[$index(a)].sqrt(),
-            Op::Call(to, function, a) => $r[$index(to)] = function.eval_apart(&[$r[$index(a)]]),
+            Op::Div(to, a, b) => set!(to, $r[$index(a)] / $r[$index(b)]),
+            Op::Recip(to, a) => set!(to, $r[$index(a)].recip()),
+            Op::Sqrt(to, a) => set!(to, $r[$index(a)].sqrt()),
+            Op::Call(to, function, a) => set!(to, function.eval_apart(&[$r[$index(a)]])),
             Op::CallTwo(to, function, a, b) => {
-                $r[$index(to)] = function.eval_apart(&[$r[$index(a)], $r[$index(b)]]);
+                set!(to, function.eval_apart(&[$r[$index(a)], $r[$index(b)]]));
             }
             Op::CallThree(to, function, a, b, c) => {
-                $r[$index(to)] =
-                    function.eval_apart(&[$r[$index(a)], $r[$index(b)], $r[$index(c)]]);
+                set!(to, function.eval_apart(&[$r[$index(a)], $r[$index(b)], $r[$index(c)]]));
             }
             Op::SinCos(sin, cos, a) => {
                 let angle = $r[$index(a)];
                 let (s, c) = sin_cos_apart(angle);
                 $r[$index(sin)] = s;
-                $r[$index(cos)] = c;
+                set!(cos, c);
             }
             Op::Less(to, a, b) => $m[$index(to)] = $r[$index(a)].lt($r[$index(b)]),
             Op::LessEqual(to, a, b) => $m[$index(to)] = $r[$index(a)].le($r[$index(b)]),
@@ -324,26 +274,38 @@ macro_rules! of_registers {
             Op::And(to, a, b) => $m[$index(to)] = $m[$index(a)] & $m[$index(b)],
             Op::Or(to, a, b) => $m[$index(to)] = $m[$index(a)] | $m[$index(b)],
             Op::Select(to, mask, a, b) => {
-                $r[$index(to)] = <$T>::select($m[$index(mask)], $r[$index(a)], $r[$index(b)]);
+                set!(to, <$T>::select($m[$index(mask)], $r[$index(a)], $r[$index(b)]));
             }
             Op::Number01(to, mask) => {
-                $r[$index(to)] = <$T>::select($m[$index(mask)], <$T>::one(), <$T>::zero());
+                set!(to, <$T>::select($m[$index(mask)], <$T>::one(), <$T>::zero()));
             }
             Op::IsOne(to, a) => $m[$index(to)] = $r[$index(a)].equals(<$T>::one()),
+            $(
+                Op::LastAdd(to, b) => set!(to, $last + $r[$index(b)]),
+                Op::LastSub(to, b) => set!(to, $last - $r[$index(b)]),
+                Op::SubLast(to, a) => set!(to, $r[$index(a)] - $last),
+                Op::LastMul(to, b) => set!(to, $last * $r[$index(b)]),
+                Op::LastSquare(to) => set!(to, $last * $last),
+                Op::LastMulAdd(to, b, c) => set!(to, $last.fma($r[$index(b)], $r[$index(c)])),
+                Op::MulAddLast(to, a, b) => set!(to, $r[$index(a)].fma($r[$index(b)], $last)),
+                Op::LastNegMulAdd(to, b, c) => set!(to, (-$last).fma($r[$index(b)], $r[$index(c)])),
+                Op::NegMulAddLast(to, a, b) => set!(to, (-$r[$index(a)]).fma($r[$index(b)], $last)),
+                Op::LastCall(to, function) => set!(to, function.eval_apart(&[$last])),
+            )?
             $($arms)*
         }
-    };
+    }};
 }
 
 /// Runs an operation: those that need no loop, or one of the arms behind.
 macro_rules! operation {
-    ($op:expr, $T:ty, $r:ident, $m:ident, $index:ident, $given:ident, $arrays:ident, { $($arms:tt)* }) => {
-        of_registers!($op, $T, $r, $m, $index, {
-            Op::Time(to) => $r[$index(to)] = $arrays.t,
-            Op::Coefficient(to) => $r[$index(to)] = $arrays.c,
-            Op::Load(to, from, at) => $r[$index(to)] = $arrays.read($given.data, from, at as usize),
-            Op::LoadQ(to, at) => $r[$index(to)] = $arrays.q[at as usize],
-            Op::LoadP(to, at) => $r[$index(to)] = $arrays.p[at as usize],
+    ($op:expr, $T:ty, $r:ident, $m:ident, [$($last:ident)?], $index:ident, $given:ident, $arrays:ident, { $($arms:tt)* }) => {
+        of_registers!($op, $T, $r, $m, [$($last)?], $index, {
+            Op::Time(to) => put!($r, [$($last)?], $index(to), $arrays.t),
+            Op::Coefficient(to) => put!($r, [$($last)?], $index(to), $arrays.c),
+            Op::Load(to, from, at) => put!($r, [$($last)?], $index(to), $arrays.read($given.data, from, at as usize)),
+            Op::LoadQ(to, at) => put!($r, [$($last)?], $index(to), $arrays.q[at as usize]),
+            Op::LoadP(to, at) => put!($r, [$($last)?], $index(to), $arrays.p[at as usize]),
             Op::AddToQ(at, a) => $arrays.into_q[at as usize] += $r[$index(a)],
             Op::AddToP(at, a) => $arrays.into_p[at as usize] += $r[$index(a)],
             Op::AddProductToQ(at, a, b) => {
@@ -365,7 +327,7 @@ macro_rules! operation {
             Op::External(to, function, derivative, a, b) => {
                 let function = &$given.functions[usize::from(function)];
                 let at = [$r[$index(a)], $r[$index(b)]];
-                $r[$index(to)] = derivative_apart(function, derivative, at);
+                put!($r, [$($last)?], $index(to), derivative_apart(function, derivative, at));
             }
             Op::Store(to, at, change, a, b) => {
                 $arrays.change(to, at as usize, change, [$r[$index(a)], $r[$index(b)]]);
@@ -375,43 +337,7 @@ macro_rules! operation {
     };
 }
 
-/// Runs the code of a frame.
-#[inline(always)]
-pub(crate) fn in_frame<T: Real>(
-    mut ops: &[Op],
-    t: T,
-    r: &mut [T; FRAME[0]],
-    m: &mut [T::Mask; FRAME[1]],
-) {
-    let number = |register: Register| register as usize % FRAME[0];
-    // The most frequent operations, as long as they are equal: the CPU foresees that without the jump of a match.
-    macro_rules! repeated {
-        ($kind:ident($($from:ident),+) => $value:expr) => {
-            while let [Op::$kind(to, $($from),+), rest @ ..] = ops {
-                r[number(*to)] = $value;
-                ops = rest;
-            }
-        };
-    }
-    while let [op, rest @ ..] = ops {
-        match op {
-            Op::Mul(..) => repeated!(Mul(a, b) => r[number(*a)] * r[number(*b)]),
-            Op::Add(..) => repeated!(Add(a, b) => r[number(*a)] + r[number(*b)]),
-            Op::Sub(..) => repeated!(Sub(a, b) => r[number(*a)] - r[number(*b)]),
-            Op::MulAdd(..) => {
-                repeated!(MulAdd(a, b, c) => r[number(*a)].fma(r[number(*b)], r[number(*c)]));
-            }
-            _ => {
-                of_registers!(*op, T, r, m, number, {
-                    Op::Time(to) => r[number(to)] = t,
-                    // A frame has none of the others.
-                    _ => {}
-                });
-                ops = rest;
-            }
-        }
-    }
-}
+pub(crate) use {of_registers, put};
 
 /// The place of a register.
 #[inline(always)]
@@ -423,6 +349,7 @@ fn long(register: Register) -> usize {
 #[inline(always)]
 fn straight<T: Real, const N: usize, const M: usize>(
     stage: &Stage,
+    ops: &[Op],
     given: Given<'_, T>,
     r: &mut [T; N],
     m: &mut [T::Mask; M],
@@ -434,11 +361,11 @@ fn straight<T: Real, const N: usize, const M: usize>(
     for (to, from) in r.iter_mut().zip(given.numbers) {
         *to = *from;
     }
-    for op in &stage.ops {
-        operation!(*op, T, r, m, short, given, arrays, {
-            // Short code has none of these.
-            Op::Number(..) | Op::Count(..) | Op::LoadAt(..) | Op::StoreAt(..) => {}
-            Op::Accumulate { .. } | Op::Loop(_) | Op::End(_) => {}
+    let mut last = T::zero();
+    for op in ops {
+        operation!(*op, T, r, m, [last], short, given, arrays, {
+            // Short code has none of the others.
+            _ => {}
         });
     }
     for (to, from) in results.iter_mut().zip(&stage.results) {
@@ -456,7 +383,7 @@ fn with_loops<T: Real>(
     arrays: &mut Arrays<'_, T>,
 ) {
     let mut variables = [0_i64; DEPTH];
-    let none = Frame {
+    let none = Loop {
         first: 0,
         behind: 0,
         is_long: false,
@@ -465,7 +392,7 @@ fn with_loops<T: Real>(
     let mut next = 0;
     while let Some(op) = stage.ops.get(next) {
         next += 1;
-        operation!(*op, T, r, m, long, given, arrays, {
+        operation!(*op, T, r, m, [], long, given, arrays, {
             Op::Number(to, form) => {
                 let value = stage.forms[form as usize].value(&variables);
                 r[to as usize] = T::constant(value as f64, 0.0);
@@ -521,7 +448,7 @@ fn with_loops<T: Real>(
                     true => [end - 1, start - 1],
                     false => [start, end],
                 };
-                frames[of.level] = Frame {
+                frames[of.level] = Loop {
                     first,
                     behind,
                     is_long,
@@ -543,6 +470,8 @@ fn with_loops<T: Real>(
                     }
                 }
             }
+            // Code with loops has none of the others.
+            _ => {}
         });
     }
 }

@@ -16,6 +16,9 @@ pub(crate) const COEFFICIENT: Register = 1 << 31;
 /// Registers from here on are the coordinates, and behind them the momenta, of code in a frame.
 pub(crate) const PHASE: Register = COEFFICIENT + HELD;
 
+/// The number of operations that are one where it says so.
+pub(crate) const EIGHT: usize = 8;
+
 /// The most loops inside each other.
 pub(crate) const DEPTH: usize = 8;
 
@@ -110,6 +113,24 @@ pub(crate) enum Op {
     Number01(Register, Register),
     /// The condition that a number is 1.
     IsOne(Register, Register),
+    /// Operations that read the result of the operation before, where they say `Last`: it need not come back from memory.
+    LastAdd(Register, Register),
+    LastSub(Register, Register),
+    SubLast(Register, Register),
+    LastMul(Register, Register),
+    LastSquare(Register),
+    LastMulAdd(Register, Register, Register),
+    MulAddLast(Register, Register, Register),
+    LastNegMulAdd(Register, Register, Register),
+    NegMulAddLast(Register, Register, Register),
+    LastCall(Register, op::Op),
+    /// Eight operations, of these registers and the seven behind each.
+    EightAdd(Register, Register, Register),
+    EightSub(Register, Register, Register),
+    EightMul(Register, Register, Register),
+    EightMulAdd(Register, Register, Register, Register),
+    EightRecip(Register, Register),
+    EightSqrt(Register, Register),
     /// Adds a term to a sum, with the first of its eight partial sums, in the loop of a depth.
     Accumulate {
         sum: Register,
@@ -275,8 +296,8 @@ pub(crate) struct Stage {
     pub(crate) masks: usize,
     /// The registers of the results.
     pub(crate) results: Vec<Register>,
-    /// True if it is short and has no loops.
-    pub(crate) is_short: bool,
+    /// The same operations, which may read the result of the one before, if it is short and has no loops; otherwise none.
+    pub(crate) short: Option<Vec<Op>>,
     /// The ranges of outputs that begin at 0.
     pub(crate) cleared: Vec<(To, usize, usize)>,
 }
@@ -315,6 +336,10 @@ impl FunctionCode {
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Framed {
     pub(crate) ops: Vec<Op>,
+    /// True if they are in an order for long code.
+    pub(crate) is_laid: bool,
+    /// The number of registers.
+    pub(crate) registers: usize,
     /// The values of its held registers.
     pub(crate) held: Vec<Held>,
     /// The first of them.

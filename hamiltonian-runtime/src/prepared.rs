@@ -4,8 +4,10 @@
 //! Invariant: numbers that depend on parameters alone are computed once, those of a step coefficient once for each flow.
 
 use crate::code::Code;
-use crate::machine::{Arrays, Given, Home, Pool, run};
-use crate::op::{FunctionCode, Held};
+use crate::frame::in_frame;
+use crate::machine::{Arrays, Given, run};
+use crate::op::{Framed, FunctionCode, Held};
+use crate::registers::{Home, Pool};
 use crate::tabulated::Tabulated;
 use hamiltonian_core::nalgebra::DVector;
 use hamiltonian_core::private::{Varied, fixed as constant};
@@ -250,7 +252,57 @@ impl<T: Real> Prepared<T> {
             folded => folded,
         };
         let function = &self.code.functions[number].1;
+        if const { T::DUALS == 0 }
+            && results.is_empty()
+            && function.evaluation.short.is_none()
+            && let Some(framed) = &function.framed
+        {
+            return self.evaluate_framed(number, framed, numbers, arrays);
+        }
         self.evaluate_in(Home::Pool(&self.pool), function, numbers, arrays, results);
+    }
+
+    /// Moves a point by a function that is not short, in a frame of the pool.
+    #[inline(always)]
+    fn evaluate_framed(
+        &self,
+        number: usize,
+        framed: &Framed,
+        numbers: &[T],
+        arrays: Arrays<'_, T>,
+    ) {
+        T::out_of_line(
+            #[inline(always)]
+            || {
+                let mut registers = self.pool.take();
+                let (frame, has) = registers.framed();
+                let held = &self.held[number].framed;
+                if !has.contains(&number) {
+                    frame.numbers[framed.first_held..][..held.len()].copy_from_slice(held);
+                    has.push(number);
+                }
+                let of_coefficient = &numbers[numbers.len() - framed.coefficients..];
+                frame.numbers[framed.first_coefficient..][..framed.coefficients]
+                    .copy_from_slice(of_coefficient);
+                let width = self.code.places.len;
+                let (of_q, rest) = frame.numbers.split_at_mut(width);
+                // What moves in place is both read and written.
+                let sides = [
+                    (of_q, arrays.q, &*arrays.into_q),
+                    (rest, arrays.p, &*arrays.into_p),
+                ];
+                for (to, read, moved) in sides {
+                    let from = if moved.is_empty() { read } else { moved };
+                    to[..from.len()].copy_from_slice(from);
+                }
+                in_frame(&framed.ops, arrays.t, frame);
+                let (of_q, rest) = frame.numbers.split_at(width);
+                for (from, to) in [(of_q, arrays.into_q), (rest, arrays.into_p)] {
+                    to.copy_from_slice(&from[..to.len()]);
+                }
+                self.pool.give(registers);
+            },
+        );
     }
 
     /// Runs an evaluation in these registers, with the numbers that it is given.

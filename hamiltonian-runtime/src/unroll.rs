@@ -7,9 +7,10 @@
 
 use crate::allocate::{Layout, allocate};
 use crate::flatten::{Builder, Kind, Setting, Unrolled};
-use crate::interleave::interleave;
-use crate::machine::{FRAME, LONG};
+use crate::interleave::{interleave, packed};
+use crate::machine::LONG;
 use crate::op::{Change, Framed, From, Held, Op, PHASE, Register, Stage, To};
+use crate::registers::FRAME;
 use hamiltonian_symbolic::dag::Map;
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Value};
@@ -23,6 +24,12 @@ const FORESEEN: usize = 100;
 /// The most operations that one overtakes, as long as there are registers.
 const WINDOWS: [usize; 3] = [256, 64, 1];
 
+/// The code of a flow before its registers are numbered, with the value of the program that each operation computes.
+pub(crate) struct Straight {
+    stage: Stage,
+    sites: Vec<Option<Value>>,
+}
+
 /// The code of a flow before its registers are numbered, or `None` if it is too long.
 pub(crate) fn straight(
     setting: Setting,
@@ -30,7 +37,7 @@ pub(crate) fn straight(
     steps: &[Step],
     coefficients: &[Value],
     read: &[Value],
-) -> Option<Stage> {
+) -> Option<Straight> {
     let mut builder = Builder::new(setting, kind, coefficients);
     builder.read = read.to_vec();
     builder.unrolled = Some(Unrolled::default());
@@ -39,47 +46,53 @@ pub(crate) fn straight(
     if builder.read != read {
         return None;
     }
-    let mut stage = builder.stage;
+    let (mut stage, unrolled) = (builder.stage, builder.unrolled?);
     // A frame has no functions with data.
     if stage.ops.iter().any(|op| matches!(op, Op::External(..))) {
         return None;
     }
     stage.coefficients = read.len();
-    drop_copies(&mut stage.ops);
-    Some(stage)
+    let mut sites = unrolled.sites;
+    drop_copies(&mut stage.ops, &mut sites);
+    Some(Straight { stage, sites })
 }
 
 /// Numbers the registers of flows, as far as there are enough: those of the point first, then what each flow holds, then
 /// values, which all flows share.
-pub(crate) fn frames(width: usize, flows: Vec<Option<Stage>>) -> Vec<Option<Framed>> {
+pub(crate) fn frames(width: usize, flows: Vec<Option<Straight>>) -> Vec<Option<Framed>> {
     let mut next = 2 * width;
     let mut layouts = Vec::new();
     for flow in flows {
-        layouts.push(flow.map(|stage| {
+        layouts.push(flow.map(|flow| {
             let held = next;
-            let coefficients = held + stage.held.len();
-            next = coefficients + stage.coefficients;
-            (stage, held, coefficients)
+            let coefficients = held + flow.stage.held.len();
+            next = coefficients + flow.stage.coefficients;
+            (flow, held, coefficients)
         }));
     }
-    let number = |(stage, held, coefficients): (Stage, usize, usize)| {
+    let number = |(flow, held, coefficients): (Straight, usize, usize)| {
         let layout = Layout {
             held,
             coefficients,
             phase: 0,
             values: next,
         };
-        let is_long = stage.ops.len() > FORESEEN;
+        let Straight { stage, sites } = flow;
+        let is_laid = stage.ops.len() > FORESEEN;
         WINDOWS.iter().find_map(|window| {
             let mut stage = stage.clone();
-            if is_long {
-                stage.ops = interleave(&stage.ops, *window);
+            let mut groups = Vec::new();
+            if is_laid {
+                let laid = interleave(&stage.ops, &sites, *window);
+                (stage.ops, groups) = (laid.ops, laid.groups);
             }
-            allocate(&mut stage, layout);
+            allocate(&mut stage, layout, &groups);
             let fits = stage.registers <= FRAME[0] && stage.masks <= FRAME[1];
             fits.then(|| Framed {
                 reads_time: stage.ops.iter().any(|op| matches!(op, Op::Time(_))),
-                ops: stage.ops,
+                ops: packed(&stage.ops, &groups),
+                is_laid,
+                registers: stage.registers,
                 held: stage.held,
                 first_held: held,
                 first_coefficient: coefficients,
@@ -94,7 +107,7 @@ pub(crate) fn frames(width: usize, flows: Vec<Option<Stage>>) -> Vec<Option<Fram
 }
 
 /// Removes copies that nothing reads.
-fn drop_copies(ops: &mut Vec<Op>) {
+fn drop_copies(ops: &mut Vec<Op>, sites: &mut Vec<Option<Value>>) {
     let mut reads: Map<Register, usize> = Map::default();
     for op in ops.iter() {
         let mut op = *op;
@@ -103,10 +116,13 @@ fn drop_copies(ops: &mut Vec<Op>) {
         });
     }
     // The first is the one that is written.
-    ops.retain(|op| match op {
+    let is_read = |op: &Op| match op {
         Op::Copy(to, _) => *to >= PHASE || reads.get(to) != Some(&1),
         _ => true,
-    });
+    };
+    let mut kept = ops.iter().map(is_read);
+    sites.retain(|_| kept.next() == Some(true));
+    ops.retain(is_read);
 }
 
 impl Builder<'_> {

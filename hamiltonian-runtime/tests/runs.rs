@@ -312,21 +312,30 @@ fn loops_over_arrays() {
         );
         agree!(chain(), chain::TEXT, values(), RungeKutta4, q, p, 0.1);
     }
-    let m = vec![1.0, 0.5, 0.25];
-    let values = || Values::new().with("n", 3).with("m", m.clone());
-    let bodies = || bodies::Bodies::new(3, m.clone()).unwrap();
-    let q = [1.0, -1.0, 0.1, 0.2, 0.3, 2.0, 0.0, 0.4, -0.3];
-    let p = [0.1, -0.2, 0.3, 0.4, -0.1, 0.2, 0.0, 0.1, 0.2];
-    agree!(bodies(), bodies::TEXT, values(), BlanesMoan4, q, p, 0.01);
-    agree!(
-        bodies(),
-        bodies::TEXT,
-        values(),
-        ImplicitMidpoint::default(),
-        q,
-        p,
-        0.01
-    );
+    // Pairs of nine bodies are eight at a time.
+    for n in [3, 9] {
+        let m: Vec<f64> = (0..n).map(|i| 1.0 / (1.0 + i as f64)).collect();
+        let (q, p): (Vec<f64>, Vec<f64>) = (0..3 * n)
+            .map(|i| {
+                (
+                    3.0 * f64::sin(2.4 * i as f64),
+                    0.1 * f64::cos(1.7 * i as f64),
+                )
+            })
+            .unzip();
+        let values = || Values::new().with("n", n).with("m", m.clone());
+        let bodies = || bodies::Bodies::new(n, m.clone()).unwrap();
+        agree!(bodies(), bodies::TEXT, values(), BlanesMoan4, q, p, 0.01);
+        agree!(
+            bodies(),
+            bodies::TEXT,
+            values(),
+            ImplicitMidpoint::default(),
+            q,
+            p,
+            0.01
+        );
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@
 //! be used by code in a crate that has neither this crate nor its dependencies in scope; if one is removed or renamed,
 //! the macro is changed with it.
 
+mod columns;
 #[cfg(feature = "serde")]
 mod functions;
 mod never;
@@ -33,9 +34,9 @@ pub use nalgebra::{
 pub use crate::__record as record;
 pub use crate::errors::Error;
 pub use crate::flows::emitted::{
-    Adds, Damped, Drift, Emitted, FieldBody, FieldOf, FlowBody, Halves, Kick, Linear, Matrices,
-    Moves, Numbered, OfGradient, Origin, Push, Pushed, Rates, SharedCode, Shift, Shifts, Stepped,
-    Whole, WithData, add_field, gradient_by_field, hessian_by_gradient, slopes_by_kick,
+    Adds, Damped, DataOf, Drift, Emitted, FieldBody, FieldOf, FlowBody, Halves, Kick, Linear,
+    Matrices, Moves, Numbered, OfGradient, Origin, Push, Pushed, Rates, SharedCode, Shift, Shifts,
+    Stepped, Whole, WithData, add_field, gradient_by_field, hessian_by_gradient, slopes_by_kick,
     velocities_by_drift,
 };
 pub use crate::flows::exponential::{Exponential, exponentiate, image, raised};
@@ -48,7 +49,7 @@ pub use crate::loops::calls::*;
 pub use crate::loops::pairs::{TILED, TileRow, Triangle, pairs};
 pub use crate::loops::slabs::rows;
 pub use crate::loops::stretch::{
-    AddedTo, Body, Change, ColumnStore, LONG, Mode, Nest, STRIDE, Stretch, nest, total, worth,
+    AddedTo, Body, Change, ColumnStore, InRing, LONG, Loop, Mode, Nest, STRIDE, nest, total, worth,
     wrapped,
 };
 pub use crate::schemes::{Gauss, GaussNystrom, ToTolerance};
@@ -72,6 +73,7 @@ pub use crate::{
     __computed_as_chosen as computed_as_chosen, __described as described, __each as each,
     __gathers as gathers, __halves as halves, __known as known, __prepared as prepared,
 };
+pub use columns::{columns, columns_mut, columns_of, columns_of_mut};
 pub use never::Never;
 #[cfg(feature = "serde")]
 pub use record::{Fielded, Saved, Written, read_axes, read_record};
@@ -223,47 +225,6 @@ pub trait ParameterWithoutDefault: Sized { // Without `new`: `Name { parameter: 
 )]
 #[rustfmt::skip]
 pub trait AnyParameter<'a>: Sized { // Without `new`: `Name {}`
-}
-
-/// The `C` columns, of `rows` elements each, of a column-major array.
-///
-/// # Panics
-///
-/// On an array of another size: a state that does not fit the system.
-#[inline(always)]
-#[must_use]
-pub fn columns<T, const C: usize>(mut rest: &[T], rows: usize) -> [&[T]; C] {
-    assert_shape(rest.len(), rows, C);
-    let mut columns = [rest; C];
-    for column in &mut columns {
-        (*column, rest) = rest.split_at(rows);
-    }
-    columns
-}
-
-/// The same to write to.
-///
-/// # Panics
-///
-/// On an array of another size: a state that does not fit the system.
-#[inline(always)]
-#[must_use]
-pub fn columns_mut<T, const C: usize>(mut rest: &mut [T], rows: usize) -> [&mut [T]; C] {
-    assert_shape(rest.len(), rows, C);
-    core::array::from_fn(|_| {
-        let (column, after) = core::mem::take(&mut rest).split_at_mut(rows);
-        rest = after;
-        column
-    })
-}
-
-#[inline(always)]
-fn assert_shape(given: usize, rows: usize, columns: usize) {
-    assert!(
-        given == rows * columns,
-        "the state has {given} elements where the system has {rows}×{columns}: `check_shape` checks \
-         states of any length"
-    );
 }
 
 /// A field that only the `new` of its type sets: a size, or an array that has it. The module of the

@@ -49,6 +49,9 @@ pub trait WithData<T: Real>: Dynamics<T> {
     fn data(&self) -> &Self::Data;
 }
 
+/// The data of a prepared system.
+pub type DataOf<T, X> = <X as WithData<T>>::Data;
+
 /// A body that reads one half of phase space and adds to the other: a kick, a drift.
 pub trait Shift<K, T: Real>: WithData<T> {
     /// The piece in the author's notation.

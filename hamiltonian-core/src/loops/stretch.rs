@@ -7,16 +7,21 @@
 //! result does not depend on whether, or on which CPU, iterations went through lanes, unless products
 //! [fuse](Arithmetic::fused) there.
 
+mod body;
 mod nest;
 mod packs;
 mod waiting;
+mod whole;
 
 use crate::loops::slabs::{on_two_threads, slabs};
 use crate::systems::compiled::{self, Rounded, has_lanes, rounded};
 use crate::systems::system::Arithmetic;
+pub use body::{AddedTo, Body, Change, ColumnStore, InRing};
+use body::{changed, has_shared, is_first_of_column};
 use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch};
-pub use nest::{Mode, Nest, nest};
+pub use nest::{Nest, nest};
 use packs::packs;
+pub use whole::{Loop, Mode};
 
 /// The least extent of a loop whose sums are partial sums, and whose iterations may go through lanes.
 pub const LONG: usize = 32;
@@ -45,81 +50,6 @@ const REACH: usize = 32;
 /// The number of results that are kept from the block before: as far as stores reach, and what did not
 /// fill a pack.
 const CARRY: usize = REACH + STRIDE;
-
-/// How an element is changed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Change {
-    /// `= a`
-    Set,
-    /// `+= a`
-    Add,
-    /// `−= a`
-    Sub,
-    /// `+= a·b`, fused where the scalar fuses
-    AddProduct,
-    /// `−= a·b`, fused where the scalar fuses
-    SubProduct,
-}
-
-impl Change {
-    /// Returns true if the element before is part of the new one.
-    const fn reads(self) -> bool {
-        !matches!(self, Change::Set)
-    }
-}
-
-/// A store of an iteration to a column.
-#[derive(Debug, Clone, Copy)]
-pub struct ColumnStore {
-    /// The number of the column that is written.
-    column: usize,
-    /// How its element is changed.
-    change: Change,
-    /// The results that change it: `a` and, for a product, `b`.
-    by: [usize; 2],
-    /// True if another store of the iteration reaches other elements of the column.
-    is_shared: bool,
-}
-
-impl ColumnStore {
-    /// The only store to a column.
-    #[must_use]
-    pub const fn to(column: usize, change: Change, by: [usize; 2]) -> ColumnStore {
-        ColumnStore {
-            column,
-            change,
-            by,
-            is_shared: false,
-        }
-    }
-    /// One of the stores to several elements of a column.
-    #[must_use]
-    pub const fn among(column: usize, change: Change, by: [usize; 2]) -> ColumnStore {
-        ColumnStore {
-            column,
-            change,
-            by,
-            is_shared: true,
-        }
-    }
-}
-
-/// The number of a sum, and that of the result that is added to it.
-pub type AddedTo = (usize, usize);
-
-/// The arithmetic of one iteration: of `G` numbers that are the same in all of them, `R` elements that are
-/// read, and the number of the iteration where it counts as a real.
-pub trait Body<const G: usize, const R: usize, const W: usize> {
-    /// True if the number of the iteration is read.
-    const COUNTS: bool = false;
-    /// The stores, in order.
-    const STORES: &'static [ColumnStore] = &[];
-    /// The sums that results are added to, in order.
-    const SUMS: &'static [AddedTo] = &[];
-
-    /// The results.
-    fn compute<T: Real>(given: [T; G], read: [T; R], number: T) -> [T; W];
-}
 
 /// A stretch of a loop: as many iterations as move every element on by one.
 #[derive(Debug)]
@@ -171,7 +101,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
 {
     /// Runs the iterations of a loop of at least [`LONG`] ones.
     #[cfg_attr(not(unoptimised), inline(always))]
-    pub fn run<B: Body<G, R, W>, const W: usize>(self, _: B) {
+    fn run<B: Body<G, R, W>, const W: usize>(self) {
         let length = self.length;
         if !T::WIDENS {
             self.one_by_one::<B, W>(length);
@@ -376,24 +306,19 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             number,
             given,
             reads,
-            columns,
+            mut columns,
             offsets,
             sums,
             ..
         } = self;
         for k in 0..count {
-            let number = match B::COUNTS {
-                true => T::constant((number + k) as f64, 0.0),
-                false => T::zero(),
-            };
-            let out = B::compute(given, elements(&reads, k), number);
-            let mut s = 0;
-            while s < B::STORES.len() {
-                let store = &B::STORES[s];
-                let place = &mut columns[store.column][offsets[s] + k];
-                *place = changed(store.change, *place, [out[store.by[0]], out[store.by[1]]]);
-                s += 1;
-            }
+            let out = iteration::<T, B, G, R, C, S, W>(
+                given,
+                &reads,
+                &mut columns,
+                &offsets,
+                [number, k],
+            );
             let mut s = 0;
             while s < B::SUMS.len() {
                 let (sum, by) = B::SUMS[s];
@@ -401,6 +326,94 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
                 s += 1;
             }
         }
+    }
+
+    /// All iterations one by one, with sums in their order.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn in_order<B: Body<G, R, W>, const W: usize>(self, sums: &mut [T; A]) {
+        let Stretch {
+            length,
+            number,
+            given,
+            reads,
+            mut columns,
+            mut offsets,
+            ..
+        } = self;
+        cut(B::STORES, &mut columns, &mut offsets, length);
+        let mut all = *sums;
+        for k in 0..length {
+            let out = iteration::<T, B, G, R, C, S, W>(
+                given,
+                &reads,
+                &mut columns,
+                &offsets,
+                [number, k],
+            );
+            let mut s = 0;
+            while s < B::SUMS.len() {
+                let (sum, by) = B::SUMS[s];
+                all[sum] += out[by];
+                s += 1;
+            }
+        }
+        *sums = all;
+    }
+}
+
+/// Iteration `k` of a stretch with the first number `number`: its stores; returns its results.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn iteration<
+    T: Real,
+    B: Body<G, R, W>,
+    const G: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const W: usize,
+>(
+    given: [T; G],
+    reads: &[&[T]; R],
+    columns: &mut [&mut [T]; C],
+    offsets: &[usize; S],
+    [number, k]: [usize; 2],
+) -> [T; W] {
+    let number = match B::COUNTS {
+        true => T::constant((number + k) as f64, 0.0),
+        false => T::zero(),
+    };
+    let out = B::compute(given, elements(reads, k), number);
+    let mut s = 0;
+    while s < B::STORES.len() {
+        let store = &B::STORES[s];
+        let place = &mut columns[store.column][offsets[s] + k];
+        *place = changed(store.change, *place, [out[store.by[0]], out[store.by[1]]]);
+        s += 1;
+    }
+    out
+}
+
+/// Cuts the columns that one store reaches to the elements of a stretch: no element of them needs a check.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn cut<T, const C: usize, const S: usize>(
+    stores: &[ColumnStore],
+    columns: &mut [&mut [T]; C],
+    offsets: &mut [usize; S],
+    length: usize,
+) {
+    let mut is_cut = [false; C];
+    let mut s = 0;
+    while s < stores.len() {
+        let store = &stores[s];
+        if !store.is_shared {
+            if !is_cut[store.column] {
+                let column = core::mem::take(&mut columns[store.column]);
+                columns[store.column] = &mut column[offsets[s]..offsets[s] + length];
+                is_cut[store.column] = true;
+            }
+            offsets[s] = 0;
+        }
+        s += 1;
     }
 }
 
@@ -424,18 +437,6 @@ fn no_elements<'a, T, const C: usize>() -> [&'a mut [T]; C] {
 /// The same columns, borrowed for a shorter time.
 fn reborrowed<'a, T, const C: usize>(columns: &'a mut [&mut [T]; C]) -> [&'a mut [T]; C] {
     columns.each_mut().map(|column| &mut **column)
-}
-
-/// An element after a store.
-#[cfg_attr(not(unoptimised), inline(always))]
-fn changed<T: Real>(change: Change, place: T, [a, b]: [T; 2]) -> T {
-    match change {
-        Change::Set => a,
-        Change::Add => place + a,
-        Change::Sub => place - a,
-        Change::AddProduct => a.fma(b, place),
-        Change::SubProduct => (-a).fma(b, place),
-    }
 }
 
 /// A stretch as a kernel that enters a level.
@@ -498,28 +499,4 @@ impl<
     fn run<P: Pack>(self) {
         packs::<T, B, P, G, R, C, S, A, W>(self.stretch, self.is_followed);
     }
-}
-
-/// Returns true if results of any store wait.
-const fn has_shared(stores: &[ColumnStore]) -> bool {
-    let mut s = 0;
-    while s < stores.len() {
-        if stores[s].is_shared {
-            return true;
-        }
-        s += 1;
-    }
-    false
-}
-
-/// Returns true if no earlier store is to the same column.
-const fn is_first_of_column(stores: &[ColumnStore], at: usize) -> bool {
-    let mut s = 0;
-    while s < at {
-        if stores[s].column == stores[at].column {
-            return false;
-        }
-        s += 1;
-    }
-    true
 }

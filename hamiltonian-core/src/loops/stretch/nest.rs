@@ -4,7 +4,7 @@
 //! are computed in order, each as by [`Stretch::run`].
 
 use super::packs::packs;
-use super::{Body, STRIDE, Stretch};
+use super::{Body, Mode, STRIDE, Stretch};
 use crate::systems::compiled::{self, Rounded, has_lanes, rounded};
 use crate::systems::system::Arithmetic;
 use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch};
@@ -18,24 +18,6 @@ pub trait Nest<T: Real, const G: usize, const R: usize, const C: usize, const Z:
         columns: [&mut [T]; C],
         sizes: [usize; Z],
         arithmetic: Arithmetic,
-    );
-}
-
-/// The way in which the stretches of a nest are computed.
-pub trait Mode {
-    /// Computes the iterations of a stretch.
-    fn run<
-        T: Real,
-        B: Body<G, R, W>,
-        const G: usize,
-        const R: usize,
-        const C: usize,
-        const S: usize,
-        const A: usize,
-        const W: usize,
-    >(
-        stretch: Stretch<'_, T, G, R, C, S, A>,
-        body: B,
     );
 }
 
@@ -55,7 +37,6 @@ impl Mode for OneByOne {
         const W: usize,
     >(
         stretch: Stretch<'_, T, G, R, C, S, A>,
-        _: B,
     ) {
         let length = stretch.length;
         stretch.one_by_one::<B, W>(length);
@@ -78,7 +59,6 @@ impl<P: Pack> Mode for In<P> {
         const W: usize,
     >(
         mut stretch: Stretch<'_, T, G, R, C, S, A>,
-        _: B,
     ) {
         let before = stretch.before::<B, W>();
         if before > 0 {

@@ -4,7 +4,7 @@
 //! element is changed in the order of the iterations, and each sum has the terms of its iterations in order.
 
 use super::waiting::{NONE, Waiting};
-use super::{BLOCK, Body, CARRY, STRIDE, Stretch, changed, has_shared};
+use super::{BLOCK, Body, CARRY, STRIDE, Stretch, changed, cut, has_shared};
 use hamiltonian_lanes::{Pack, Real};
 
 /// Computes at least [`STRIDE`] iterations in packs of as many lanes.
@@ -54,20 +54,7 @@ pub(super) fn packs<
     let has_shared = const { has_shared(B::STORES) };
     let mut waiting = Waiting::<T, S, W>::new(B::STORES, offsets, length, is_followed);
     let does_wait = has_shared && waiting.is_any();
-    let mut is_cut = [false; C];
-    let mut s = 0;
-    while s < B::STORES.len() {
-        let store = &B::STORES[s];
-        if !store.is_shared {
-            if !is_cut[store.column] {
-                let column = core::mem::take(&mut columns[store.column]);
-                columns[store.column] = &mut column[offsets[s]..offsets[s] + length];
-                is_cut[store.column] = true;
-            }
-            offsets[s] = 0;
-        }
-        s += 1;
-    }
+    cut(B::STORES, &mut columns, &mut offsets, length);
     // The last iterations, which fill no pack, are computed together with those before them, which are thus repeated.
     // The elements that a direct store changed there are restored first.
     let rest = length % STRIDE;

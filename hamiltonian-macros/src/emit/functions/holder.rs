@@ -159,7 +159,7 @@ impl Holder {
         let (numbers, masks) = self.counts();
         let _ = writeln!(
             out,
-            "type __D{} = <{} as __h::WithData<T>>::Data;\n\
+            "type __D{} = __h::DataOf<T, {}>;\n\
              __h::prepared!([{} struct {name}] [{declaration}] [{}] {}; {numbers}, {masks});",
             generics.holder_declaration_without_bounds(),
             generics.holder_type(name),

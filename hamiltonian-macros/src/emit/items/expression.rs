@@ -7,7 +7,6 @@
 use super::vectors;
 use crate::emit::functions::externals;
 use crate::emit::names::context::Context;
-use crate::emit::statements::stretch;
 use crate::emit::tokens::lex;
 use crate::emit::traits::{dynamics, markers, observables};
 use crate::emit::types::{declared, mixed, reach};
@@ -36,7 +35,6 @@ pub fn generate(context: Context) -> TokenStream {
     text.push_str(&implementations);
     text.push_str(&functions);
     text.push_str(&markers::implementations(context));
-    let bodies = lex(stretch::named([&text, "", ""]));
     let implementations = lex(&text);
     let externals = externals::wrappers(context);
     let inherent = inherent(context);
@@ -48,7 +46,6 @@ pub fn generate(context: Context) -> TokenStream {
             #[allow(clippy::approx_constant)]
             const _: () = {
                 use #root::private as __h;
-                #bodies
                 #externals
                 #implementations
                 #checks

@@ -8,7 +8,6 @@ use super::vectors;
 use crate::emit::functions::externals;
 use crate::emit::names::context::Context;
 use crate::emit::names::index::Indices;
-use crate::emit::statements::stretch;
 use crate::emit::tokens::{allowances, documented, is_doc, lex, located, piece_type};
 use crate::emit::traits::{dynamics, markers, observables};
 use crate::emit::types::{construct, declared, mixed, reach, record};
@@ -41,10 +40,8 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
     if record::IS_ON && context.definition.piece.is_none() {
         text.push_str(&record::system(context));
     }
-    let bodies = stretch::named([&text, &functions, &gradient]);
     let implementations = located(lex(&text), name.span(), SIGNATURES);
     let functions = lex(&functions);
-    let bodies = lex(bodies);
     let externals = externals::wrappers(context);
     let inherent = inherent(context, item, &gradient);
     let checks = reach::compiled(context);
@@ -53,7 +50,6 @@ pub fn generate(context: Context, item: &Header) -> TokenStream {
         #[allow(clippy::approx_constant)]
         const _: () = {
             use #root::private as __h;
-            #bodies
             #externals
             #implementations
             #functions
@@ -325,21 +321,17 @@ fn inherent(context: Context, item: &Header, gradient: &str) -> TokenStream {
             }
         }
     });
-    quote! {
-        #new
-        #of_values {
-            #defaults
-            #checked
-            #arrays
-            #getters
-            #pieces
-        }
-        #header {
-            #methods
-            #vectors
-            #derivatives
-        }
-    }
+    let of_values = block(
+        of_values,
+        quote! { #defaults #checked #arrays #getters #pieces },
+    );
+    let of_any = block(header, quote! { #methods #vectors #derivatives });
+    quote! { #new #of_values #of_any }
+}
+
+/// The methods under a header, if there are any.
+fn block(header: TokenStream, methods: TokenStream) -> Option<TokenStream> {
+    (!methods.is_empty()).then(|| quote! { #header { #methods } })
 }
 
 /// The pieces of a split as systems with the same parameters.

@@ -96,7 +96,7 @@ impl Generics {
     /// `<const N0: usize, …>` with more parameters after the constants.
     pub fn declared(&self, more: impl IntoIterator<Item = String>) -> String {
         let constants = self.constants.iter();
-        let constants = constants.map(|name| format!("const {name}: __h::core::primitive::usize"));
+        let constants = constants.map(|name| format!("const {name}: __h::usize"));
         list(constants.chain(more))
     }
 

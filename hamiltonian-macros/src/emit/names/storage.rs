@@ -238,10 +238,16 @@ impl Context<'_> {
                     };
                     let names: Vec<String> = (0..shape.columns()).map(name).into_list();
                     let names = names.join(", ");
-                    writeln!(
-                        out,
-                        "let [{names}] = __h::columns{suffix}({whole}, {rows});"
-                    )
+                    match self.layout {
+                        Layout::Array => writeln!(
+                            out,
+                            "let [{names}] = __h::columns_of{suffix}({vector}, {rows});"
+                        ),
+                        _ => writeln!(
+                            out,
+                            "let [{names}] = __h::columns{suffix}({whole}, {rows});"
+                        ),
+                    }
                 }
                 _ => writeln!(out, "let {} = {whole};", run[0].name()),
             };

@@ -379,10 +379,7 @@ impl Writer<'_> {
 
     /// A loop: whole where no index wraps, in segments otherwise.
     pub(super) fn nest(&mut self, inner: &Loop) {
-        for accumulator in &inner.accumulators {
-            line!(self, "let mut {} = {ZERO};", name(*accumulator));
-        }
-        let found = Accesses::of(self.context, inner);
+        let mut found = Accesses::of(self.context, inner);
         let (known_indices, known_slices) = (self.indices.len(), self.slices.len());
         let d = inner.domain.0;
         let is_tile = self.tile == Some(inner.domain);
@@ -393,13 +390,23 @@ impl Writer<'_> {
                 self.context.indices.saturating(&inner.end),
             ),
         };
+        if let Some(stretch) = self.stretch(inner, &found) {
+            return self.run(inner, &stretch, [&start, &end]);
+        }
+        for accumulator in &inner.accumulators {
+            line!(self, "let mut {} = {ZERO};", name(*accumulator));
+        }
+        // A check of an element costs little beside a loop.
+        if inner.body.iter().any(|step| matches!(step, Step::Loop(_))) {
+            found.cuts.clear();
+        }
         if found.wrapped.is_empty() && found.cuts.is_empty() {
             let range = match self.context.access {
                 Access::Reversed => format!("({start}..{end}).rev()"),
                 Access::Apart | Access::InPlace => format!("{start}..{end}"),
             };
             let length = format!("({end}).saturating_sub({start})");
-            self.open(inner, None, [&length, &start]);
+            self.open(inner, [&length, &start]);
             line!(self, "for _i{d} in {range} {{");
             match self.context.access {
                 Access::Apart => self.iteration(&inner.body),
@@ -412,55 +419,36 @@ impl Writer<'_> {
         }
         if found.is_plain(inner) && !is_tile {
             line!(self, "let _l{d} = {end};");
-            let stretch = self.stretch(inner, &found);
-            self.open(inner, stretch.as_ref(), [&format!("_l{d}"), "0usize"]);
+            self.open(inner, [&format!("_l{d}"), "0usize"]);
             for (at, (slice, index)) in found.cuts.iter().enumerate() {
                 let (reference, name) = (reference(slice), slice.name());
                 line!(self, "let _x{d}_{at} = {reference}{name}[.._l{d}];");
                 let text = format!("_x{d}_{at}[_i{d}]");
                 self.slices.push((*slice, index.clone(), text));
             }
-            if let Some(stretch) = &stretch {
-                self.call(stretch, inner, "0usize", false);
-                line!(self, "}} else {{");
-            }
             line!(self, "for _i{d} in 0.._l{d} {{");
-            self.iteration_of(inner, stretch.as_ref());
+            self.iteration(&inner.body);
             line!(self, "}}");
-            if stretch.is_some() {
-                line!(self, "}}");
-            }
             self.close(inner);
             self.slices.truncate(known_slices);
             return;
         }
-        let stretch = self.stretch(inner, &found);
         let is_wrapped = !found.wrapped.is_empty();
         let mutable = if is_wrapped { "mut " } else { "" };
         line!(self, "let ({mutable}_i{d}, _e{d}) = ({start}, {end});");
-        let length = format!("_e{d}.saturating_sub(_i{d})");
-        self.open(inner, stretch.as_ref(), [&length, &format!("_i{d}")]);
+        self.open(
+            inner,
+            [&format!("_e{d}.saturating_sub(_i{d})"), &format!("_i{d}")],
+        );
         let word = if is_wrapped { "while" } else { "if" };
         line!(self, "{word} _i{d} < _e{d} {{");
         line!(self, "let {mutable}_l{d} = _e{d} - _i{d};");
         self.wrap(inner.domain, &found.wrapped);
         self.cut(inner.domain, &found.cuts);
-        if let Some(stretch) = &stretch {
-            self.call(stretch, inner, &format!("_i{d}"), is_wrapped && !is_tile);
-        }
-        // In a tile all iterations are core's.
-        if !(is_tile && stretch.is_some()) {
-            if stretch.is_some() {
-                line!(self, "}} else {{");
-            }
-            line!(self, "for _k{d} in 0.._l{d} {{");
-            line!(self, "let _i{d} = _i{d} + _k{d};");
-            self.iteration_of(inner, stretch.as_ref());
-            line!(self, "}}");
-        }
-        if stretch.is_some() {
-            line!(self, "}}");
-        }
+        line!(self, "for _k{d} in 0.._l{d} {{");
+        line!(self, "let _i{d} = _i{d} + _k{d};");
+        self.iteration(&inner.body);
+        line!(self, "}}");
         if is_wrapped {
             line!(self, "_i{d} += _l{d};");
         }

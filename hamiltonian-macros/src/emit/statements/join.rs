@@ -9,7 +9,7 @@ use super::block::Writer;
 use super::stretch::Stretch;
 use crate::emit::names::context::Access;
 use crate::emit::names::index::variable;
-use crate::emit::names::layout::{Layout, Slice};
+use crate::emit::names::layout::Layout;
 use crate::emit::steps::accesses::Accesses;
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::list::IntoList;
@@ -151,43 +151,45 @@ impl Writer<'_> {
 
     /// Writes fused innermost loops: the common range in lanes, the other iterations one by one.
     fn inner(&mut self, loops: &[GuardedLoop]) {
-        let d = loops[0].0.domain.0;
+        let domain = loops[0].0.domain;
+        let d = domain.0;
+        let mut joint = Stretch::default();
         let mut parts = Vec::with_capacity(loops.len());
         for (inner, _) in loops {
             let found = Accesses::of(self.context, inner);
             let Some(stretch) = self.stretch(inner, &found) else {
                 unreachable!("a loop that is joined has been seen as a stretch");
             };
-            self.body(&stretch);
-            parts.push((*inner, found, stretch));
+            self.body(&stretch, inner.domain);
+            joint.append(&stretch, |index| index.substitute(|d| self.same(d)));
+            parts.push((*inner, stretch));
         }
-        let (joint, cuts) = self.joint_stretch(&parts);
-        self.body(&joint);
+        self.body(&joint, domain);
         line!(
             self,
             "let (_lo{d}, _hi{d}) = ({}, {});",
             of_all(loops, 's', "max"),
             of_all(loops, 'e', "min")
         );
-        let least = self.least(&joint);
+        let least = match self.is_nest {
+            true => "__h::LONG".to_owned(),
+            false => format!("<{} as __h::Body<{}>>::LEAST", joint.name, joint.counts()),
+        };
         line!(
             self,
-            "let _long{d} = <T as __h::Real>::WIDENS && _hi{d}.saturating_sub(_lo{d}) >= __h::{least};"
+            "let _long{d} = <T as __h::Real>::WIDENS && _hi{d}.saturating_sub(_lo{d}) >= {least};"
         );
-        let known = self.slices.len();
         line!(self, "if _long{d} {{");
-        line!(self, "let _l{d} = _hi{d} - _lo{d};");
-        for (inner, ..) in &parts {
+        for (inner, _) in &parts {
             line!(self, "let {} = _lo{d};", variable(inner.domain));
         }
-        self.cut(parts[0].0.domain, &cuts);
-        for (inner, _, stretch) in &parts {
-            self.loads(inner, stretch, false);
+        for (inner, stretch) in &parts {
+            self.loads(inner, stretch);
         }
-        self.launch(&joint, parts[0].0.domain);
+        let [start, length] = [variable(domain), format!("_hi{d} - _lo{d}")];
+        self.call(&joint, domain, [&start, &length], "", "run");
         line!(self, "}}");
-        self.slices.truncate(known);
-        for (inner, found, stretch) in &parts {
+        for (inner, stretch) in &parts {
             let own = inner.domain.0;
             line!(
                 self,
@@ -195,34 +197,11 @@ impl Writer<'_> {
                  else {{ [[0usize, 0usize], [_s{own}, _e{own}]] }} {{"
             );
             line!(self, "if _i{own} < _e{own} {{");
-            line!(self, "let _l{own} = _e{own} - _i{own};");
-            self.cut(inner.domain, &found.cuts);
-            line!(self, "for _k{own} in 0.._l{own} {{");
-            line!(self, "let _i{own} = _i{own} + _k{own};");
-            self.iteration_of(inner, Some(stretch));
-            line!(self, "}}\n}}\n}}");
-            self.slices.truncate(known);
+            self.loads(inner, stretch);
+            let [start, length] = [variable(inner.domain), format!("_e{own} - _i{own}")];
+            self.call(stretch, inner.domain, [&start, &length], "", "run_short");
+            line!(self, "}}\n}}");
         }
-    }
-
-    /// Combines the iterations of all loops at one site, and the columns that advance with the variable of the first.
-    fn joint_stretch(
-        &self,
-        parts: &[(&Loop, Accesses, Stretch)],
-    ) -> (Stretch, Vec<(Slice, Index)>) {
-        let mut cuts: Vec<(Slice, Index)> = Vec::new();
-        let mut joint = Stretch::default();
-        let domain = parts[0].0.domain;
-        for (_, found, stretch) in parts {
-            let places: Vec<usize> = (found.cuts.iter())
-                .map(|(slice, index)| {
-                    let cut = (*slice, index.substitute(|d| self.same(d)));
-                    super::stretch::number(&mut cuts, cut)
-                })
-                .into_list();
-            joint.append(stretch, domain, &places);
-        }
-        (joint, cuts)
     }
 
     /// Returns the variable of the first of the fused loops.

@@ -31,7 +31,7 @@ impl Writer<'_> {
         // Both forms of the loop share the type of the arithmetic.
         let found = Accesses::of(self.context, pairs.inner);
         if let Some(stretch) = self.stretch(pairs.inner, &found) {
-            self.body(&stretch);
+            self.body(&stretch, pairs.inner.domain);
             self.body = Some(stretch.name);
         }
         let count = self.context.indices.saturating(&outer.end);

@@ -1,15 +1,16 @@
 //! Innermost loops that core runs: their arithmetic, the elements it reads, its stores and sums.
 //!
 //! Input: a loop with the columns that run along with it. Output: [`Stretch`], a type that implements
-//! core's `Body`, and the call. Invariant: every element that is reached moves on by one with the loop
-//! variable, or does not move; what an iteration computes is a function over any scalar.
+//! core's `Body`, and a `Loop` of core. Invariant: every element that is reached moves on by one with the loop
+//! variable, in its ring if its index wraps, or does not move; what an iteration computes is a function over any scalar.
 
 use super::block::{Writer, name, names};
 use crate::emit::names::context::{Access, ZERO};
+use crate::emit::names::index::variable;
 use crate::emit::names::layout::Slice;
 use crate::emit::steps::accesses::Accesses;
 use crate::emit::steps::scan::scan;
-use hamiltonian_symbolic::index::{Domain, Index, Loops};
+use hamiltonian_symbolic::index::{Affine, Domain, Index, Loops};
 use hamiltonian_symbolic::list::IntoList;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Update, Value};
 use std::fmt::Write;
@@ -24,8 +25,8 @@ pub(super) struct Stretch {
     pub(super) name: String,
     /// What does not vary: its instructions are steps of the loop's body, or values from outside.
     given: Vec<Value>,
-    /// What is read, with the number of its cut.
-    reads: Vec<(Value, usize)>,
+    /// What is read, and where.
+    reads: Vec<(Value, Place)>,
     /// The loop variable as a real.
     number: Option<Value>,
     /// Values that others are names of, in the arithmetic of several loops.
@@ -35,15 +36,19 @@ pub(super) struct Stretch {
     /// The results of the arithmetic.
     results: Vec<Value>,
     /// The columns that are written.
-    columns: Vec<String>,
+    columns: Vec<Slice>,
     stores: Vec<ColumnStore>,
     /// Sums that are added to.
     sums: Vec<Value>,
     /// The number of a sum and that of a result added to it, in order.
     added: Vec<(usize, usize)>,
-    /// Stores and additions, for iterations one by one.
-    rest: Vec<Step>,
 }
+
+/// An element that moves on by one with the loop variable.
+type Place = (Slice, Index);
+
+/// The place in a ring, and its extent.
+type Ring = (Affine, Affine);
 
 /// A store of an iteration.
 #[derive(Clone)]
@@ -51,8 +56,9 @@ struct ColumnStore {
     column: usize,
     change: &'static str,
     by: [usize; 2],
-    /// The place of the first iteration; `None` in a column that is cut to the stretch.
-    start: Option<String>,
+    index: Index,
+    /// True if another store may reach other elements of the column.
+    is_shared: bool,
 }
 
 /// The number of an element of a list, which it is added to if it is not there.
@@ -76,14 +82,6 @@ fn sums(inner: &Loop) -> Vec<Value> {
         }
     }
     sums
-}
-
-/// The import of the trait by which bodies are called, if these texts call any.
-pub fn named(texts: [&str; 3]) -> &'static str {
-    match texts.iter().any(|text| text.contains("::compute([")) {
-        true => "use __h::Body as _;",
-        false => "",
-    }
 }
 
 impl Writer<'_> {
@@ -121,8 +119,10 @@ impl Writer<'_> {
                     let number = self.context.number(*array, row, column.as_ref());
                     if varies(number.variables()) {
                         let cut = (self.context.read(*array), number);
-                        let at = found.cuts.iter().position(|known| *known == cut)?;
-                        made.reads.push((*value, at));
+                        if !found.cuts.contains(&cut) {
+                            return None;
+                        }
+                        made.reads.push((*value, cut));
                     } else {
                         made.given.push(*value);
                     }
@@ -156,16 +156,12 @@ impl Writer<'_> {
                 }
                 Step::Store(target, row, column, update) => {
                     let slice = Slice::write(self.context.layout, *target);
-                    let at = (found.cuts.iter()).position(|(s, index)| *s == slice && index == row);
-                    let place = match at {
-                        _ if column.is_some() => return None,
-                        Some(at) => (format!("_x{}_{at}", inner.domain.0), None),
-                        None => {
-                            let first = self.first(row, inner, found)?;
-                            (slice.name(), Some(self.within(&slice, first)))
-                        }
-                    };
-                    let column = number(&mut made.columns, place.0);
+                    let place = (slice, row.clone());
+                    let is_shared = !found.cuts.contains(&place);
+                    if column.is_some() || is_shared && !moves_on(row, inner.domain) {
+                        return None;
+                    }
+                    let column = number(&mut made.columns, slice);
                     let (change, [a, b]) = match *update {
                         Update::Set(a) => ("Set", [a, a]),
                         Update::Add(a) => ("Add", [a, a]),
@@ -181,80 +177,47 @@ impl Writer<'_> {
                         column,
                         change,
                         by,
-                        start: place.1,
+                        index: place.1,
+                        is_shared,
                     });
                 }
             }
-            made.rest.push(step.clone());
         }
         Some(made)
     }
 
-    /// Where the first iteration of a segment finds an element that moves on by one; the columns of
-    /// scalar coordinates have no such elements.
-    fn first(&self, row: &Index, inner: &Loop, found: &Accesses) -> Option<String> {
-        if row.affine.factor(inner.domain) != 1 {
-            return None;
-        }
-        match &row.modulo {
-            None => Some(self.context.indices.index(row)),
-            Some(_) => found.start_of(inner.domain, row),
-        }
-    }
-
-    /// Writes what stands before a loop: its arithmetic, and the partial sums of a long one. `length`
-    /// and `start` are the extent and the first value of the loop.
-    pub(super) fn open(
-        &mut self,
-        inner: &Loop,
-        stretch: Option<&Stretch>,
-        [length, start]: [&str; 2],
-    ) {
-        let d = inner.domain.0;
-        if let Some(stretch) = stretch {
-            self.body(stretch);
-        }
-        let sums = match self.context.access == Access::Apart {
-            true => sums(inner),
-            false => Vec::new(),
-        };
-        let is_long = match (self.tile == Some(inner.domain), sums.is_empty()) {
-            (true, _) => "true".to_owned(),
-            (false, true) => {
-                let least =
-                    stretch.map_or_else(|| "LONG".to_owned(), |stretch| self.least(stretch));
-                format!("<T as __h::Real>::WIDENS && {length} >= __h::{least}")
-            }
-            (false, false) => format!("{length} >= __h::LONG"),
-        };
+    /// Writes what stands before a loop that is not core's: the partial sums of a long one. `length` and `start` are
+    /// its extent and its first value.
+    pub(super) fn open(&mut self, inner: &Loop, [length, start]: [&str; 2]) {
+        let sums = self.partial(inner);
         if sums.is_empty() {
-            if stretch.is_some() {
-                line!(self, "let _long{d} = {is_long};");
-            }
             return;
         }
+        let d = inner.domain.0;
         line!(self, "let _from{d} = {start};");
-        line!(self, "let _long{d} = {is_long};");
+        line!(self, "let _long{d} = {length} >= __h::LONG;");
         line!(
             self,
             "let mut _sums{d} = [[{ZERO}; __h::STRIDE]; {}];",
             sums.len()
         );
-        if stretch.is_none() {
-            for (at, sum) in sums.into_iter().enumerate() {
-                let place = format!("_sums{d}[{at}][(_i{d} - _from{d}) % __h::STRIDE]");
-                self.trees.push((sum, format!("_long{d}"), place));
-            }
+        for (at, sum) in sums.into_iter().enumerate() {
+            let place = format!("_sums{d}[{at}][(_i{d} - _from{d}) % __h::STRIDE]");
+            self.trees.push((sum, format!("_long{d}"), place));
         }
     }
 
-    /// The least extent from which a loop without sums goes through lanes: core's, from what an iteration computes. A
-    /// nest enters a level once for all rows.
-    pub(super) fn least(&self, stretch: &Stretch) -> String {
-        use Instruction::{Add, Constant, Mul, MulAdd, MulSub, Neg, NegMulAdd, Sub};
-        if self.is_nest {
-            return "LONG".to_owned();
+    /// The sums of a loop that are partial ones where it is long.
+    fn partial(&self, inner: &Loop) -> Vec<Value> {
+        match self.context.access == Access::Apart {
+            true => sums(inner),
+            false => Vec::new(),
         }
+    }
+
+    /// The least extent from which a loop without sums goes through lanes: core's, from what an iteration computes.
+    fn least(&self, stretch: &Stretch) -> String {
+        use Instruction::{Add, Constant, Mul, MulAdd, MulSub, Neg, NegMulAdd, Sub};
         let is_sum_or_product = |step: &&Step| match step {
             Step::Let(value) => matches!(
                 self.context.program.instruction(*value),
@@ -270,17 +233,14 @@ impl Writer<'_> {
             _ => false,
         };
         let cheap = stretch.computed.iter().filter(is_sum_or_product).count();
-        format!("worth({cheap}, {})", stretch.computed.len() - cheap)
+        format!("__h::worth({cheap}, {})", stretch.computed.len() - cheap)
     }
 
     /// Writes what stands after a loop: long sums are put together.
     pub(super) fn close(&mut self, inner: &Loop) {
         self.trees.clear();
-        if self.context.access != Access::Apart {
-            return;
-        }
         let d = inner.domain.0;
-        let totals: Vec<String> = (sums(inner).into_iter().enumerate())
+        let totals: Vec<String> = (self.partial(inner).into_iter().enumerate())
             .map(|(at, sum)| format!("{} += __h::total(&_sums{d}[{at}]);", name(sum)))
             .into_list();
         if !totals.is_empty() {
@@ -289,7 +249,7 @@ impl Writer<'_> {
     }
 
     /// Writes the arithmetic of an iteration as a type, if it is not there yet.
-    pub(super) fn body(&mut self, stretch: &Stretch) {
+    pub(super) fn body(&mut self, stretch: &Stretch, domain: Domain) {
         if self.body.as_ref() == Some(&stretch.name) {
             return;
         }
@@ -304,19 +264,32 @@ impl Writer<'_> {
         if stretch.number.is_some() {
             line!(self, "const COUNTS: __h::core::primitive::bool = true;");
         }
+        if stretch.added.is_empty() {
+            line!(self, "const LEAST: __h::usize = {};", self.least(stretch));
+        }
+        let elements = stretch.reads.iter().enumerate();
+        let rings =
+            elements.filter_map(|(at, (_, (_, index)))| Some((at, stretch.ring(index, domain)?)));
+        let rings: Vec<(usize, usize)> = rings.into_list();
+        if !rings.is_empty() {
+            line!(self, "const RINGS: &'static [__h::InRing] = &{rings:?};");
+        }
         if !stretch.stores.is_empty() {
             line!(self, "const STORES: &'static [__h::ColumnStore] = &[");
             for ColumnStore {
                 column,
                 change,
                 by: [a, b],
-                start,
+                index,
+                is_shared,
             } in &stretch.stores
             {
-                let kind = if start.is_some() { "among" } else { "to" };
+                let kind = if *is_shared { "among" } else { "to" };
+                let ring = (stretch.ring(index, domain)).map(|ring| format!(".in_ring({ring})"));
                 line!(
                     self,
-                    "__h::ColumnStore::{kind}({column}, __h::Change::{change}, [{a}, {b}]),"
+                    "__h::ColumnStore::{kind}({column}, __h::Change::{change}, [{a}, {b}]){},",
+                    ring.unwrap_or_default()
                 );
             }
             line!(self, "];");
@@ -356,119 +329,174 @@ impl Writer<'_> {
         line!(self, "[{}]\n}}\n}}", results.join(", "));
     }
 
-    /// Writes the call of core for a segment that begins at `start`, of a long loop. Segments that fill no pack
-    /// are left to the loop's own iterations where these are written and have no sums, which are core's.
-    pub(super) fn call(&mut self, stretch: &Stretch, inner: &Loop, start: &str, has_own: bool) {
-        let d = inner.domain.0;
-        match has_own && stretch.sums.is_empty() {
-            true => line!(self, "if _long{d} && _l{d} >= __h::STRIDE {{"),
-            false => line!(self, "if _long{d} {{"),
+    /// Writes a loop that core runs: its arithmetic, and the call.
+    pub(super) fn run(&mut self, inner: &Loop, stretch: &Stretch, [start, end]: [&str; 2]) {
+        self.body(stretch, inner.domain);
+        let length = match start {
+            "0usize" => end.to_owned(),
+            _ => format!("({end}).saturating_sub({start})"),
+        };
+        let is_tile = self.tile == Some(inner.domain);
+        let method = if is_tile { "run_long" } else { "run" };
+        // Values of elements that an empty loop does not have.
+        let is_guarded = !is_tile && self.reaches(inner, stretch);
+        let are_own = !is_guarded && stretch.sums == inner.accumulators;
+        if !are_own {
+            for sum in &inner.accumulators {
+                line!(self, "let mut {} = {ZERO};", name(*sum));
+            }
         }
-        if start != format!("_i{d}") {
-            line!(self, "let _i{d} = {start};");
+        if is_guarded {
+            line!(self, "if {start} < {end} {{");
         }
-        self.loads(inner, stretch, false);
-        self.launch(stretch, inner.domain);
+        self.loads(inner, stretch);
+        let sums = match are_own {
+            true if stretch.sums.is_empty() => String::new(),
+            true => format!("let [{}] = ", names(&stretch.sums)),
+            false => format!("[{}] = ", names(&stretch.sums)),
+        };
+        self.call(stretch, inner.domain, [start, &length], &sums, method);
+        if is_guarded {
+            line!(self, "}}");
+        }
     }
 
-    /// Writes the call of core, after what is given.
-    pub(super) fn launch(&mut self, stretch: &Stretch, domain: Domain) {
-        let d = domain.0;
-        let reads: Vec<String> = (stretch.reads.iter())
-            .map(|(_, cut)| format!("_x{d}_{cut}"))
+    /// Returns true if what stands before the iterations is there only if there is one.
+    fn reaches(&self, inner: &Loop, stretch: &Stretch) -> bool {
+        let loads = |step: &Step| match step {
+            Step::Let(value) => {
+                let instruction = self.context.program.instruction(*value);
+                stretch.given.contains(value) && matches!(instruction, Instruction::Load(..))
+            }
+            _ => false,
+        };
+        let places = (stretch.reads.iter().map(|(_, place)| place.clone())).chain(
+            stretch
+                .stores
+                .iter()
+                .map(|store| (stretch.columns[store.column], store.index.clone())),
+        );
+        inner.body.iter().any(loads)
+            || places
+                .into_list()
+                .iter()
+                .any(|place| self.first(place, inner.domain).contains(" - "))
+    }
+
+    /// Where the first iteration finds an element; of a ring, where its first element is.
+    fn first(&self, (slice, index): &Place, domain: Domain) -> String {
+        let number = match ring_of(index, domain) {
+            Some(_) => self.context.indices.in_row(index, "0usize"),
+            None => self.index(index),
+        };
+        self.within(slice, number)
+    }
+
+    /// Writes the call of core for `length` iterations from `start` on, whose sums go to the pattern `sums`.
+    pub(super) fn call(
+        &mut self,
+        stretch: &Stretch,
+        domain: Domain,
+        [start, length]: [&str; 2],
+        sums: &str,
+        method: &str,
+    ) {
+        let variable = variable(domain);
+        let rings = stretch
+            .rings(domain)
+            .iter()
+            .map(|(affine, modulo)| {
+                let [first, extent] = [
+                    self.context.indices.wrapped(affine, modulo),
+                    self.context.indices.modulus(modulo),
+                ];
+                format!("[{first}, {extent}]")
+            })
+            .into_list();
+        let is_bound = start == variable;
+        let of = |place: &Place| match self.first(place, domain) {
+            text if text == variable => start.to_owned(),
+            text => text,
+        };
+        let reads = stretch
+            .reads
+            .iter()
+            .map(|(_, place)| format!("({}, {})", place.0.name(), of(place)))
+            .into_list();
+        let offsets = stretch
+            .stores
+            .iter()
+            .map(|store| of(&(stretch.columns[store.column], store.index.clone())))
             .into_list();
         let columns: Vec<String> = (stretch.columns.iter())
-            .map(|column| format!("&mut {column}[..]"))
+            .map(|column| format!("&mut {}[..]", column.name()))
             .into_list();
-        let offsets: Vec<&str> = (stretch.stores.iter())
-            .map(|store| store.start.as_deref().unwrap_or("0usize"))
-            .into_list();
-        let (first, sums) = match stretch.sums.is_empty() {
-            true => ("0usize".to_owned(), "&mut []".to_owned()),
-            false => (format!("_i{d} - _from{d}"), format!("&mut _sums{d}")),
+        let before = match sums.is_empty() || sums.starts_with("let") {
+            true => format!("[{ZERO}; {}]", stretch.sums.len()),
+            false => format!("[{}]", names(&stretch.sums)),
         };
-        let stretch_text = format!(
-            "__h::Stretch {{ length: _l{d}, first: {first}, number: _i{d}, given: [{}], \
-             reads: [{}], columns: [{}], offsets: [{}], sums: {sums}, arithmetic: {} }}",
+        let text = format!(
+            "__h::Loop {{ length: {length}, number: {start}, given: [{}], reads: [{}], columns: [{}], offsets: [{}], \
+             rings: [{}], sums: {before}, arithmetic: {} }}",
             names(&stretch.given),
             reads.join(", "),
             columns.join(", "),
             offsets.join(", "),
+            rings.join(", "),
             self.arithmetic,
         );
-        match self.is_nest {
+        if !is_bound && text.contains(&variable) {
+            line!(self, "let {variable} = {start};");
+        }
+        match self.is_nest && method == "run" {
             true => line!(
                 self,
-                "<__M as __h::Mode>::run({stretch_text}, {});",
+                "{sums}<__M as __h::Mode>::run_all({text}, {});",
                 stretch.name
             ),
-            false => line!(self, "{stretch_text}.run({});", stretch.name),
+            false => line!(self, "{sums}{text}.{method}({});", stretch.name),
         }
     }
 
-    /// Writes what is given, and with `all` what is read.
-    pub(super) fn loads(&mut self, inner: &Loop, stretch: &Stretch, all: bool) {
-        let is_wanted = |step: &&Step| match step {
-            Step::Let(value) => {
-                let is_read = stretch.reads.iter().any(|(read, _)| read == value);
-                stretch.given.contains(value) || all && (is_read || stretch.number == Some(*value))
-            }
-            _ => false,
-        };
-        let steps: Vec<Step> = inner.body.iter().filter(is_wanted).cloned().into_list();
+    /// Writes what is given.
+    pub(super) fn loads(&mut self, inner: &Loop, stretch: &Stretch) {
+        let is_given =
+            |step: &&Step| matches!(step, Step::Let(value) if stretch.given.contains(value));
+        let steps: Vec<Step> = inner.body.iter().filter(is_given).cloned().into_list();
         self.steps(&steps);
     }
+}
 
-    /// An iteration by itself: loads, a call of its arithmetic, stores.
-    pub(super) fn iteration_of(&mut self, inner: &Loop, stretch: Option<&Stretch>) {
-        let Some(stretch) = stretch else {
-            return self.iteration(&inner.body);
-        };
-        self.loads(inner, stretch, true);
-        if !stretch.computed.is_empty() {
-            let is_computed = |value: &Value| {
-                (stretch.computed.iter()).any(|step| matches!(step, Step::Let(v) if v == value))
-            };
-            let results: Vec<String> = (stretch.results.iter())
-                .map(|value| match is_computed(value) {
-                    true => name(*value),
-                    false => "_".to_owned(),
-                })
-                .into_list();
-            line!(
-                self,
-                "let [{}] = {}::compute([{}], [{}], {});",
-                results.join(", "),
-                stretch.name,
-                names(&stretch.given),
-                stretch.read_names(),
-                stretch.number.map_or(ZERO.to_owned(), name),
-            );
-        }
-        self.steps(&stretch.rest);
-    }
+/// Returns true if an element moves on by one with the loop variable.
+fn moves_on(index: &Index, domain: Domain) -> bool {
+    index.affine.factor(domain) == 1
+}
+
+/// The place in its ring of an element that wraps with the loop variable, and the ring's extent.
+fn ring_of(index: &Index, domain: Domain) -> Option<Ring> {
+    let modulo = index.modulo.as_ref()?;
+    moves_on(index, domain).then(|| (index.affine.clone(), modulo.clone()))
 }
 
 impl Stretch {
     /// Returns true if each element that is written is the iteration's own, and nothing is summed.
     pub(super) fn is_apart(&self) -> bool {
-        self.sums.is_empty() && self.stores.iter().all(|store| store.start.is_none())
+        self.sums.is_empty() && self.stores.iter().all(|store| !store.is_shared)
     }
 
-    /// Adds the iterations of another loop, whose columns run along with the variable of `domain` in the cuts
-    /// with the numbers `places`.
-    pub(super) fn append(&mut self, other: &Stretch, domain: Domain, places: &[usize]) {
+    /// Adds the iterations of another loop, whose places are those of `moved`.
+    pub(super) fn append(&mut self, other: &Stretch, moved: impl Fn(&Index) -> Index) {
         if self.name.is_empty() {
             self.name = format!("__All{}", other.name.trim_start_matches('_'));
         }
         for value in &other.given {
             number(&mut self.given, *value);
         }
-        for (value, cut) in &other.reads {
-            let cut = places[*cut];
-            match self.reads.iter().find(|(_, known)| *known == cut) {
+        for (value, (slice, index)) in &other.reads {
+            let place = (*slice, moved(index));
+            match self.reads.iter().find(|(_, known)| *known == place) {
                 Some((known, _)) => self.same.push((*value, *known)),
-                None => self.reads.push((*value, cut)),
+                None => self.reads.push((*value, place)),
             }
         }
         match (self.number, other.number) {
@@ -479,17 +507,31 @@ impl Stretch {
         let before = self.results.len();
         self.results.extend(&other.results);
         for store in &other.stores {
-            let column = &other.columns[store.column];
-            let cut = column.rsplit('_').next().and_then(|at| at.parse().ok());
-            let column = cut.map_or(column.clone(), |cut: usize| {
-                format!("_x{}_{}", domain.0, places[cut])
-            });
             self.stores.push(ColumnStore {
-                column: number(&mut self.columns, column),
+                column: number(&mut self.columns, other.columns[store.column]),
                 by: store.by.map(|by| before + by),
+                index: moved(&store.index),
                 ..store.clone()
             });
         }
+    }
+
+    /// The rings that its elements move in.
+    fn rings(&self, domain: Domain) -> Vec<Ring> {
+        let mut all = Vec::new();
+        let reads = self.reads.iter().map(|(_, (_, index))| index);
+        for index in reads.chain(self.stores.iter().map(|store| &store.index)) {
+            if let Some(ring) = ring_of(index, domain) {
+                number(&mut all, ring);
+            }
+        }
+        all
+    }
+
+    /// The number of the ring of an element, if it wraps.
+    fn ring(&self, index: &Index, domain: Domain) -> Option<usize> {
+        let own = ring_of(index, domain)?;
+        self.rings(domain).iter().position(|ring| *ring == own)
     }
 
     /// Notes a value that comes from outside the loop. `None` if it is a mask, which has no form over
@@ -516,7 +558,7 @@ impl Stretch {
     }
 
     /// The generic arguments of its `Body`.
-    fn counts(&self) -> String {
+    pub(super) fn counts(&self) -> String {
         let (given, reads) = (self.given.len(), self.reads.len());
         format!("{given}, {reads}, {}", self.results.len())
     }

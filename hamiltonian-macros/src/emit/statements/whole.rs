@@ -72,7 +72,7 @@ impl Writer<'_> {
             self,
             "struct {own};\nimpl<T: __h::Real> __h::Nest<T, {counts}> for {own} {{\n\
              #[inline(always)]\n#[allow(unused_variables)]\nfn run<__M: __h::Mode>(_given: [T; {}], \
-             _read: [&[T]; {}], _written: [&mut [T]; {}], _sizes: [__h::core::primitive::usize; {}], \
+             _read: [&[T]; {}], _written: [&mut [T]; {}], _sizes: [__h::usize; {}], \
              _arithmetic: __h::Arithmetic) {{\nlet [{given}] = _given;\nlet [{}] = _read;\n\
              let [{}] = _written;\nlet [{}] = _sizes;",
             scan.reads.len(),

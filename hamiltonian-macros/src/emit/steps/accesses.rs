@@ -27,12 +27,6 @@ impl Accesses {
             && self.cuts.iter().all(along)
     }
 
-    /// Returns the name of the start of a periodic index in a segment.
-    pub(in crate::emit) fn start_of(&self, domain: Domain, index: &Index) -> Option<String> {
-        let at = self.wrapped.iter().position(|(known, _)| known == index)?;
-        Some(start_name(domain, at, index))
-    }
-
     /// Returns true if there is a periodic index.
     pub(in crate::emit) fn wraps(&self) -> bool {
         !self.wrapped.is_empty()

@@ -277,7 +277,12 @@ type WorkOf<M> = <<M as Scheme<RuntimeSystem>>::Map<f64> as Map>::Work;
 
 /// A step in a function of its own.
 #[inline(never)]
-fn once<M: Map>(map: &M, [t, end]: [ScalarOf<M>; 2], z: &mut M::Carried, work: &mut M::Work) {
+pub(crate) fn once<M: Map>(
+    map: &M,
+    [t, end]: [ScalarOf<M>; 2],
+    z: &mut M::Carried,
+    work: &mut M::Work,
+) {
     map.body(t, end, z, work);
 }
 

@@ -74,6 +74,7 @@ mod names;
 mod nests;
 mod op;
 mod prepared;
+mod processed;
 mod registers;
 mod run;
 mod schemes;

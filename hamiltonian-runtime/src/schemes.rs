@@ -9,6 +9,7 @@ use crate::by_table::{ByTable, Moves, Table, Weights};
 use crate::erased::AnyScheme;
 use crate::error::RunError;
 use crate::many::Many;
+use crate::processed::InFrame;
 use crate::system::RuntimeSystem;
 use hamiltonian_core::Scheme;
 use hamiltonian_core::schemes::author::{Entry, Listed, Splitting};
@@ -74,8 +75,8 @@ macro_rules! known {
 
 known! {
     Many: Many, false;
-    Processed: core::Processed<Weights, Weights>, true;
-    CheapProcessed: core::CheapProcessed<Weights, Weights, Weights>, true;
+    Processed: InFrame<core::Processed<Weights, Weights>>, false;
+    CheapProcessed: InFrame<core::CheapProcessed<Weights, Weights, Weights>>, false;
     Compensated: core::Compensated<Weights>, true;
     MidpointProjected: core::MidpointProjected<Weights>, true;
     Mixed: core::Mixed<Weights>, true;
@@ -136,7 +137,9 @@ fn all() -> Vec<(String, Known)> {
     macro_rules! processed {
         ($($scheme:ident),+) => {$(
             let scheme = core::$scheme::default();
-            add(Known::Processed(core::Processed::new(weights(scheme.kernel()), weights(scheme.processor()))));
+            let [kernel, processor] = [weights(scheme.kernel()), weights(scheme.processor())];
+            let scheme = core::Processed::new(kernel, processor);
+            add(Known::Processed(InFrame { scheme, kernel }));
         )+};
     }
     processed!(Processed4, Processed6, BlanesCasasMurua8);
@@ -152,10 +155,11 @@ fn all() -> Vec<(String, Known)> {
         weights(cheap.processed().kernel()),
         weights(cheap.processed().processor()),
     ];
-    add(Known::CheapProcessed(core::CheapProcessed::new(
+    let scheme = core::CheapProcessed::new(
         core::Processed::new(kernel, processor),
         weights(cheap.mean_of()),
-    )));
+    );
+    add(Known::CheapProcessed(InFrame { scheme, kernel }));
     add(Known::Many(Many::ImplicitMidpoint(
         core::ImplicitMidpoint::default(),
     )));

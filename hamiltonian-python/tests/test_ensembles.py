@@ -1,5 +1,6 @@
 """Ensembles: broadcasting, parameters of members, failures, indicators of chaos."""
 
+import os
 import pickle
 
 import hamiltonian as hm
@@ -221,3 +222,24 @@ def test_sweeps_refuse_what_they_cannot_record(henon, tmp_path):
     swarm.sweep(path, t=1.0, record=["x"], step=0.1)
     with pytest.raises(hm.RunError, match="map.zarr"):
         swarm.sweep(path, t=2.0, record=["x"], step=0.1)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="limits of POSIX")
+def test_a_full_disk_is_an_error_and_what_is_written_stays(henon, tmp_path):
+    import resource
+
+    swarm = henon.ensemble(np.linspace(0, 0.3, 40).reshape(20, 2), 0.1)
+    options = {"t": np.linspace(1, 100, 100), "record": ["x", "drift"], "step": 0.1}
+    swarm.sweep(tmp_path / "due.zarr", **options)
+    # As on a full disk, writing fails: here beyond so many bytes of a file. Python ignores the signal.
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, hard))
+    try:
+        with pytest.raises(hm.RunError) as raised:
+            swarm.sweep(tmp_path / "map.zarr", **options)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert "large" in str(raised.value)
+    swarm.sweep(tmp_path / "map.zarr", **options)
+    files = [path.relative_to(tmp_path / "due.zarr") for path in (tmp_path / "due.zarr").rglob("*") if path.is_file()]
+    assert files and all((tmp_path / "map.zarr" / path).read_bytes() == (tmp_path / "due.zarr" / path).read_bytes() for path in files)

@@ -8,6 +8,7 @@ import sys
 import hamiltonian as hm
 import hamiltonian.functions
 import hamiltonian.system
+import pytest
 
 CPU = "import time, numpy; start = time.process_time(); import hamiltonian; print(time.process_time() - start)"
 
@@ -54,3 +55,15 @@ def test_the_command_runs_a_file(tmp_path):
     assert done.returncode == 0 and done.stdout.splitlines()[0] == "t,x,p,H" and len(done.stdout.splitlines()) == 4
     failed = run("missing.ham")
     assert failed.returncode == 1 and failed.stderr.startswith("error: missing.ham: ")
+
+
+@pytest.mark.skipif(not pathlib.Path("/dev/full").exists(), reason="a device that is full")
+def test_the_command_needs_somewhere_to_write(tmp_path):
+    text = "H(x; p) = p^2/2 + x^2/2\n---\nstart x = 1, p = 0\nrun t = 0..1, every = 0.5, tolerance = 1e-10\n"
+    (tmp_path / "out.ham").write_text(text, encoding="utf-8")
+    (tmp_path / "file.ham").write_text(text + "write /dev/full/table.csv\n", encoding="utf-8")
+    for arguments, output in [("out.ham", "> /dev/full"), ("file.ham", ""), ("--help", "> /dev/full"), ("--schemes", ">&-")]:
+        command = f"exec {sys.executable} -m hamiltonian {arguments} {output}"
+        done = subprocess.run(command, cwd=tmp_path, shell=True, capture_output=True, text=True)
+        assert "panicked" not in done.stderr and done.returncode in (0, 1), done.stderr
+        assert arguments[0] == "-" or done.returncode == 1 and done.stderr.startswith("error: "), (arguments, output, done.stderr)

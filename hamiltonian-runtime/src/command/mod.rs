@@ -47,7 +47,7 @@ pub fn command<A: AsRef<str>>(arguments: impl IntoIterator<Item = A>) -> Result<
     let arguments: Vec<&str> = arguments.iter().map(AsRef::as_ref).collect();
     match arguments.as_slice() {
         ["--help" | "-h"] => {
-            println!("{HELP}");
+            show(&format!("{HELP}\n"));
             Ok(())
         }
         ["--schemes"] => {
@@ -57,13 +57,17 @@ pub fn command<A: AsRef<str>>(arguments: impl IntoIterator<Item = A>) -> Result<
                 format!("{name:44} order {order:2}, needs {needs}\n")
             };
             let all: String = schemes().map(line).collect();
-            // Whoever reads them may have read enough.
-            let _ = std::io::stdout().write_all(all.as_bytes());
+            show(&all);
             Ok(())
         }
         [file] if !file.starts_with('-') => run(file),
         _ => Err(HELP.to_owned()),
     }
+}
+
+/// Writes to the standard output. Whoever reads it may have read enough.
+fn show(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 /// Runs a file.

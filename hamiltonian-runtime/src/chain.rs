@@ -129,8 +129,8 @@ struct Order<'a> {
 }
 
 impl Order<'_> {
-    /// Lays operations, in the order of their numbers, with which all that they wait for are: the one on the longest way first, behind it the one that waits
-    /// for it, and so on, and before them what those wait for besides.
+    /// Lays operations, in the order of their numbers, with which all that they wait for are: the one on the longest way first,
+    /// behind it the one that waits for it, and so on, and before them what those wait for besides.
     fn lay(&mut self, all: &[usize]) {
         loop {
             let free = all.iter().filter(|at| !self.is_done[**at]);

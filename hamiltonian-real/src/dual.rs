@@ -293,6 +293,13 @@ impl<T: Real> Real for Dual<T> {
         }
     }
     #[inline(always)]
+    fn replaced(mask: Self::Mask, new: Self, old: Self) -> Self {
+        Self {
+            re: T::replaced(mask, new.re, old.re),
+            eps: T::replaced(mask, new.eps, old.eps),
+        }
+    }
+    #[inline(always)]
     fn mul_absorbing(self, factor: Self) -> Self {
         Self {
             re: self.re.mul_absorbing(factor.re),

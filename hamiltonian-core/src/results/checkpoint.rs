@@ -66,7 +66,7 @@ const MAGIC: &[u8; 8] = b"HAMILTON";
 /// arithmetic, and matrices among the parameters are written row after row. Version 3: the state of a run may have been
 /// changed. Version 4: the formulas of the pieces are apart from that of H, in their order. Version 5: parameters of an H with
 /// loops may be multiplied in another order, a part of a Gauss step begins at the polynomial of the step, and each member of
-/// an ensemble has a count of steps. Version 6: implicit schemes compute forces from the new velocities where H is separable.
+/// an ensemble has a count of steps. Version 6: `ImplicitMidpoint` and `Gauss` compute forces from new velocities if H is separable.
 const VERSION: u64 = 6;
 
 impl Checkpoint {

@@ -426,19 +426,14 @@ pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: 
     let matrices = core::hint::black_box([0, 1]);
     while iterations < limit {
         let later = iterations > 0 || is_own;
-        let mut changes = [<L::Bundle as Real>::Size::zero(); S];
-        for group in 0..equations.groups() {
+        let first = (0, matrices[usize::from(later)]);
+        let mut changes = improve(first, equations, solved, unknowns, points, next);
+        if equations.groups() > 1 {
             // The first group already belongs to this step.
-            let matrices = matrices[usize::from(later || group > 0)];
-            equations.points(group, matrices, unknowns, points);
-            for bundle in 0..bundles::<T, L, S>() {
-                let (point, of) = (&mut points[bundle], &mut unknowns[bundle]);
-                let change = equations.improve((group, bundle), solved, point, of, next);
-                changes[bundle] = if group == 0 {
-                    change
-                } else {
-                    changes[bundle] + change
-                };
+            let second = (1, matrices[1]);
+            let others = improve(second, equations, solved, unknowns, points, next);
+            for (change, other) in changes.iter_mut().zip(others) {
+                *change += other;
             }
         }
         iterations += 1;
@@ -482,6 +477,27 @@ pub(super) fn solve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: 
         residual: before,
         iterations,
     }
+}
+
+/// Replaces a group of the unknowns of all bundles, from the points by the matrices of that number. Returns the changes.
+///
+/// The group is a number that the compiler knows, so that nothing of another one is computed or kept in memory.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn improve<T: Real, L: StageLayout<T>, E: Equations<T, L, S>, const S: usize>(
+    (group, matrices): (usize, usize),
+    equations: &mut E,
+    solved: T::Mask,
+    unknowns: &mut [E::Unknowns; S],
+    points: &mut [E::Unknowns; S],
+    next: &mut E::Unknowns,
+) -> [<L::Bundle as Real>::Size; S] {
+    let mut changes = [<L::Bundle as Real>::Size::zero(); S];
+    equations.points(group, matrices, unknowns, points);
+    for bundle in 0..bundles::<T, L, S>() {
+        let (point, of) = (&mut points[bundle], &mut unknowns[bundle]);
+        changes[bundle] = equations.improve((group, bundle), solved, point, of, next);
+    }
+    changes
 }
 
 /// The larger of two numbers.

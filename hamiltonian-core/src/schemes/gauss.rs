@@ -143,7 +143,7 @@ symmetric!(Gauss<S>, const S: usize);
 
 impl<S: System, const STAGES: usize> Scheme<S> for Gauss<STAGES> {
     type Carried = Carries<S::Shape, STAGES>;
-    type Map<T: Real> = Collocated<T, S::Prepared<T>, STAGES>;
+    type Map<T: Real> = Collocated<T, S::Prepared<T>, STAGES, true>;
     fn times_of_jumps(&self, _: &Description) -> [f64; 2] {
         self.coefficients.ends()
     }

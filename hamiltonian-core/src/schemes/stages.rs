@@ -104,9 +104,10 @@ pub(super) struct Modes<T, const S: usize> {
     pub(super) velocities: Range<usize>,
 }
 
-/// The map of [`Gauss`](super::Gauss) and of [`Variational`](super::Variational).
+/// The map of [`Gauss`](super::Gauss) and of [`Variational`](super::Variational). With `HALVES`, an iteration computes
+/// the velocities, then the forces at the coordinates that they lead to, if H is separable.
 #[derive(Debug, Clone)]
-pub struct Collocated<T: Real, P: Dynamics<T>, const S: usize> {
+pub struct Collocated<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> {
     pub(super) field: P::Field,
     pub(super) dynamics: P,
     pub(super) h: T,
@@ -154,8 +155,8 @@ impl<V: Vector, const S: usize> CollocatedWork<V, S> {
 }
 
 /// Unknowns ↦ J∇H at the stages.
-pub(super) struct Slopes<'a, T: Real, P: Dynamics<T>, const S: usize> {
-    map: &'a Collocated<T, P, S>,
+pub(super) struct Slopes<'a, T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> {
+    map: &'a Collocated<T, P, S, HALVES>,
     t: T,
     point: &'a Point<P::Vector>,
     /// The velocity along the straight line between two coordinates that are given.
@@ -164,7 +165,7 @@ pub(super) struct Slopes<'a, T: Real, P: Dynamics<T>, const S: usize> {
     increments: &'a mut Stages<Point<P::Vector>, S>,
 }
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
+impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> Slopes<'_, T, P, S, HALVES> {
     /// The point at stage `i`, from the increments and the unknowns they were made of.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn stage(&mut self, i: usize, unknowns: &Stages<Point<P::Vector>, S>) {
@@ -228,13 +229,13 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
 
 /// A step of Newton's method for the equations `J∇H(Qᵢ, Pᵢ, tᵢ) = (dq/dt, dp/dt)ᵢ`. Of a force the
 /// derivative is left out.
-struct Newton<'a, 'b, T: Real, P: Dynamics<T>, const S: usize> {
-    slopes: Slopes<'a, T, P, S>,
+struct Newton<'a, 'b, T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> {
+    slopes: Slopes<'a, T, P, S, HALVES>,
     linear: &'b mut LinearSystem<P::Vector>,
 }
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector>, S>>
-    for Newton<'_, '_, T, P, S>
+impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool>
+    Contraction<Stages<Point<P::Vector>, S>> for Newton<'_, '_, T, P, S, HALVES>
 {
     // In one function of the level, since it is long and called twice.
     #[cfg_attr(not(unoptimised), inline(always))]
@@ -257,7 +258,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
     }
 }
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
+impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> Newton<'_, '_, T, P, S, HALVES> {
     /// One iteration, for [`map`](Contraction::map).
     #[cfg_attr(not(unoptimised), inline(always))]
     fn map_here(
@@ -289,7 +290,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
     }
 }
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
+impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> Collocated<T, P, S, HALVES> {
     /// Makes `to` the map for steps `by` times as long, to rounding.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn resize(&self, by: T, to: &mut Self) {
@@ -347,7 +348,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         line: Option<&P::Vector>,
         unknowns: &mut Stages<Point<P::Vector>, S>,
         work: &mut CollocatedWork<P::Vector, S>,
-        look: impl FnOnce(&mut Slopes<'_, T, P, S>, &Stages<Point<P::Vector>, S>),
+        look: impl FnOnce(&mut Slopes<'_, T, P, S, HALVES>, &Stages<Point<P::Vector>, S>),
     ) -> Outcome<T> {
         let slopes = Slopes {
             map: self,
@@ -373,7 +374,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         (self.limits[0], self.is_part)
     }
 
-    fn tableau(&self) -> Tableau<'_, T, T, S> {
+    fn tableau(&self) -> Tableau<'_, T, T, S, HALVES> {
         Tableau {
             h: self.h,
             times: &self.times,

@@ -180,7 +180,7 @@ impl<S: System, const DEGREE: usize, const POINTS: usize> Scheme<S>
     for Variational<DEGREE, POINTS>
 {
     type Carried = Carries<S::Shape, POINTS>;
-    type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS>;
+    type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS, false>;
     #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (nodal, momenta) = self.coefficients.pair(DEGREE);
@@ -288,7 +288,7 @@ symmetric!(MomentumVariational<S>, const S: usize);
 
 impl<S: System, const POINTS: usize> Scheme<S> for MomentumVariational<POINTS> {
     type Carried = Carries<S::Shape, POINTS>;
-    type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS>;
+    type Map<T: Real> = Collocated<T, S::Prepared<T>, POINTS, false>;
     #[cfg_attr(not(unoptimised), inline(always))]
     fn prepare<T: Real>(&self, prepared: &S::Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let map: Self::Map<T> = Scheme::<S>::prepare(&self.0, prepared, step);
@@ -319,7 +319,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
         prepared: &P,
         h: T,
         velocities: Range<usize>,
-    ) -> Collocated<T, P, POINTS> {
+    ) -> Collocated<T, P, POINTS, false> {
         let polynomials = self.coefficients.polynomials();
         let zero = [[T::zero(); POINTS]; POINTS];
         let (mut coordinates, mut values) = (zero, zero);

@@ -220,7 +220,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     fn copy_where(&mut self, mask: <Self::Scalar as Real>::Mask, other: &Self) {
         for k in 0..Self::PARTS {
             for (to, from) in self.part_mut(k).iter_mut().zip(other.part(k)) {
-                *to = Self::Scalar::select(mask, *from, *to);
+                *to = Self::Scalar::replaced(mask, *from, *to);
             }
         }
     }

@@ -8,6 +8,18 @@ use core::arch::x86_64::*;
 use super::portable::plain;
 use super::register::{Register, intrinsics, out_of_line};
 
+/// The same number, of which the compiler does not know where it comes from: LLVM makes a store under a mask of a choice
+/// that it sees. There is no instruction.
+#[inline]
+#[target_feature(enable = "avx")]
+fn opaque(mut a: __m256d) -> __m256d {
+    // SAFETY: no instruction, and no effect.
+    unsafe {
+        core::arch::asm!("/* {0} */", inout(ymm_reg) a, options(pure, nomem, nostack, preserves_flags));
+    }
+    a
+}
+
 impl Register for __m256d {
     type Flags = __m256d;
     type Array = [f64; 4];
@@ -49,6 +61,9 @@ impl Register for __m256d {
         fn le(a: Self, b: Self) -> __m256d { _mm256_cmp_pd::<_CMP_LE_OQ>(a, b) }
         fn equals(a: Self, b: Self) -> __m256d { _mm256_cmp_pd::<_CMP_EQ_OQ>(a, b) }
         fn select(flags: __m256d, yes: Self, no: Self) -> Self { _mm256_blendv_pd(no, yes, flags) }
+        fn replaced(flags: __m256d, new: Self, old: Self) -> Self {
+            opaque(_mm256_blendv_pd(old, new, flags))
+        }
         fn flags(flag: bool) -> __m256d {
             _mm256_castsi256_pd(_mm256_set1_epi64x(if flag { -1 } else { 0 }))
         }

@@ -63,6 +63,11 @@ pub trait Register: Copy + Send + Sync + 'static {
     fn le(a: Self, b: Self) -> Self::Flags;
     fn equals(a: Self, b: Self) -> Self::Flags;
     fn select(flags: Self::Flags, yes: Self, no: Self) -> Self;
+    /// [`Real::replaced`](hamiltonian_real::Real::replaced).
+    #[inline(always)]
+    fn replaced(flags: Self::Flags, new: Self, old: Self) -> Self {
+        Self::select(flags, new, old)
+    }
 
     fn flags(flag: bool) -> Self::Flags;
     fn both_flags(a: Self::Flags, b: Self::Flags) -> Self::Flags;

@@ -16,7 +16,9 @@ use crate::systems::system::gather::in_lanes;
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::Real;
 
-impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, S> {
+impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> StagedMap<S>
+    for Collocated<T, P, S, HALVES>
+{
     type Unknowns = Point<P::Vector>;
     #[cfg_attr(not(unoptimised), inline(always))]
     fn unknowns(z: &mut Carries<P::Vector, S>) -> &mut [Point<P::Vector>; S] {
@@ -62,7 +64,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
     where
         Abreast<WIDTH>: Width,
     {
-        let steps = StepsBeside::<_, _, _, S, WIDTH> {
+        let steps = StepsBeside::<_, _, _, S, WIDTH, HALVES> {
             map: self,
             clock,
             made,
@@ -99,7 +101,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
                 let outcome = if self.modes.is_some() {
                     self.solve_between(t, point, None, unknowns, work, |_, _| {})
                 } else {
-                    fixed_point::<T, Apart, _, _, _, S>(
+                    fixed_point::<T, Apart, _, _, _, S, HALVES>(
                         self.fixed_point_limit(),
                         &self.tableau(),
                         &self.field,
@@ -136,7 +138,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Collocated<T, P, 
             next: work.stage.take(),
         };
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
-        let (solved, outcome) = steps::<T, Apart, _, _, _, _, S>(
+        let (solved, outcome) = steps::<T, Apart, _, _, _, _, S, HALVES>(
             self.fixed_point_limit(),
             &self.tableau(),
             &self.field,
@@ -162,7 +164,9 @@ impl<V: Vector, const S: usize> Scratch<Carries<V, S>> for CollocatedWork<V, S> 
     }
 }
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
+impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> Map
+    for Collocated<T, P, S, HALVES>
+{
     type Carried = Carries<P::Vector, S>;
     type Work = CollocatedWork<P::Vector, S>;
 

@@ -21,7 +21,7 @@ use core::marker::PhantomData;
 use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 
 /// The tableau of a Runge–Kutta method for steps of one size, in bundles of stages.
-pub(super) struct Tableau<'a, T, R, const S: usize> {
+pub(super) struct Tableau<'a, T, R, const S: usize, const HALVES: bool> {
     /// The step.
     pub(super) h: T,
     /// cᵢh.
@@ -34,15 +34,25 @@ pub(super) struct Tableau<'a, T, R, const S: usize> {
 }
 
 /// Slopes ↦ J∇H at the points they lead to.
-struct FirstOrder<'a, T: Real, L: StageLayout<T>, F, V: Vector<Scalar = T>, X, const S: usize> {
-    tableau: &'a Tableau<'a, T, L::Bundle, S>,
+struct FirstOrder<
+    'a,
+    T: Real,
+    L: StageLayout<T>,
+    F,
+    V: Vector<Scalar = T>,
+    X,
+    const S: usize,
+    const HALVES: bool,
+> {
+    tableau: &'a Tableau<'a, T, L::Bundle, S, HALVES>,
     field: &'a F,
     t: L::Bundle,
     point: &'a Point<V>,
     of: PhantomData<X>,
 }
 
-impl<T, L, F, V, X, const S: usize> Equations<T, L, S> for FirstOrder<'_, T, L, F, V, X, S>
+impl<T, L, F, V, X, const S: usize, const HALVES: bool> Equations<T, L, S>
+    for FirstOrder<'_, T, L, F, V, X, S, HALVES>
 where
     T: Real,
     L: StageLayout<T>,
@@ -53,10 +63,11 @@ where
     type Unknowns = Point<X>;
     /// If forces and velocities depend on one half of phase space each, the velocities are computed from the momenta at
     /// the stages, then the forces from the coordinates that these velocities lead to. One iteration then shrinks the
-    /// error as two do that compute both at once.
+    /// error as two do that compute both at once. (Two nodes of a trapezoid, of which one is the point itself, gain
+    /// nothing by it: members took up to twice as long. `HALVES` is the scheme's.)
     #[cfg_attr(not(unoptimised), inline(always))]
     fn groups(&self) -> usize {
-        if S > 1 && self.field.has_halves() {
+        if HALVES && S > 1 && self.field.has_halves() {
             2
         } else {
             1
@@ -144,9 +155,9 @@ fn clear<X: Vector>(slopes: &mut X) {
 /// Solves for the slopes of the step from `t`, from those of the step before.
 #[allow(clippy::too_many_arguments)]
 #[cfg_attr(not(unoptimised), inline(always))]
-pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
+pub(super) fn fixed_point<T, L, F, V, X, const S: usize, const HALVES: bool>(
     limit: (u32, bool),
-    tableau: &Tableau<'_, T, L::Bundle, S>,
+    tableau: &Tableau<'_, T, L::Bundle, S, HALVES>,
     field: &F,
     t: T,
     point: &Point<V>,
@@ -161,7 +172,7 @@ where
     V: Vector<Scalar = T>,
     X: Vector<Scalar = L::Bundle>,
 {
-    let mut equations = FirstOrder::<T, L, F, V, X, S> {
+    let mut equations = FirstOrder::<T, L, F, V, X, S, HALVES> {
         tableau,
         field,
         t: L::splat(t),
@@ -207,9 +218,9 @@ pub(super) struct StepScratch<X: Vector, const S: usize> {
 /// The scratch, the point and its low words should be variables of the caller alone, so that they may stay in
 /// registers.
 #[cfg_attr(not(unoptimised), inline(always))]
-pub(super) fn steps<T, L, F, V, X, W, const S: usize>(
+pub(super) fn steps<T, L, F, V, X, W, const S: usize, const HALVES: bool>(
     limit: (u32, bool),
-    tableau: &Tableau<'_, T, L::Bundle, S>,
+    tableau: &Tableau<'_, T, L::Bundle, S, HALVES>,
     field: &F,
     (clock, made, n): (Clock<T>, u64, u64),
     scratch: &mut StepScratch<X, S>,
@@ -231,7 +242,7 @@ where
             copy::<T, L, _, S>(&scratch.slopes.0, &mut scratch.before.0);
             inspection.keep(point, low);
         }
-        outcome = fixed_point::<T, L, _, _, _, S>(
+        outcome = fixed_point::<T, L, _, _, _, S, HALVES>(
             limit,
             tableau,
             field,
@@ -261,8 +272,16 @@ where
 }
 
 /// Steps whose stages lie beside each other, until one is not solved or not accepted.
-pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, W, const S: usize, const WIDTH: usize> {
-    pub(super) map: &'a Collocated<T, P, S>,
+pub(super) struct StepsBeside<
+    'a,
+    T: Real,
+    P: Dynamics<T>,
+    W,
+    const S: usize,
+    const WIDTH: usize,
+    const HALVES: bool,
+> {
+    pub(super) map: &'a Collocated<T, P, S, HALVES>,
     pub(super) clock: Clock<T>,
     /// The steps made before.
     pub(super) made: u64,
@@ -271,8 +290,8 @@ pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, W, const S: usize, co
     pub(super) inspection: &'a mut W,
 }
 
-impl<T, Q, W, const S: usize, const WIDTH: usize> InLanes<T, Q::Vector>
-    for StepsBeside<'_, T, Q, W, S, WIDTH>
+impl<T, Q, W, const S: usize, const WIDTH: usize, const HALVES: bool> InLanes<T, Q::Vector>
+    for StepsBeside<'_, T, Q, W, S, WIDTH, HALVES>
 where
     T: Real,
     Q: Dynamics<T>,
@@ -339,7 +358,7 @@ where
         };
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut here.slopes.0);
-        let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, _, S>(
+        let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, _, S, HALVES>(
             map.fixed_point_limit(),
             &tableau,
             &field,

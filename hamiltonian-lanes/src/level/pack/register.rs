@@ -191,6 +191,10 @@ impl<R: Register> Real for V<R> {
         Self(R::select(mask.0, yes.0, no.0))
     }
     #[inline(always)]
+    fn replaced(mask: Flags<R>, new: Self, old: Self) -> Self {
+        Self(R::replaced(mask.0, new.0, old.0))
+    }
+    #[inline(always)]
     fn lt(self, other: Self) -> Flags<R> {
         Flags(R::lt(self.0, other.0))
     }

@@ -81,6 +81,10 @@ impl<P: Base> Real for Nf<P> {
         Self(P::select(mask, yes.0, no.0))
     }
     #[inline(always)]
+    fn replaced(mask: P::Mask, new: Self, old: Self) -> Self {
+        Self(P::replaced(mask, new.0, old.0))
+    }
+    #[inline(always)]
     fn lt(self, other: Self) -> P::Mask {
         self.0.lt(other.0)
     }

@@ -217,6 +217,10 @@ impl<P: Base, const K: usize> Real for W<P, K> {
         Self(each!(K, no.0, k => P::select(mask.0[k], yes.0[k], no.0[k])))
     }
     #[inline(always)]
+    fn replaced(mask: Masks<P, K>, new: Self, old: Self) -> Self {
+        Self(each!(K, old.0, k => P::replaced(mask.0[k], new.0[k], old.0[k])))
+    }
+    #[inline(always)]
     fn lt(self, other: Self) -> Masks<P, K> {
         Masks(each!(K, [P::Mask::splat(false); K], k => self.0[k].lt(other.0[k])))
     }

@@ -50,6 +50,26 @@ hamiltonian! {
     }
 }
 
+/// The energy, and whether one run of one step ends, without points.
+fn of_nothing<S: System>(system: &S) -> f64
+where
+    Gauss<2>: Scheme<S>,
+{
+    let (q, p) = (system.zeros(), system.zeros());
+    let start = State { t: 0.0, q, p };
+    let mut run = Integrator::new(system, Gauss::<2>::default(), start.clone(), 0.1).unwrap();
+    run.advance(1).unwrap();
+    system.energy(&start)
+}
+
+#[test]
+fn loops_without_iterations_reach_nothing() {
+    assert_eq!(of_nothing(&Ring::new(0, Vec::<f64>::new()).unwrap()), 0.0);
+    assert_eq!(of_nothing(&Open::new(0).unwrap()), 0.0);
+    assert_eq!(of_nothing(&Pairs::new(0, Vec::<f64>::new()).unwrap()), 0.0);
+    assert_eq!(of_nothing(&Far::new(0).unwrap()), 1.0);
+}
+
 /// The lengths of loops: all tails, of cheap iterations as well, which go through lanes from 96 on, and blocks with
 /// and without a rest.
 fn lengths() -> impl Iterator<Item = usize> {

@@ -89,11 +89,15 @@ pub fn total<T: Real>(s: &[T; STRIDE]) -> T {
     ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]))
 }
 
-/// `i % n`; most indices are below n and are not divided.
+/// `i % n`, 0 in a ring without elements; most indices are below n and are not divided.
 #[cfg_attr(not(unoptimised), inline(always))]
 #[must_use]
 pub fn wrapped(i: usize, n: usize) -> usize {
-    if i < n { i } else { i % n }
+    if i < n {
+        i
+    } else {
+        i.checked_rem(n).unwrap_or(0)
+    }
 }
 
 impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, const A: usize>

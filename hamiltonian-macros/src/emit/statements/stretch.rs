@@ -350,10 +350,10 @@ impl Writer<'_> {
             line!(self, "if {start} < {end} {{");
         }
         self.loads(inner, stretch);
-        let sums = match are_own {
-            true if stretch.sums.is_empty() => String::new(),
-            true => format!("let [{}] = ", names(&stretch.sums)),
-            false => format!("[{}] = ", names(&stretch.sums)),
+        let sums = match (stretch.sums.is_empty(), are_own) {
+            (true, _) => String::new(),
+            (false, true) => format!("let [{}] = ", names(&stretch.sums)),
+            (false, false) => format!("[{}] = ", names(&stretch.sums)),
         };
         self.call(stretch, inner.domain, [start, &length], &sums, method);
         if is_guarded {

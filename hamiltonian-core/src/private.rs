@@ -7,12 +7,12 @@
 //! be used by code in a crate that has neither this crate nor its dependencies in scope; if one is removed or renamed,
 //! the macro is changed with it.
 
-mod columns;
 #[cfg(feature = "serde")]
 mod functions;
 mod never;
 #[cfg(feature = "serde")]
 mod record;
+mod slices;
 #[cfg(feature = "serde")]
 mod tables;
 
@@ -73,12 +73,12 @@ pub use crate::{
     __computed_as_chosen as computed_as_chosen, __described as described, __each as each,
     __gathers as gathers, __halves as halves, __known as known, __prepared as prepared,
 };
-pub use columns::{columns, columns_mut, columns_of, columns_of_mut};
 pub use never::Never;
 #[cfg(feature = "serde")]
 pub use record::{Fielded, Saved, Written, read_axes, read_record};
 #[cfg(feature = "serde")]
 pub use serde_core as serde;
+pub use slices::{columns, columns_mut, columns_of, columns_of_mut};
 
 /// A group of coordinates with its rank, part, offset and columns.
 #[must_use]

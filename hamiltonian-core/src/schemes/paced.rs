@@ -314,7 +314,7 @@ where
         *density += self.half * *rate_here;
         // There is no step for a density that is not positive.
         let gone = density.le(T::zero());
-        *density = T::select(gone, T::constant(f64::NAN, 0.0), *density);
+        *density = T::replaced(gone, T::constant(f64::NAN, 0.0), *density);
     }
 
     #[cold]

@@ -232,7 +232,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
         let nan = Self::Scalar::constant(f64::NAN, 0.0);
         for k in 0..Self::PARTS {
             for to in self.part_mut(k) {
-                *to = Self::Scalar::select(mask, nan, *to);
+                *to = Self::Scalar::replaced(mask, nan, *to);
             }
         }
     }

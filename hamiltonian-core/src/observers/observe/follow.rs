@@ -174,7 +174,7 @@ impl<U: Real> LaneDrift<U> {
     fn begin(&mut self, lanes: U::Mask, value: U) {
         self.start = U::select(lanes, value, self.start);
         for sum in [&mut self.max, &mut self.sum_of_sizes, &mut self.sum] {
-            *sum = U::select(lanes, U::zero(), *sum);
+            *sum = U::replaced(lanes, U::zero(), *sum);
         }
     }
 

@@ -137,12 +137,12 @@ fn eliminate<T: Real>(matrix: &mut [T], right: &mut [T]) {
             let larger = matrix[k * size + k].abs().lt(matrix[i * size + k].abs());
             for j in k..size {
                 let (a, b) = (matrix[k * size + j], matrix[i * size + j]);
-                matrix[k * size + j] = T::select(larger, b, a);
-                matrix[i * size + j] = T::select(larger, a, b);
+                matrix[k * size + j] = T::replaced(larger, b, a);
+                matrix[i * size + j] = T::replaced(larger, a, b);
             }
             let (a, b) = (right[k], right[i]);
-            right[k] = T::select(larger, b, a);
-            right[i] = T::select(larger, a, b);
+            right[k] = T::replaced(larger, b, a);
+            right[i] = T::replaced(larger, a, b);
         }
         for i in k + 1..size {
             let factor = matrix[i * size + k] / matrix[k * size + k];

@@ -28,7 +28,7 @@ pub(crate) fn renamed(ops: &[Op], fixed: usize, first: usize) -> Vec<Op> {
         let mut made: Vec<(Register, Register)> = Vec::new();
         let mut at = 0;
         registers(&mut op, &mut |register, class| {
-            // What is written comes first, but for a condition of a choice.
+            // Registers that are written come first, but for a condition of a choice.
             let is_result = at < writes.len().max(1) && writes.get(at) == Some(&(*register, class));
             at += usize::from(class == 0);
             if is_result && new(*register) {

@@ -27,7 +27,7 @@ pub(crate) fn written(op: &Op, all: &[Slot]) -> Vec<Slot> {
     }
 }
 
-/// What stands for the arrays that are written.
+/// The slot that stands for the arrays that are written.
 const ARRAYS: Slot = (0, 2);
 
 /// True for operations on arrays that are written, which stay in their order.

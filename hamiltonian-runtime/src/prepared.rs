@@ -286,7 +286,7 @@ impl<T: Real> Prepared<T> {
                     .copy_from_slice(of_coefficient);
                 let width = self.code.places.len;
                 let (of_q, rest) = frame.numbers.split_at_mut(width);
-                // What moves in place is both read and written.
+                // An array that moves in place is both read and written.
                 let sides = [
                     (of_q, arrays.q, &*arrays.into_q),
                     (rest, arrays.p, &*arrays.into_p),

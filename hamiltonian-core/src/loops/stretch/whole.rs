@@ -29,7 +29,7 @@ pub struct Loop<
     pub length: usize,
     /// The loop variable in the first iteration.
     pub number: usize,
-    /// What does not vary.
+    /// The numbers that do not vary.
     pub given: [T; G],
     /// The columns that are read, each with the place of the first iteration's element; in a ring, with the place of
     /// the ring's first element.

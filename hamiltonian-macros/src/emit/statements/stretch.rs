@@ -25,7 +25,7 @@ pub(super) struct Stretch {
     pub(super) name: String,
     /// What does not vary: its instructions are steps of the loop's body, or values from outside.
     given: Vec<Value>,
-    /// What is read, and where.
+    /// The values that are read, and their places.
     reads: Vec<(Value, Place)>,
     /// The loop variable as a real.
     number: Option<Value>,

@@ -42,7 +42,6 @@ pub use crate::flows::emitted::{
 pub use crate::flows::exponential::{Exponential, exponentiate, image, raised};
 pub use crate::flows::held::{Given, Held, LaneValue, gathered};
 /// For maps of other crates.
-pub use crate::flows::map::Times;
 pub use crate::flows::narrow::{Varied, fixed};
 pub use crate::flows::push::{Coupled, SubStep};
 pub use crate::loops::calls::*;

@@ -9,9 +9,9 @@ use crate::cycle::{Cycle, CycleFrame};
 use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
 use crate::system::{RuntimePieces, RuntimeSystem};
-use hamiltonian_core::private::Times;
 use hamiltonian_core::schemes::author::{
-    Cause, Description, Durations, Dynamics, Entry, Listed, Map, Point, Splitting, Step, Zigzag,
+    Cause, Clock, Description, Durations, Dynamics, Entry, Listed, Map, Point, Splitting, Step,
+    Zigzag,
 };
 use hamiltonian_core::{Scheme, State};
 use hamiltonian_lanes::Real;
@@ -215,17 +215,17 @@ impl<T: Real> Map for ByTableMap<T> {
         self.flows.explain(t, end, first, z, &mut work.0)
     }
     #[inline(always)]
-    fn go_on<C: Times<T>>(
+    fn go_on(
         &self,
-        times: &C,
+        clock: Clock<T>,
         made: u64,
         end: u64,
         z: &mut Point<Flat<T>>,
         work: &mut Self::Work,
     ) {
         match &self.cycle {
-            Some(cycle) => cycle.go_on(|k| times.at(k), (made, end), z, &mut work.1),
-            None => self.flows.go_on(times, made, end, z, &mut work.0),
+            Some(cycle) => cycle.go_on(|k| clock.at(k), (made, end), z, &mut work.1),
+            None => self.flows.go_on(clock, made, end, z, &mut work.0),
         }
     }
 }

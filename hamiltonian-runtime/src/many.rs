@@ -7,7 +7,6 @@
 use crate::by_table::{ByTable, ByTableMap};
 use crate::prepared::{Flat, Prepared};
 use crate::system::RuntimeSystem;
-use hamiltonian_core::private::Times;
 use hamiltonian_core::schemes::author::{
     Cause, Clock, Description, Entry, Listed, Map, Pair, Point, Scratch, Step,
 };
@@ -216,18 +215,14 @@ impl<T: Real> Map for ManyMap<T> {
         on!(self, z, work, (map, own, scratch) => map.part(t, by, last, own, scratch));
     }
     #[inline(always)]
-    fn run(&self, clock: Clock<T>, made: u64, n: u64, z: &mut Carried<T>, work: &mut ManyWork<T>) {
-        on!(self, z, work, (map, own, scratch) => map.run(clock, made, n, own, scratch));
-    }
-    #[inline(always)]
-    fn go_on<C: Times<T>>(
+    fn go_on(
         &self,
-        times: &C,
+        clock: Clock<T>,
         made: u64,
         end: u64,
         z: &mut Carried<T>,
         work: &mut ManyWork<T>,
     ) {
-        on!(self, z, work, (map, own, scratch) => map.go_on(times, made, end, own, scratch));
+        on!(self, z, work, (map, own, scratch) => map.go_on(clock, made, end, own, scratch));
     }
 }

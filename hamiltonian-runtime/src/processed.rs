@@ -9,9 +9,8 @@ use crate::erased::once;
 use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
 use crate::system::{RuntimePieces, RuntimeSystem};
-use hamiltonian_core::private::Times;
 use hamiltonian_core::schemes::author::{
-    Cause, Description, Entry, Listed, Map, Point, Step, Zigzag,
+    Cause, Clock, Description, Entry, Listed, Map, Point, Step, Zigzag,
 };
 use hamiltonian_core::{Error, Scheme, State, System};
 use hamiltonian_lanes::Real;
@@ -105,22 +104,22 @@ impl<T: Real, K: Map<Carried = Point<Flat<T>>>> Map for InFrameMap<K, T> {
     ) -> Cause {
         self.map.explain(t, end, first, z, &mut work.0)
     }
-    fn go_on<C: Times<T>>(
+    fn go_on(
         &self,
-        times: &C,
+        clock: Clock<T>,
         made: u64,
         end: u64,
         z: &mut Point<Flat<T>>,
         work: &mut Self::Work,
     ) {
         if let Some(cycle) = &self.cycle {
-            return cycle.go_on(|k| times.at(k), (made, end), z, &mut work.1);
+            return cycle.go_on(|k| clock.at(k), (made, end), z, &mut work.1);
         }
         for k in made..end {
             if k > made {
-                self.join(times.at(k), z, work);
+                self.join(clock.at(k), z, work);
             }
-            self.body(times.at(k), times.at(k + 1), z, work);
+            self.body(clock.at(k), clock.at(k + 1), z, work);
         }
     }
 }

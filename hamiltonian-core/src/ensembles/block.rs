@@ -5,39 +5,12 @@
 //! division of the steps into blocks.
 
 use super::marks::Marks;
-use crate::flows::map::{self, Map};
+use crate::flows::map::{Clock, Map};
 use crate::observers::observe::{LaneDrift, LaneSection, Quantity};
 use crate::systems::state::Carried;
 use crate::systems::system::{Dynamics, System, VectorOf, declared_energy_at};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Kernel, Level, Mask, Real};
-
-/// The clock of lanes that have made different numbers of steps: `start + (k + ahead)·interval`.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct LaneClock<U> {
-    pub(crate) start: U,
-    pub(crate) interval: U,
-    /// The number of steps that a lane had made when the count began.
-    pub(crate) ahead: U,
-}
-
-impl<U: Real> map::Times<U> for LaneClock<U> {
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn at(&self, k: u64) -> U {
-        LaneClock::at(self, k)
-    }
-}
-
-impl<U: Real> LaneClock<U> {
-    /// Returns the times `k` steps after the count began. As for
-    /// [`Clock::at`](crate::schemes::author::Clock::at), the compiler removes the call if the system does not
-    /// depend on time.
-    #[cfg_attr(not(unoptimised), inline(always))]
-    pub(crate) fn at(&self, k: u64) -> U {
-        let made = U::constant(k as i64 as f64, 0.0) + self.ahead;
-        self.interval.fma(made, self.start)
-    }
-}
 
 /// The piece before the first body of a block.
 #[derive(Debug, Clone, Copy)]
@@ -156,16 +129,16 @@ impl<U: Real, S: System> Followed<'_, U, S> {
     >(
         &mut self,
         map: &R,
-        (times, mut k, end): (&LaneClock<U>, u64, u64),
+        (clock, mut k, end): (Clock<U>, u64, u64),
         z: &mut R::Carried,
         work: &mut R::Work,
         marks: &mut Marks<R::Carried, U::Mask>,
     ) -> u64 {
         loop {
-            map.body(times.at(k), times.at(k + 1), z, work);
+            map.body(clock.at(k), clock.at(k + 1), z, work);
             k += 1;
             marks.add(z);
-            let (t, point) = (z.time(times.at(k)), z.point());
+            let (t, point) = (z.time(clock.at(k)), z.point());
             let mut is_any_marked = false;
             for section in &mut *self.sections {
                 let value = self
@@ -176,7 +149,7 @@ impl<U: Real, S: System> Followed<'_, U, S> {
             if is_any_marked && L::enter(Mark { marks, step: k }) || k == end {
                 return k;
             }
-            map.join(times.at(k), z, work);
+            map.join(clock.at(k), z, work);
         }
     }
 }
@@ -249,7 +222,7 @@ pub(crate) struct Block<
     const FOLLOWS: bool,
 > {
     pub(crate) map: &'a R,
-    pub(crate) times: &'a LaneClock<U>,
+    pub(crate) clock: Clock<U>,
     /// Steps since the count of times began.
     pub(crate) made: u64,
     pub(crate) n: u64,
@@ -278,7 +251,7 @@ where
     fn run<L: Level>(self) -> Self::Output {
         let Block {
             map,
-            times,
+            clock,
             made,
             n,
             opening,
@@ -289,7 +262,6 @@ where
             mut followed,
             marks,
         } = self;
-        let times = *times;
         let mut end = made + n;
         if const { !FOLLOWS } {
             (followed.drifts, followed.sections) = (&mut [], &mut []);
@@ -316,7 +288,7 @@ where
         // Each piece occurs only once outside the loop of steps, which keeps the code of a level small. The joining
         // piece after the last step is evaluated even if no step follows, since a further case would cost more code.
         loop {
-            let t = times.at(k);
+            let t = clock.at(k);
             let opens = if k == made { opening } else { Opening::Join };
             let stops = k == stop;
             // Local to one iteration.
@@ -360,22 +332,16 @@ where
                 *shown = closed;
             }
             if in_loop {
-                k = followed.go_on_with_sections::<L, R>(
-                    map,
-                    (&times, k, end),
-                    &mut z,
-                    work,
-                    marks,
-                );
+                k = followed.go_on_with_sections::<L, R>(map, (clock, k, end), &mut z, work, marks);
                 (end, stop) = (k, k);
                 continue;
             }
             // The loop of steps contains nothing else, so that the carried value stays in registers.
-            map.go_on(&times, k, stop, &mut z, work);
+            map.go_on(clock, k, stop, &mut z, work);
             k = stop;
         }
         *spare = z;
-        let t = times.at(end);
+        let t = clock.at(end);
         let finite = shown.finite() & carried.finite();
         (finite & shown.time(t).finite(), end)
     }

@@ -3,8 +3,7 @@
 //! Input: the carried values of the lanes. Output: the closed states. Invariant: the carried values are not
 //! changed.
 
-use super::block::LaneClock;
-use crate::flows::map::Map;
+use crate::flows::map::{Clock, Map};
 use crate::systems::flow::Scratch;
 use crate::systems::state::{Carried, Point};
 use crate::systems::vector::Vector;
@@ -15,8 +14,8 @@ use hamiltonian_lanes::{Kernel, Level, Pack, Real};
 /// the duration of a step.
 pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Real, P: Pack> {
     pub(crate) map: &'a R,
-    pub(crate) times: &'a LaneClock<T::Over<P>>,
-    /// Steps since the count of times began. A number that is negative as an `i64` is a step before.
+    pub(crate) clock: Clock<T::Over<P>>,
+    /// Steps since the count of clock began. A number that is negative as an `i64` is a step before.
     pub(crate) made: u64,
     pub(crate) carried: &'a R::Carried,
     pub(crate) shown: &'a mut R::Carried,
@@ -34,14 +33,14 @@ where
 
     #[cfg_attr(not(unoptimised), inline(always))]
     fn run<L: Level>(self) -> Self::Output {
-        let t = self.times.at(self.made);
+        let t = self.clock.at(self.made);
         self.shown.copy_from(self.carried);
         let mut work = R::Work::like(self.carried);
         self.map.close(t, self.shown, &mut work);
-        let (times, made) = (self.times, self.made);
+        let (clock, made) = (self.clock, self.made);
         let (carried, shown, rows) = (self.carried, &*self.shown, self.rows);
         let write = WriteRows::<'_, _, T, P> {
-            times,
+            clock,
             made,
             carried,
             shown,
@@ -55,7 +54,7 @@ where
 
 /// Writes a closed copy of the carried value to rows of lanes, as [`Close`] does.
 pub(crate) struct WriteRows<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> {
-    pub(crate) times: &'a LaneClock<T::Over<P>>,
+    pub(crate) clock: Clock<T::Over<P>>,
     pub(crate) made: u64,
     pub(crate) carried: &'a C,
     pub(crate) shown: &'a C,
@@ -75,8 +74,8 @@ impl<C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> WriteRows<'_, C, T, P> {
                 T::scatter::<P>(vector.component(c), row);
             }
         }
-        let duration = self.carried.duration(self.times.interval);
-        let last = [Some(self.shown.time(self.times.at(self.made))), duration];
+        let duration = self.carried.duration(self.clock.interval);
+        let last = [Some(self.shown.time(self.clock.at(self.made))), duration];
         for (number, row) in last.into_iter().flatten().zip(rows) {
             T::scatter::<P>(number, row);
         }

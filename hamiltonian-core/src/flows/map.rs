@@ -115,9 +115,9 @@ pub trait Map {
     /// Makes the steps after the first `made`, up to number `end`. The piece before the first body has been applied.
     #[doc(hidden)]
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn go_on<C: Times<ScalarOf<Self>>>(
+    fn go_on(
         &self,
-        times: &C,
+        clock: Clock<ScalarOf<Self>>,
         made: u64,
         end: u64,
         z: &mut Self::Carried,
@@ -128,12 +128,12 @@ pub trait Map {
         let mut left = end - made;
         loop {
             let k = end - left;
-            self.body(times.at(k), times.at(k + 1), z, work);
+            self.body(clock.at(k), clock.at(k + 1), z, work);
             left -= 1;
             if left == 0 {
                 break;
             }
-            self.join(times.at(k + 1), z, work);
+            self.join(clock.at(k + 1), z, work);
         }
     }
 
@@ -157,7 +157,7 @@ pub trait Map {
         } else {
             self.join(clock.at(made), &mut carried, work);
         }
-        self.go_on(&clock, made, made + n, &mut carried, work);
+        self.go_on(clock, made, made + n, &mut carried, work);
         *z = carried;
     }
 
@@ -217,28 +217,16 @@ impl<T: Copy> Step<T> {
 }
 
 /// Time as a function of the number of steps: `start + (first + k)·interval`, never a running sum.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Clock<T> {
     /// The time at which the clock was set.
     pub start: T,
     /// The duration of one step.
     pub interval: T,
     /// The number of steps between that time and step 0. A run whose state was changed counts its steps from there anew,
-    /// and its times stay those of the run without the change.
-    pub first: u64,
-}
-
-/// The times of steps.
-pub trait Times<T> {
-    /// Returns the time after `made` steps.
-    fn at(&self, made: u64) -> T;
-}
-
-impl<T: Real> Times<T> for Clock<T> {
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn at(&self, made: u64) -> T {
-        Clock::at(self, made)
-    }
+    /// and its times stay those of the run without the change. Members beside each other have made different numbers of
+    /// steps.
+    pub first: T,
 }
 
 impl<T: Real> Clock<T> {
@@ -254,19 +242,19 @@ impl<T: Real> Clock<T> {
         Clock {
             start,
             interval,
-            first: 0,
+            first: T::zero(),
         }
     }
 
-    /// Returns the time after `made` steps.
+    /// Returns the time after `made` steps. A number that is negative as an `i64` is a step before.
     ///
     /// The function is pure, so that the compiler removes it if the system does not depend on time. The number of steps
     /// is exact up to 2⁵³.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub fn at(&self, made: u64) -> T {
         // Conversion of signed integers takes one instruction, of unsigned integers several.
-        let made = self.first.wrapping_add(made) as i64 as f64;
-        self.interval.fma(T::constant(made, 0.0), self.start)
+        let made = T::constant(made as i64 as f64, 0.0) + self.first;
+        self.interval.fma(made, self.start)
     }
 }
 
@@ -359,17 +347,6 @@ impl<A: Map, B: Map<Carried = A::Carried>, C: Choice> Map for Either<A, B, C> {
         either!(self.explain(t, end, first, z; work))
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn run(
-        &self,
-        clock: Clock<ScalarOf<A>>,
-        made: u64,
-        n: u64,
-        z: &mut A::Carried,
-        work: &mut Self::Work,
-    ) {
-        either!(self.run(clock, made, n, z; work));
-    }
-    #[cfg_attr(not(unoptimised), inline(always))]
     fn join_and_close(
         &self,
         t: ScalarOf<A>,
@@ -381,14 +358,14 @@ impl<A: Map, B: Map<Carried = A::Carried>, C: Choice> Map for Either<A, B, C> {
         either!(self.join_and_close(t, z, copy, closes; work));
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn go_on<K: Times<ScalarOf<A>>>(
+    fn go_on(
         &self,
-        times: &K,
+        clock: Clock<ScalarOf<A>>,
         made: u64,
         end: u64,
         z: &mut A::Carried,
         work: &mut Self::Work,
     ) {
-        either!(self.go_on(times, made, end, z; work));
+        either!(self.go_on(clock, made, end, z; work));
     }
 }

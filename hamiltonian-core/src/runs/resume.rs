@@ -50,7 +50,12 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
             parameters: self.parameters.write(),
             scheme: self.recipe.describe(),
             scalar: core::any::type_name::<T>().to_owned(),
-            counts: [self.steps, self.began, self.clock.first, flags],
+            counts: [
+                self.steps,
+                self.began,
+                self.clock.first.magnitude() as u64,
+                flags,
+            ],
             numbers,
             observers,
         }
@@ -177,7 +182,7 @@ impl<T: Real, S: System, R: MapOf<T, S>> Integrator<T, S, R> {
         let clock = Clock {
             start,
             interval: run.clock.interval,
-            first,
+            first: T::constant(first as f64, 0.0),
         };
         let mut run = run.computed(Arithmetic {
             lanes: flags & SCALAR == 0,

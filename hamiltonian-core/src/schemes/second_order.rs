@@ -572,20 +572,20 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
 
     #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        self.run(Clock::between(t, end), 0, 1, z, work);
+        self.go_on(Clock::between(t, end), 0, 1, z, work);
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn run(
+    fn go_on(
         &self,
         clock: Clock<T>,
         made: u64,
-        n: u64,
+        end: u64,
         z: &mut Self::Carried,
         work: &mut Self::Work,
     ) {
         T::out_of_line(
             #[cfg_attr(not(unoptimised), inline(always))]
-            || self.steps(clock, made, n, z, work),
+            || self.steps(clock, made, end - made, z, work),
         );
     }
     #[cfg_attr(not(unoptimised), inline(always))]

@@ -301,8 +301,8 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
 
     /// Steps are made in pairs, after which the points are in their places again.
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn run(&self, clock: Clock<V::Scalar>, made: u64, n: u64, z: &mut Points<V>, _: &mut ()) {
-        let (mut k, end) = (made, made + n);
+    fn go_on(&self, clock: Clock<V::Scalar>, made: u64, end: u64, z: &mut Points<V>, _: &mut ()) {
+        let mut k = made;
         let Pair { mut x, mut y } = z.take();
         while k + 1 < end {
             self.leap(clock.at(k), &x, &mut y);

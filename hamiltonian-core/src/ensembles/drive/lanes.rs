@@ -6,10 +6,10 @@
 use super::packed::{BlockEnd, BlockSteps, CarriedAt, DriftRows, Packed, SectionRows, When};
 use super::transfer::{Begin, FlagsOf, Prepare, gather, lanes_of, load, scatter, store};
 use super::{CarriedIn, MapIn, MaskIn, as_scalars};
-use crate::ensembles::block::{Block, Followed, LaneClock, LaneSchedule, Opening};
+use crate::ensembles::block::{Block, Followed, LaneSchedule, Opening};
 use crate::ensembles::close::{Close, WriteRows};
 use crate::ensembles::marks::{LastThree, Marks};
-use crate::flows::map::Map;
+use crate::flows::map::{Clock, Map};
 use crate::observers::observe::{LaneDrift, LaneSection, Quantity};
 use crate::schemes::scheme::Scheme;
 use crate::systems::flow::Scratch;
@@ -38,7 +38,7 @@ where
     before: CarriedIn<T, S, P, M>,
     /// The closed state.
     shown: CarriedIn<T, S, P, M>,
-    times: LaneClock<T::Over<P>>,
+    clock: Clock<T::Over<P>>,
     opening: Opening<MaskIn<T, P>>,
     /// The lanes in which all numbers are finite, and those in which H is so wherever a block evaluates it.
     finite: [MaskIn<T, P>; 2],
@@ -94,7 +94,7 @@ where
             section_lanes: Mask::splat(false),
             shown: cloned(&carried),
             carried,
-            times: LaneClock::default(),
+            clock: Clock::default(),
             opening: Opening::Open,
             finite: [Mask::splat(true); 2],
             prepared,
@@ -143,12 +143,12 @@ where
     }
 
     fn set_clocks(&mut self, numbers: [&[T]; 3]) {
-        let LaneClock {
+        let Clock {
             start,
             interval,
-            ahead,
-        } = &mut self.times;
-        for (numbers, into) in numbers.into_iter().zip([start, interval, ahead]) {
+            first,
+        } = &mut self.clock;
+        for (numbers, into) in numbers.into_iter().zip([start, interval, first]) {
             gather::<L, T, P>(numbers, into);
         }
     }
@@ -165,7 +165,7 @@ where
         if const { !FOLLOWS } {
             return;
         }
-        let any = self.times.start;
+        let any = self.clock.start;
         let new = |drift: &DriftRows<T>| LaneDrift::new(drift.quantity, any);
         self.drifts.clear();
         self.drifts.extend(drifts.iter().map(new));
@@ -198,7 +198,7 @@ where
         self.section_lanes = lanes_of::<L, T, P>(lanes);
         self.sections.clear();
         for SectionRows { function, rows } in sections {
-            let mut numbers = self.times.start;
+            let mut numbers = self.clock.start;
             let period = function.period.map(|period| {
                 gather::<L, T, P>(&[period], &mut numbers);
                 numbers
@@ -266,7 +266,7 @@ where
         }
         let (carries_duration, _) = L::enter(Close::<'_, _, T, P> {
             map: &self.map,
-            times: &self.times,
+            clock: self.clock,
             made,
             carried: &self.last_three[at],
             shown: &mut self.passed,
@@ -331,7 +331,7 @@ where
         };
         let (mut finite, end) = L::enter(Block::<_, _, _, FOLLOWS> {
             map: &lanes.map,
-            times: &lanes.times,
+            clock: lanes.clock,
             made,
             n,
             opening: lanes.opening,
@@ -346,7 +346,7 @@ where
         if FOLLOWS && !closes && end < made + n {
             (carries_duration, finite) = L::enter(Close::<'_, _, T, P> {
                 map: &lanes.map,
-                times: &lanes.times,
+                clock: lanes.clock,
                 made: end,
                 carried: &lanes.carried,
                 shown: &mut lanes.shown,
@@ -354,7 +354,7 @@ where
             });
         } else {
             carries_duration = L::enter(WriteRows::<'_, _, T, P> {
-                times: &lanes.times,
+                clock: lanes.clock,
                 made: end,
                 carried: &lanes.carried,
                 shown: &lanes.shown,

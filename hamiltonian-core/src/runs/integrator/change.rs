@@ -150,7 +150,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         let is_end_of_step = self.shown.time(now).equals(state.t).all();
         let clock = match is_end_of_step {
             true => Clock {
-                first: self.clock.first + made,
+                first: self.clock.first + T::constant(made as f64, 0.0),
                 ..self.clock
             },
             false => Clock::new(state.t, self.clock.interval),

@@ -323,7 +323,7 @@ impl<T: Real> Clock<T> {
         /// The largest number of steps that is exact in `f64`.
         const LARGEST_EXACT: f64 = (1_u64 << 53) as f64;
         let since = Clock::new(self.start, self.interval);
-        let made = self.first + made;
+        let made = self.first.magnitude() as u64 + made;
         let count = ((t - self.start) / self.interval).to_f64();
         let nearest = (count.clamp(0.0, LARGEST_EXACT) + 0.5) as u64;
         let reached = since.at(nearest);

@@ -133,7 +133,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> StagedMap<S>
         // Few stages may stay in registers, if they are variables of this loop alone.
         let mut scratch = StepScratch {
             slopes: z.y.x.take(),
-            before: work.guess.take(),
             points: work.next.take(),
             next: work.stage.take(),
         };
@@ -143,13 +142,13 @@ impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> StagedMap<S>
             &self.tableau(),
             &self.field,
             (clock, made, n),
-            &mut scratch,
+            (&mut scratch, &mut work.guess.0),
             (&mut point, &mut low),
             &mut Uninspected,
         );
         (z.x, z.y.y) = (point, low);
         z.y.x = scratch.slopes;
-        (work.next, work.stage, work.guess) = (scratch.points, scratch.next, scratch.before);
+        (work.next, work.stage) = (scratch.points, scratch.next);
         if solved < n {
             self.complete(clock.at(made + solved), outcome, z, work);
             return solved + 1;
@@ -172,20 +171,20 @@ impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> Map
 
     #[cfg_attr(not(unoptimised), inline(always))]
     fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        self.run(Clock::between(t, end), 0, 1, z, work);
+        self.go_on(Clock::between(t, end), 0, 1, z, work);
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn run(
+    fn go_on(
         &self,
         clock: Clock<T>,
         made: u64,
-        n: u64,
+        end: u64,
         z: &mut Self::Carried,
         work: &mut Self::Work,
     ) {
         T::out_of_line(
             #[cfg_attr(not(unoptimised), inline(always))]
-            || self.steps(clock, made, n, z, work),
+            || self.steps(clock, made, end - made, z, work),
         );
     }
     #[cfg_attr(not(unoptimised), inline(always))]

@@ -204,10 +204,9 @@ pub(super) fn finish<T, L, V, X, const S: usize>(
     carry(point, low);
 }
 
-/// The scratch of steps: slopes, those of the step before, points, a slope.
+/// The scratch of steps: slopes, points, a slope.
 pub(super) struct StepScratch<X: Vector, const S: usize> {
     pub(super) slopes: Stages<Point<X>, S>,
-    pub(super) before: Stages<Point<X>, S>,
     pub(super) points: Stages<Point<X>, S>,
     pub(super) next: Point<X>,
 }
@@ -216,14 +215,14 @@ pub(super) struct StepScratch<X: Vector, const S: usize> {
 /// the outcome of the last.
 ///
 /// The scratch, the point and its low words should be variables of the caller alone, so that they may stay in
-/// registers.
+/// registers. The slopes of the step before are kept in `before` where steps are looked at.
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn steps<T, L, F, V, X, W, const S: usize, const HALVES: bool>(
     limit: (u32, bool),
     tableau: &Tableau<'_, T, L::Bundle, S, HALVES>,
     field: &F,
     (clock, made, n): (Clock<T>, u64, u64),
-    scratch: &mut StepScratch<X, S>,
+    (scratch, before): (&mut StepScratch<X, S>, &mut [Point<X>; S]),
     (point, low): (&mut Point<V>, &mut Point<V>),
     inspection: &mut W,
 ) -> (u64, Outcome<T>)
@@ -239,7 +238,7 @@ where
     while left > 0 {
         let t = inspection.begins(clock, made + (n - left));
         if W::LOOKS {
-            copy::<T, L, _, S>(&scratch.slopes.0, &mut scratch.before.0);
+            copy::<T, L, _, S>(&scratch.slopes.0, before);
             inspection.keep(point, low);
         }
         outcome = fixed_point::<T, L, _, _, _, S, HALVES>(
@@ -262,7 +261,7 @@ where
         }
         if !accepted {
             if W::LOOKS {
-                copy::<T, L, _, S>(&scratch.before.0, &mut scratch.slopes.0);
+                copy::<T, L, _, S>(before, &mut scratch.slopes.0);
             }
             break;
         }
@@ -322,18 +321,17 @@ where
         let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
         let field = system.field(T::Over::<P>::one());
         // The matrices too: a run of single steps would spend its time on clearing them.
-        let (scratch, matrices) = kept.get(
+        let (scratch, before, matrices) = kept.get(
             |_| true,
             || {
                 let zero = z.x.zeros_over::<T::Over<P>>();
                 let stages = Stages(core::array::from_fn(|_| zero.clone()));
                 let scratch = StepScratch::<D::Vector, S> {
                     slopes: stages.clone(),
-                    before: stages.clone(),
-                    points: stages,
+                    points: stages.clone(),
                     next: zero,
                 };
-                (scratch, [[[[T::Over::<P>::zero(); S]; S]; 2]; 2])
+                (scratch, stages, [[[[T::Over::<P>::zero(); S]; S]; 2]; 2])
             },
         );
         for (to, from) in matrices
@@ -352,7 +350,6 @@ where
         // Moved out, they are variables of this loop alone and may stay in registers.
         let mut here = StepScratch {
             slopes: scratch.slopes.take(),
-            before: scratch.before.take(),
             points: scratch.points.take(),
             next: scratch.next.take(),
         };
@@ -363,7 +360,7 @@ where
             &tableau,
             &field,
             (clock, made, n),
-            &mut here,
+            (&mut here, &mut before.0),
             (&mut point, &mut low),
             inspection,
         );

@@ -2,16 +2,20 @@
 //! interpreter.
 
 use crate::arrays;
-use crate::common::bits::check;
+use crate::common::bits::{LEVEL, check};
 use crate::common::derivatives::numbers;
+use crate::common::levels;
 use crate::symbolic;
+use hamiltonian::Vector;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::author::{Dynamics, VectorField};
+use hamiltonian_lanes::Cpu;
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::interpret;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};
 use hamiltonian_symbolic::structure;
+use std::sync::PoisonError;
 
 hamiltonian! {
     /// Neighbours at several distances, forwards and backwards.
@@ -47,6 +51,19 @@ hamiltonian! {
     pub struct Weighed { n: usize, w: [n][2][n] }
     H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n, j in 0..2, k in 0..n) {
         w[i][j][k]*q[i]*q[k] + w[(i + 1) % n][1 - j][(k - 2) % n]*cos(q[k])
+    }
+}
+
+hamiltonian! {
+    /// Bodies on orbits of their own, which disturb their neighbours, and sites that swing.
+    pub struct Orbits { n: usize, k: [n] }
+    H(q[n][2], x[n]; p[n][2], y[n]) = sum(i in 0..n) {
+            norm_squared(p[i])/2 - k[i]/norm(q[i]) + (y[i]^2 + k[i]*x[i]^2)/2
+        } + sum(i in 0..n) { q[i][0]*x[(i + 1) % n]/100 };
+    split {
+        Round = sum(i in 0..n) { norm_squared(p[i])/2 - k[i]/norm(q[i]) };
+        Swing = sum(i in 0..n) { (y[i]^2 + k[i]*x[i]^2)/2 };
+        Disturb = sum(i in 0..n) { q[i][0]*x[(i + 1) % n]/100 };
     }
 }
 
@@ -99,6 +116,45 @@ fn lanes_have_the_bits_of_iterations_one_by_one() {
     check(&arrays::Chain::<64> {}, 1);
     check(&arrays::Wraps::<67> { a: 0.5 }, 2);
     check(&arrays::Walls::<100> { k: 3.0 }, 3);
+}
+
+/// The numbers of a run of exact flows.
+fn orbits(n: usize, lanes: bool, fused: bool) -> Vec<u64> {
+    let system = Orbits::new(n, some(n)).unwrap();
+    let mut start = State::new(system.zeros(), system.zeros());
+    for (i, (a, b)) in numbers(5).zip(numbers(6)).take(n).enumerate() {
+        start.q.q[(i, 0)] = 1.0 + a.abs();
+        start.q.x[i] = b;
+        start.p.q[(i, 1)] = 0.5 + b.abs();
+        start.p.x[i] = a;
+    }
+    let run = Integrator::new(&system, Strang, start, 0.1).unwrap();
+    let mut run = run.with_lanes(lanes);
+    if fused {
+        run = run.fused();
+    }
+    let end = run.advance(3).unwrap();
+    let all = end.q.components().chain(end.p.components());
+    all.map(f64::to_bits).collect()
+}
+
+#[test]
+fn flows_in_lanes_have_the_bits_of_flows_one_by_one() {
+    for n in lengths() {
+        let expected = orbits(n, false, false);
+        let _hidden = LEVEL.write().unwrap_or_else(PoisonError::into_inner);
+        for limit in levels() {
+            Cpu::limit_to(limit);
+            let found = orbits(n, true, false);
+            Cpu::limit_to(Cpu::Avx512);
+            assert_eq!(found, expected, "{limit:?}, {n} bodies");
+        }
+    }
+    // Products fuse in lanes alone: eight bodies are in them, seven are not.
+    if Cpu::best() > Cpu::Sse2 {
+        assert_eq!(orbits(7, true, true), orbits(7, true, false));
+        assert_ne!(orbits(8, true, true), orbits(8, true, false));
+    }
 }
 
 #[test]

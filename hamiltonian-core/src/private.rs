@@ -48,8 +48,8 @@ pub use crate::loops::calls::*;
 pub use crate::loops::pairs::{TILED, TileRow, Triangle, pairs};
 pub use crate::loops::slabs::rows;
 pub use crate::loops::stretch::{
-    AddedTo, Body, Change, ColumnStore, InRing, LONG, Loop, Mode, Nest, STRIDE, nest, total, worth,
-    wrapped,
+    AddedTo, Body, Change, ColumnStore, InRing, LONG, Loop, Mode, Nest, OfStore, STRIDE, nest,
+    total, worth, wrapped,
 };
 pub use crate::schemes::{Gauss, GaussNystrom, ToTolerance};
 pub use crate::systems::fit::ListOf;

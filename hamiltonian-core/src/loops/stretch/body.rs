@@ -82,6 +82,9 @@ pub type AddedTo = (usize, usize);
 /// The number of a read, and that of the ring that its element moves in.
 pub type InRing = (usize, usize);
 
+/// The number of a read, and that of the store that changes its element.
+pub type OfStore = (usize, usize);
+
 /// The arithmetic of one iteration: of `G` numbers that are the same in all of them, `R` elements that are
 /// read, and the number of the iteration where it counts as a real.
 pub trait Body<const G: usize, const R: usize, const W: usize> {
@@ -91,6 +94,9 @@ pub trait Body<const G: usize, const R: usize, const W: usize> {
     const LEAST: usize = LONG;
     /// The reads whose elements move in rings.
     const RINGS: &'static [InRing] = &[];
+    /// The reads of elements that the iteration itself changes later. Their columns are those of the stores, each of
+    /// which changes an element of its own.
+    const OWN: &'static [OfStore] = &[];
     /// The stores, in order.
     const STORES: &'static [ColumnStore] = &[];
     /// The sums that results are added to, in order.
@@ -110,6 +116,30 @@ pub(super) fn changed<T: Real>(change: Change, place: T, [a, b]: [T; 2]) -> T {
         Change::AddProduct => a.fma(b, place),
         Change::SubProduct => (-a).fma(b, place),
     }
+}
+
+/// The store that changes the element of a read, if the iteration itself does.
+pub(super) const fn store_of(own: &[OfStore], read: usize) -> Option<usize> {
+    let mut k = 0;
+    while k < own.len() {
+        if own[k].0 == read {
+            return Some(own[k].1);
+        }
+        k += 1;
+    }
+    None
+}
+
+/// Returns true if the element that a store changes is read.
+pub(super) const fn is_read(stores: &[ColumnStore], own: &[OfStore], store: usize) -> bool {
+    let mut k = 0;
+    while k < own.len() {
+        if stores[own[k].1].column == stores[store].column {
+            return true;
+        }
+        k += 1;
+    }
+    stores[store].change.reads()
 }
 
 /// Returns true if results of any store wait.

@@ -63,7 +63,7 @@ impl<P: Pack> Mode for In<P> {
         let before = stretch.before::<B, W>();
         if before > 0 {
             stretch.reborrow().first_ones::<B, W>(before);
-            stretch.skip(before);
+            stretch.skip::<B, W>(before);
         }
         if stretch.length >= STRIDE {
             packs::<T, B, P, G, R, C, S, A, W>(stretch, false);

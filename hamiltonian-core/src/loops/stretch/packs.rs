@@ -4,7 +4,7 @@
 //! element is changed in the order of the iterations, and each sum has the terms of its iterations in order.
 
 use super::waiting::{NONE, Waiting};
-use super::{BLOCK, Body, CARRY, STRIDE, Stretch, changed, cut, has_shared};
+use super::{BLOCK, Body, CARRY, STRIDE, Stretch, changed, cut, has_shared, store_of};
 use hamiltonian_lanes::{Pack, Real};
 
 /// Computes at least [`STRIDE`] iterations in packs of as many lanes.
@@ -48,7 +48,9 @@ pub(super) fn packs<
     // Lengths that the compiler knows to be those of the loop: no element needs a check.
     let mut r = 0;
     while r < R {
-        reads[r] = &reads[r][..length];
+        if store_of(B::OWN, r).is_none() {
+            reads[r] = &reads[r][..length];
+        }
         r += 1;
     }
     let has_shared = const { has_shared(B::STORES) };
@@ -62,7 +64,7 @@ pub(super) fn packs<
     let mut s = 0;
     while s < B::STORES.len() && rest > 0 {
         let store = &B::STORES[s];
-        if waiting.is_taken_back(B::STORES, s) {
+        if waiting.is_taken_back(B::STORES, B::OWN, s) {
             let place = offsets[s] + length - STRIDE;
             before[s] = T::gather::<P>(&columns[store.column][place..place + STRIDE]);
         }
@@ -79,7 +81,11 @@ pub(super) fn packs<
                 let mut read = [T::Over::<P>::default(); R];
                 let mut r = 0;
                 while r < R {
-                    read[r] = T::gather::<P>(&reads[r][k..k + STRIDE]);
+                    let column = match store_of(B::OWN, r) {
+                        Some(store) => &*columns[B::STORES[store].column],
+                        None => reads[r],
+                    };
+                    read[r] = T::gather::<P>(&column[k..k + STRIDE]);
                     r += 1;
                 }
                 let ramp = match B::COUNTS {
@@ -121,7 +127,7 @@ pub(super) fn packs<
             let mut s = 0;
             while s < B::STORES.len() {
                 let store = &B::STORES[s];
-                if waiting.is_taken_back(B::STORES, s) {
+                if waiting.is_taken_back(B::STORES, B::OWN, s) {
                     let place = if store.is_shared { offsets[s] + k } else { k };
                     T::scatter::<P>(before[s], &mut columns[store.column][place..place + STRIDE]);
                 }

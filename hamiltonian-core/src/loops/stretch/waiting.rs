@@ -17,7 +17,9 @@
 //! f\[4\], …, f\[7\], where d\[3\] is kept from the block before, and then subtracts d\[4\], …, d\[7\]. Each f\[k\] has met its two
 //! changes in the order of the iterations. f\[8\] still lacks d\[7\], which is kept for the next block.
 
-use super::{BLOCK, CARRY, ColumnStore, REACH, STRIDE, changed, is_first_of_column};
+use super::{
+    BLOCK, CARRY, ColumnStore, OfStore, REACH, STRIDE, changed, is_first_of_column, is_read,
+};
 use hamiltonian_lanes::{Pack, Real};
 
 /// Results of a block of iterations on their way to columns that several stores of an iteration reach.
@@ -115,12 +117,12 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
         false
     }
 
-    /// Returns true if the store does not wait, reads its element, and is the first one to change it.
+    /// Returns true if the store does not wait, the element that it changes is read, and it is the first one to change
+    /// it.
     #[cfg_attr(not(unoptimised), inline(always))]
-    pub(super) fn is_taken_back(&self, stores: &[ColumnStore], s: usize) -> bool {
-        let store = &stores[s];
-        store.change.reads()
-            && match store.is_shared {
+    pub(super) fn is_taken_back(&self, stores: &[ColumnStore], own: &[OfStore], s: usize) -> bool {
+        is_read(stores, own, s)
+            && match stores[s].is_shared {
                 true => self.group[s] == NONE,
                 false => is_first_of_column(stores, s),
             }

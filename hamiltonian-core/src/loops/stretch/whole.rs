@@ -9,7 +9,7 @@
 //! in a ring of N elements and is at 1 in iteration 0. The first segment has N − 1 iterations, in which it moves on to
 //! N − 1. The second one has the last iteration, in which it is at 0.
 
-use super::{Body, LONG, STRIDE, Stretch, reborrowed, total, wrapped};
+use super::{Body, LONG, STRIDE, Stretch, reborrowed, store_of, total, wrapped};
 use crate::systems::system::Arithmetic;
 use hamiltonian_lanes::Real;
 
@@ -32,7 +32,7 @@ pub struct Loop<
     /// The numbers that do not vary.
     pub given: [T; G],
     /// The columns that are read, each with the place of the first iteration's element; in a ring, with the place of
-    /// the ring's first element.
+    /// the ring's first element. No column for the elements that iterations change themselves.
     pub reads: [(&'a [T], usize); R],
     /// The columns that are written.
     pub columns: [&'a mut [T]; C],
@@ -170,8 +170,10 @@ impl<
             }
             let mut r = 0;
             while r < R {
-                let (column, first) = self.reads[r];
-                reads[r] = &column[first + starts[r]..][..length];
+                if store_of(B::OWN, r).is_none() {
+                    let (column, first) = self.reads[r];
+                    reads[r] = &column[first + starts[r]..][..length];
+                }
                 r += 1;
             }
             let mut offsets = self.offsets;

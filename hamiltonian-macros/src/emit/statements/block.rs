@@ -393,6 +393,10 @@ impl Writer<'_> {
         if let Some(stretch) = self.stretch(inner, &found) {
             return self.run(inner, &stretch, [&start, &end]);
         }
+        if self.context.access != Access::Apart {
+            // Iterations that read what others change are not divided into segments.
+            found = Accesses::default();
+        }
         for accumulator in &inner.accumulators {
             line!(self, "let mut {} = {ZERO};", name(*accumulator));
         }

@@ -27,6 +27,8 @@ pub(super) struct Stretch {
     given: Vec<Value>,
     /// The values that are read, and their places.
     reads: Vec<(Value, Place)>,
+    /// Reads of elements that a store changes later, each with the store.
+    own: Vec<(usize, usize)>,
     /// The loop variable as a real.
     number: Option<Value>,
     /// Values that others are names of, in the arithmetic of several loops.
@@ -93,9 +95,6 @@ impl Writer<'_> {
             sums: sums(inner),
             ..Stretch::default()
         };
-        if self.context.access != Access::Apart {
-            return None;
-        }
         for step in &inner.body {
             let Step::Let(value) = step else {
                 continue;
@@ -183,7 +182,50 @@ impl Writer<'_> {
                 }
             }
         }
+        if self.context.access != Access::Apart {
+            made.own = self.own(inner, &made)?;
+        }
         Some(made)
+    }
+
+    /// The reads of elements that an iteration changes later, if inputs and outputs are the same vectors. `None` if it
+    /// reads what another one changes, or what it has changed itself.
+    fn own(&self, inner: &Loop, stretch: &Stretch) -> Option<Vec<(usize, usize)>> {
+        let store_of = |slice: &Slice| {
+            (stretch.stores.iter()).position(|store| stretch.columns[store.column] == *slice)
+        };
+        // Its sums are added to in order, whatever their length.
+        if !stretch.sums.is_empty() || stretch.stores.iter().any(|store| store.is_shared) {
+            return None;
+        }
+        let mut stored = Vec::new();
+        for step in &inner.body {
+            match step {
+                Step::Store(target, ..) => {
+                    stored.push(Slice::write(self.context.layout, *target));
+                }
+                Step::Let(value) => {
+                    if let Instruction::Load(array, ..) = self.context.program.instruction(*value) {
+                        let slice = self.context.read(*array);
+                        let is_given = stretch.given.contains(value);
+                        if stored.contains(&slice) || is_given && store_of(&slice).is_some() {
+                            return None;
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        let mut own = Vec::new();
+        for (read, (_, (slice, index))) in stretch.reads.iter().enumerate() {
+            if let Some(store) = store_of(slice) {
+                if stretch.stores[store].index != *index {
+                    return None;
+                }
+                own.push((read, store));
+            }
+        }
+        Some(own)
     }
 
     /// Writes what stands before a loop that is not core's: the partial sums of a long one. `length` and `start` are
@@ -273,6 +315,13 @@ impl Writer<'_> {
         let rings: Vec<(usize, usize)> = rings.into_list();
         if !rings.is_empty() {
             line!(self, "const RINGS: &'static [__h::InRing] = &{rings:?};");
+        }
+        if !stretch.own.is_empty() {
+            line!(
+                self,
+                "const OWN: &'static [__h::OfStore] = &{:?};",
+                stretch.own
+            );
         }
         if !stretch.stores.is_empty() {
             line!(self, "const STORES: &'static [__h::ColumnStore] = &[");
@@ -421,7 +470,15 @@ impl Writer<'_> {
         let reads = stretch
             .reads
             .iter()
-            .map(|(_, place)| format!("({}, {})", place.0.name(), of(place)))
+            .enumerate()
+            .map(|(at, (_, place))| {
+                let is_own = stretch.own.iter().any(|(read, _)| *read == at);
+                match (is_own, self.context.access) {
+                    (true, _) => "(&[], 0usize)".to_owned(),
+                    (false, Access::Apart) => format!("({}, {})", place.0.name(), of(place)),
+                    (false, _) => format!("(&{}[..], {})", place.0.name(), of(place)),
+                }
+            })
             .into_list();
         let offsets = stretch
             .stores

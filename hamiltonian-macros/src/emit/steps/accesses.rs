@@ -3,7 +3,7 @@
 //! Input: a loop. Output: its periodic indices, and the columns that advance with its variable.
 //! Invariant: a written column is included only if all its stores have the same index.
 
-use crate::emit::names::context::{Access, Context};
+use crate::emit::names::context::Context;
 use crate::emit::names::layout::Slice;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Loops};
 use hamiltonian_symbolic::program::{Instruction, Loop, Step};
@@ -32,8 +32,7 @@ impl Accesses {
         !self.wrapped.is_empty()
     }
 
-    /// Finds the accesses of a loop. There are none if iterations read and write the same point, which cannot be
-    /// divided into slices.
+    /// Finds the accesses of a loop.
     pub(in crate::emit) fn of(context: Context, inner: &Loop) -> Accesses {
         let mut finder = Finder {
             context,
@@ -41,9 +40,7 @@ impl Accesses {
             accesses: Accesses::default(),
             stores: Vec::new(),
         };
-        if context.access == Access::Apart {
-            finder.walk(&inner.body, Loops::default());
-        }
+        finder.walk(&inner.body, Loops::default());
         let mut accesses = finder.accesses;
         for (slice, index, steps) in finder.stores {
             if steps {

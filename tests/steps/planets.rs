@@ -59,6 +59,32 @@ hamiltonian! {
     }
 }
 
+hamiltonian! {
+    /// The planets of [`FromStar`], eight of them.
+    pub struct EightFromStar { m: [9] }
+    H(q[9][3]; p[9][3]) = sum(i in 0..9) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..9, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    coordinates heliocentric(q, m);
+    split {
+        Star = norm_squared(p_heliocentric[0] - sum(i in 1..9) { p_heliocentric[i] })/(2*m[0]);
+        Pulls = -sum(i in 1..9, j in 1..i) {
+            m[i]*m[j]/norm(q_heliocentric[i] - q_heliocentric[j])
+        };
+        Ellipses = sum(i in 1..9) {
+            norm_squared(p_heliocentric[i])/(2*m[i]) - m[0]*m[i]/norm(q_heliocentric[i])
+        };
+    }
+}
+
+hamiltonian! {
+    /// A ring of bodies: the index that wraps keeps them from loops.
+    pub struct Closed { m: [9] }
+    H(q[9][2]; p[9][2]) = sum(i in 0..9) {
+        norm_squared(p[i])/(2*m[i]) + norm_squared(q[(i + 1) % 9] - q[i])/2
+    };
+    coordinates heliocentric(q, m)
+}
+
 /// Two planets of masses ε and ε/2 on ellipses round a star of mass 1, at distances 1 and 2.
 fn planets(e: f64) -> ([f64; 3], [[f64; 3]; 3], [[f64; 3]; 3]) {
     let m = [1.0, e, 0.5 * e];
@@ -115,6 +141,50 @@ fn errors_are_of_second_order_and_of_the_size_of_the_planets() {
         run.observer().max_relative()
     };
     assert!((verlet(1e-5) / verlet(1e-3) - 1.0).abs() < 0.1);
+}
+
+#[test]
+fn many_bodies_of_a_literal_number_have_the_bits_of_a_number_set_at_run_time() {
+    let m = [1.0, 1e-6, 2e-6, 3e-6, 1e-6, 9e-4, 3e-4, 4e-5, 5e-5];
+    let mut some = crate::common::derivatives::numbers(9);
+    let mut rows =
+        |size: f64| [(); 9].map(|()| [(); 3].map(|()| size * some.next().unwrap_or(1.0)));
+    let (mut q, mut p) = (rows(0.2), rows(0.1));
+    for (i, (q, p)) in q.iter_mut().zip(&mut p).enumerate() {
+        let r = i as f64;
+        q[0] += r;
+        *p = p.map(|p| p * m[i]);
+        p[1] += if i > 0 { m[i] / r.sqrt() } else { 0.0 };
+    }
+    let declared = State::new(q, p);
+    let literal = EightFromStar::new(m);
+    let start = literal.from_declared(&declared);
+    let mut run = Integrator::new(&literal, Strang, start, 0.02).expect("a good start");
+    let sized = FromStar::new(9, m.to_vec()).expect("nine masses");
+    let start = sized.from_declared(&State::new(q.to_vec(), p.to_vec()));
+    let mut other = Integrator::new(&sized, Strang, start, 0.02).expect("a good start");
+    for _ in 0..3 {
+        let end = run.advance(50).expect("good steps");
+        let expected = other.advance(50).expect("good steps");
+        assert_eq!(end.q.as_slice(), expected.q.as_slice());
+        assert_eq!(end.p.as_slice(), expected.p.as_slice());
+    }
+}
+
+#[test]
+fn bodies_that_loops_cannot_say_are_written_out() {
+    let q: [[f64; 2]; 9] = core::array::from_fn(|i| [i as f64, 0.5 * (i * i) as f64]);
+    let p: [[f64; 2]; 9] = core::array::from_fn(|i| [1.0 - i as f64, 0.25]);
+    let system = Closed::new([2.0; 9]);
+    let there = system.from_declared(&State::new(q, p));
+    let mut expected = 0.0;
+    for i in 0..9 {
+        let next = q[(i + 1) % 9];
+        expected += (p[i][0].powi(2) + p[i][1].powi(2)) / 4.0;
+        expected += ((next[0] - q[i][0]).powi(2) + (next[1] - q[i][1]).powi(2)) / 2.0;
+    }
+    let found = system.energy(&there);
+    assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
 }
 
 #[test]

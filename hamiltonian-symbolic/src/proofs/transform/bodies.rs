@@ -21,12 +21,16 @@ pub(super) struct SizedBodies {
 }
 
 impl SizedBodies {
-    /// The group, if its number of rows is not literal; both loops over it are made in the arena,
+    /// The group, if its number of rows is not literal or more than `written_out`; both loops over it are made in the arena,
     /// so that they have the same numbers in copies of it.
-    pub(super) fn new(model: &mut Model, old: u16, new: u16) -> Option<SizedBodies> {
+    pub(super) fn new(
+        model: &mut Model,
+        (old, new): (u16, u16),
+        written_out: i64,
+    ) -> Option<SizedBodies> {
         let shape = &model.groups[usize::from(old)].shape;
         let (rows, columns) = (shape.rows()?.clone(), shape.columns());
-        if rows.as_constant().is_some() {
+        if rows.as_constant().is_some_and(|rows| rows <= written_out) {
             return None;
         }
         let bodies = SizedBodies {

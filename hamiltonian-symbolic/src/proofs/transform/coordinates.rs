@@ -40,22 +40,43 @@ pub struct Transformed {
     rules: Rules,
 }
 
+/// The largest literal number of bodies that are written out one by one. Loops over more of them fill packs.
+const WRITTEN_OUT: i64 = 8;
+
 impl Transformed {
-    /// The system in the coordinates of the charts, which replace different coordinates.
+    /// The system in the coordinates of the charts, which replace different coordinates. Many bodies stay in loops, where
+    /// each loop goes over all of them.
     ///
     /// # Errors
     /// [`NoTransform`]
     pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Transformed, NoTransform> {
-        let layout = GroupLayout::new(model, charts)?;
+        match Self::with_written_out(model, charts, WRITTEN_OUT) {
+            Err(_) => Self::with_written_out(model, charts, i64::MAX),
+            transformed => transformed,
+        }
+    }
+
+    /// The same, with up to so many bodies written out one by one.
+    fn with_written_out(
+        model: &Model,
+        charts: &[Chart],
+        written_out: i64,
+    ) -> Result<Transformed, NoTransform> {
+        let mut layout = GroupLayout::new(model, charts)?;
         let mut source = model.clone();
-        let bodies = bodies(&mut source, charts, &layout);
+        let bodies = bodies(&mut source, charts, &layout, written_out);
+        for place in &mut layout.places {
+            if bodies.iter().any(|of| of.new == place.first) {
+                place.charted.clear();
+            }
+        }
         for of in &bodies {
             let force = std::mem::take(&mut source.force);
             let parts = force.iter().flat_map(|f| of.apart(&mut source.dag, f));
             source.force = parts.into_list();
         }
         let model = &source.clone();
-        let (mut new, roots) = written_out(model, &layout, &bodies)?;
+        let (mut new, roots) = apart(model, &layout, &bodies)?;
         new.groups = layout.groups.clone();
 
         let mut rules = Rules::default();
@@ -308,11 +329,18 @@ fn new_scalars(dag: &mut Dag, charted: &[ChartVariables]) -> Vec<(Node, Node)> {
 }
 
 /// The groups of bodies that are mapped in loops.
-fn bodies(model: &mut Model, charts: &[Chart], layout: &GroupLayout) -> Vec<SizedBodies> {
+fn bodies(
+    model: &mut Model,
+    charts: &[Chart],
+    layout: &GroupLayout,
+    written_out: i64,
+) -> Vec<SizedBodies> {
     let places = charts.iter().zip(&layout.places);
     places
         .filter_map(|(chart, place)| match chart {
-            Chart::Heliocentric(bodies) => SizedBodies::new(model, bodies.group, place.first),
+            Chart::Heliocentric(bodies) => {
+                SizedBodies::new(model, (bodies.group, place.first), written_out)
+            }
             _ => None,
         })
         .into_list()
@@ -320,7 +348,7 @@ fn bodies(model: &mut Model, charts: &[Chart], layout: &GroupLayout) -> Vec<Size
 
 /// The model whose arena the new system is built in, with all its expressions, unrolled where a loop
 /// reads a replaced coordinate.
-fn written_out(
+fn apart(
     model: &Model,
     layout: &GroupLayout,
     bodies: &[SizedBodies],
@@ -333,7 +361,7 @@ fn written_out(
         .copied()
         .filter(is_looped)
         .into_list();
-    if model.sizes.is_empty() {
+    if model.sizes.is_empty() && bodies.is_empty() {
         let looped =
             model
                 .dag

@@ -1,6 +1,7 @@
 //! Runs to a tolerance: what their errors are, that varying steps do not drift, and what is refused.
 
 mod between;
+mod jumps;
 mod long;
 
 use crate::allocator::allocations;

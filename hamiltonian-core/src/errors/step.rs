@@ -61,6 +61,22 @@ pub enum StepError {
         /// The absolute tolerance.
         absolute: f64,
     },
+    /// H jumps at the end of the run so far: no step to a tolerance leads across.
+    #[non_exhaustive]
+    Jumped {
+        /// The number of the step, counted from 1.
+        step: u64,
+        /// The first lane that was refused, if the scalar has several.
+        lane: Option<u32>,
+        /// The name of the run's time.
+        clock: Box<str>,
+        /// The time at its beginning.
+        time: f64,
+        /// H before the jump.
+        before: f64,
+        /// H after it.
+        after: f64,
+    },
 }
 
 impl Display for StepError {
@@ -128,7 +144,21 @@ impl Display for StepError {
                 f,
                 "step {step} from {clock} = {} was refused{}: its estimated error is above the tolerance, {relative:e} \
                  relative and {absolute:e} absolute, for every size that moves {clock}; end the run before the \
-                 singularity of H, or raise the tolerance if there is none",
+                 singularity of H, or at an event where its gradient jumps, or raise the tolerance",
+                Number(*time),
+                Lane(*lane)
+            ),
+            Self::Jumped {
+                step,
+                lane,
+                clock,
+                time,
+                before,
+                after,
+            } => write!(
+                f,
+                "step {step} from {clock} = {} was refused{}: H jumps there, from {before} to {after}, and has no \
+                 gradient; end the run at an event there and start another one beyond it, or make H continuous",
                 Number(*time),
                 Lane(*lane)
             ),

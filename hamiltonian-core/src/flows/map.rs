@@ -197,6 +197,13 @@ pub enum Cause {
         /// The absolute tolerance.
         absolute: f64,
     },
+    /// H jumped in the step at every size that moves the time.
+    Jumped {
+        /// H at the beginning of the step.
+        before: f64,
+        /// H at its end.
+        after: f64,
+    },
 }
 
 /// The step for which a map is prepared.

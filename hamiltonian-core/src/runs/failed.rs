@@ -56,6 +56,14 @@ impl Failed {
                 relative,
                 absolute,
             },
+            Cause::Jumped { before, after } => StepError::Jumped {
+                step,
+                lane,
+                clock,
+                time: self.begin,
+                before,
+                after,
+            },
             Cause::Overflow | Cause::Piece(_) => StepError::NotFinite {
                 step,
                 energy: self.energy,

@@ -4,6 +4,7 @@
 //! whose steps are constant where those do as well, and vary reversibly elsewhere. Invariant: no decision depends on a
 //! clock, on other lanes, or on the parts into which a run is divided.
 
+mod jumps;
 mod pilot;
 mod timescale;
 mod tolerance;
@@ -19,36 +20,8 @@ use crate::systems::vector::Vector;
 use core::sync::atomic::{AtomicUsize, Ordering};
 use hamiltonian_lanes::{Mask, Real};
 use timescale::Derivatives;
-pub use tolerance::{Estimate, Estimates, Tolerance};
+pub use tolerance::{Estimate, Estimates, ToTolerance, Tolerance};
 use tolerance::{MapBy, WorkBy, larger, later, moves};
-
-/// A system with a scheme that follows a tolerance, for
-/// [`Integrator::to_tolerance`](crate::Integrator::to_tolerance).
-///
-/// `hamiltonian!` implements it: the scheme is [`GaussNystrom`](super::GaussNystrom) if T is proven to be quadratic and no
-/// force acts, and [`Gauss`](super::Gauss) otherwise, each with eight stages. A system written by hand names its scheme:
-///
-/// ```
-/// use hamiltonian::prelude::*;
-/// use hamiltonian::schemes::ToTolerance;
-#[doc = include_str!("../../doc/oscillator.md")]
-///
-/// fn scheme<S: ToTolerance>(_: &S) -> String {
-///     S::Scheme::default().entry().to_string()
-/// }
-/// use hamiltonian::schemes::author::Listed;
-/// assert_eq!(scheme(&Oscillator {}), "GaussNystrom (8 stages)");
-/// ```
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` names no scheme that follows a tolerance",
-    label = "this run takes its scheme from the system",
-    note = "in generic code bound the system, `S: ToTolerance`",
-    note = "a system written by hand: `impl ToTolerance for … {{ type Scheme = Gauss<8>; }}`"
-)]
-pub trait ToTolerance: System + Sized {
-    /// The scheme.
-    type Scheme: Estimates<Self> + Default;
-}
 
 /// Gauss collocation with steps from a tolerance.
 ///
@@ -80,6 +53,11 @@ pub trait ToTolerance: System + Sized {
 /// reversibility there. [`Integrator::refused_steps`](crate::Integrator::refused_steps) counts all four. A few near the
 /// start mean nothing. In n steps there are at most √n/4 pilots, and log₂(n/32 + 1) if no step is refused. A number that
 /// grows in proportion to n means that the chosen steps do not suit the motion, and that H may drift.
+///
+/// Where H has functions such as `abs` or `if`, it or its gradient may jump. Steps across a jump of the gradient are refused
+/// until they are short enough, and H is compared at both ends of each step, so that no jump between two stages is missed;
+/// such runs take longer. Where H itself jumps, the run ends with [`StepError::Jumped`](crate::errors::StepError::Jumped).
+/// H is not compared if a force acts, or if jumps may be at given times: let runs end at those.
 ///
 /// Nothing is known of H between the stages of a step. A start in a place without forces has no Q: the first step
 /// may then jump over a narrow barrier. Start such a run with a scheme and a step.
@@ -169,6 +147,7 @@ where
             field: prepared.field(T::one()),
             estimate: self.scheme.estimate(self.tolerance),
             tolerance: self.tolerance,
+            watched: jumps::watched::<T, S>(prepared),
             parameter: step.h,
             number: MAPS.fetch_add(1, Ordering::Relaxed),
         }
@@ -217,6 +196,8 @@ pub struct Following<T: Real, S: System, M: Estimates<S>> {
     field: <S::Prepared<T> as Dynamics<T>>::Field,
     estimate: Estimate<T>,
     tolerance: Tolerance,
+    /// The system, if H may jump.
+    watched: Option<S::Prepared<T>>,
     parameter: T,
     /// No other map has it.
     number: usize,
@@ -235,6 +216,8 @@ pub struct FollowingWork<C: Carried, M, W> {
     before: C,
     after: C,
     derivatives: Derivatives<C::Vector>,
+    /// H before and after the last attempt that was refused for a jump; 0 if a later one was refused for its error.
+    jump: [C::Scalar; 2],
 }
 
 impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W> {
@@ -247,6 +230,7 @@ impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W
             before: like.of.clone(),
             after: like.of.clone(),
             derivatives: Derivatives::like(like.of.point()),
+            jump: [C::Scalar::zero(); 2],
         }
     }
 }
@@ -278,6 +262,8 @@ const APART: f64 = 0.25;
 const HIGHER: [f64; 2] = [1.125, 8.0];
 /// The factor of ρ/Q after which a pilot chooses anew.
 const SHORT: f64 = 2.0;
+/// The factor of the density in a step across a jump after which a pilot chooses anew.
+const CUT: f64 = 16.0;
 /// The largest density with constant steps, in units of the first; a pilot may soon choose anew after denser ones.
 const DENSEST: f64 = 2.5;
 /// The most by which a step is longer than the density at its beginning says.
@@ -354,7 +340,11 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             false => (before + half * rate, 1),
         };
         let jumps = !(before * T::constant(LONGER.recip(), 0.0)).le(density);
-        if T::LANES > 1 || jumps.any() || T::constant(ALONE, 0.0).le(limit).any() {
+        if T::LANES > 1
+            || self.watched.is_some()
+            || jumps.any()
+            || T::constant(ALONE, 0.0).le(limit).any()
+        {
             return 0;
         }
         let by = fixed(density.recip());
@@ -490,6 +480,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
         let mut density = T::select(jumps, least, followed);
         refused += T::select(jumps, one, zero);
         work.before.copy_from(&z.of);
+        work.jump = [zero; 2];
         let mut changed = T::Mask::splat(false);
         let mut open = T::Mask::splat(true);
         let mut attempts = 0;
@@ -498,10 +489,16 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             attempts += 1;
             let from = work.before.point();
             let met = M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
+            let jumps = match &self.watched {
+                Some(of) => jumps::in_step(self, of, (h, t), z.of.point(), work),
+                None => T::Mask::splat(false),
+            };
+            let met = met & !jumps;
             if attempts == 1 && met.all() {
                 break;
             }
             let error = self.error(h, &z.of, work);
+            let error = T::select(jumps, T::constant(f64::NAN, 0.0), error);
             // This is false for NaN, of a step that was not solved.
             let fine = met | error.le(one);
             let mut refuses = open & !fine;
@@ -512,6 +509,10 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             if !refuses.any() {
                 break;
             }
+            if self.watched.is_some() {
+                let forgets = refuses & !jumps;
+                work.jump = work.jump.map(|of| T::select(forgets, zero, of));
+            }
             work.after.copy_where(open & fine, &z.of);
             open = refuses;
             changed = changed | refuses;
@@ -519,7 +520,7 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
                 z.of.poison(refuses);
                 break;
             }
-            let smaller = density / shrink(error, attempts);
+            let smaller = density / shrink(error, attempts, self.watched.is_some());
             density = T::select(refuses, fixed(smaller), density);
             refused += T::select(refuses, one, zero);
             z.of.copy_from(&work.before);
@@ -536,6 +537,11 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
         [z.numbers[2], z.numbers[6]] = later([t, low], h);
         z.numbers[3] = refused;
         self.follow(density, changed, z, work);
+        // Beyond a jump a step is not as short as in it, and differences over it may be rounding.
+        let is_cut = changed & (before * T::constant(CUT, 0.0)).lt(density);
+        if self.watched.is_some() && is_cut.any() {
+            z.wait(is_cut);
+        }
         let lost = changed & is_constant & limit.lt(density);
         if lost.any() {
             let denser = density * T::constant(DENSEST, 0.0);
@@ -566,6 +572,11 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             let end = t + self.parameter;
             return self.map.explain(t, end, true, &mut z.of, &mut work.inner);
         }
+        self.body(t, t, z, work);
+        let [before, after] = work.jump.map(Real::to_f64);
+        if before != after {
+            return Cause::Jumped { before, after };
+        }
         Cause::Refused {
             relative: self.tolerance.relative,
             absolute: self.tolerance.absolute,
@@ -573,12 +584,18 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
     }
 }
 
-/// The factor of the size after a step with this error was refused. A step whose equations were not solved may be a little
+/// The factor of the size after a step with this error was refused, of an H that may jump or not. A step whose equations were not solved may be a little
 /// too long for them, or far too long.
 #[cfg_attr(not(unoptimised), inline(always))]
-fn shrink<T: Real>(error: T, attempts: u32) -> T {
-    let [least, most] = [T::constant(0.1, 0.0), T::constant(0.9, 0.0)];
-    let unknown = T::constant(if attempts == 1 { 0.7 } else { 0.25 }, 0.0);
+fn shrink<T: Real>(error: T, attempts: u32, may_jump: bool) -> T {
+    let unknown = if attempts == 1 { 0.7 } else { 0.25 };
+    // The error of a step across a jump of the gradient is proportional to its size.
+    let most = if may_jump && attempts > 2 {
+        unknown
+    } else {
+        0.9
+    };
+    let [least, unknown, most] = [0.1, unknown, most].map(|x| T::constant(x, 0.0));
     let factor = root(T::constant(AIM, 0.0) / error);
     let factor = T::select(factor.lt(most), larger(factor, least), most);
     T::select(error.finite(), factor, unknown)

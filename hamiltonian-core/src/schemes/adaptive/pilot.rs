@@ -99,7 +99,9 @@ fn is_slack<T: Real, S: System, M: Estimates<S>>(
     let [scale, _] = scale_at(map, h, t, z.of.point(), &mut work.derivatives);
     let longer = h.abs() * number(SLACK);
     let longest = fixed(scale.sqrt().sqrt().recip()) * number(LARGEST[1]);
-    number::<T>(SLACK).le(factor(error, FARTHEST)) & longer.le(longest)
+    // Without forces there is no Q.
+    let is_free = !scale.equals(scale);
+    number::<T>(SLACK).le(factor(error, FARTHEST)) & (longer.le(longest) | is_free)
 }
 
 /// Chooses anew, in these lanes, where varying steps were refused too often some steps ago, or constant ones are shorter

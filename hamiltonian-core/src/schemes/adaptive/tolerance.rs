@@ -103,6 +103,34 @@ pub trait Estimates<S: System>: OneStep + Scheme<S> {
     ) -> (u64, [T; 2]);
 }
 
+/// A system with a scheme that follows a tolerance, for
+/// [`Integrator::to_tolerance`](crate::Integrator::to_tolerance).
+///
+/// `hamiltonian!` implements it: the scheme is [`GaussNystrom`] if T is proven to be quadratic and no
+/// force acts, and [`Gauss`] otherwise, each with eight stages. A system written by hand names its scheme:
+///
+/// ```
+/// use hamiltonian::prelude::*;
+/// use hamiltonian::schemes::ToTolerance;
+#[doc = include_str!("../../doc/oscillator.md")]
+///
+/// fn scheme<S: ToTolerance>(_: &S) -> String {
+///     S::Scheme::default().entry().to_string()
+/// }
+/// use hamiltonian::schemes::author::Listed;
+/// assert_eq!(scheme(&Oscillator {}), "GaussNystrom (8 stages)");
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` names no scheme that follows a tolerance",
+    label = "this run takes its scheme from the system",
+    note = "in generic code bound the system, `S: ToTolerance`",
+    note = "a system written by hand: `impl ToTolerance for … {{ type Scheme = Gauss<8>; }}`"
+)]
+pub trait ToTolerance: System + Sized {
+    /// The scheme.
+    type Scheme: Estimates<Self> + Default;
+}
+
 /// The map of the scheme `M` over `T`, which carries the same as `M` does.
 pub(super) type MapBy<M, S, T> = <M as Scheme<S>>::Map<T>;
 /// Its scratch.
@@ -206,6 +234,31 @@ impl<T: Real> Estimate<T> {
     fn new(method: &Collocation<STAGES>, tolerance: Tolerance) -> Self {
         let weights = method.last_coefficients().map(|row| row.map(constant));
         Estimate { tolerance, weights }
+    }
+
+    /// Σ |∂H/∂xᵢ|·(the tolerated error of xᵢ) of a step, and Σ |xᵢ·∂H/∂xᵢ|. `slope` is J∇H.
+    pub(super) fn change_of_energy<V: Vector<Scalar = T>>(
+        &self,
+        before: &Point<V>,
+        after: &Point<V>,
+        slope: &Point<V>,
+    ) -> [T; 2] {
+        let [mut tolerated, mut size] = [T::zero(); 2];
+        for (before, after, slope) in [
+            (&before.q, &after.q, &slope.p),
+            (&before.p, &after.p, &slope.q),
+        ] {
+            let group = Tolerated::of(self.tolerance, before, after);
+            for k in 0..V::PARTS {
+                for i in 0..slope.part(k).len() {
+                    let [from, to] = [before.part(k)[i], after.part(k)[i]];
+                    let slope = slope.part(k)[i].abs();
+                    tolerated += slope * group.error(from, to);
+                    size += slope * larger(from.abs(), to.abs());
+                }
+            }
+        }
+        [tolerated, size]
     }
 
     /// The last Legendre coefficient r of number `i` of part `k` of the slopes in units of its largest size, and that

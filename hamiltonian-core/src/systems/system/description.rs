@@ -233,6 +233,27 @@ impl Description {
         missing: Cow::Borrowed(&[]),
     };
 
+    /// True if the formula has a function that is not smooth: H, or a derivative of it, may jump.
+    pub(crate) fn is_piecewise(&self) -> bool {
+        const FUNCTIONS: [&str; 8] = [
+            "abs(",
+            "sign(",
+            "min(",
+            "max(",
+            "floor(",
+            "round(",
+            "remainder(",
+            "if ",
+        ];
+        let is_called = |name: &str| {
+            self.formula.match_indices(name).any(|(at, _)| {
+                let before = self.formula[..at].chars().next_back();
+                !before.is_some_and(|c| c.is_alphanumeric() || c == '_')
+            })
+        };
+        FUNCTIONS.iter().any(|name| is_called(name)) || self.formula.contains(" % ")
+    }
+
     /// The description of a system of which its name and its variables are known.
     #[must_use]
     pub const fn new(name: &'static str, groups: &'static [Group]) -> Self {

@@ -1,0 +1,131 @@
+//! Runs to a tolerance through places where H or its gradient jumps: they resolve the place, or end there with an error.
+
+use hamiltonian::errors::{Error, StepError};
+use hamiltonian::prelude::*;
+use std::f64::consts::PI;
+
+hamiltonian! {
+    /// Soft walls, in which the derivative of the force jumps.
+    pub struct Walls { w = 2.0 }
+    let over = max(abs(x) - w, 0);
+    H(x; p) = p^2/2 + 3*over^2/2
+}
+
+hamiltonian! {
+    /// A ball on a soft floor, where the force jumps.
+    pub struct Ball { floor_at = 0.5 }
+    let x = height - floor_at;
+    H(height; p) = p^2/2 + if x < 0 { 50*x^2 } else { 9.81*x }
+}
+
+hamiltonian! {
+    /// An oscillator with a sill, where H jumps.
+    pub struct Sill { a = 0.3 }
+    H(x; p) = p^2/2 + x^2/2 + sign(x - a)/10
+}
+
+hamiltonian! {
+    /// Stairs without another force, of an H that does not separate.
+    pub struct Stairs {}
+    H(x, y; p, p_y) = (1 + y^2)*p^2/2 + p_y^2/2 - floor(x)/10
+}
+
+hamiltonian! {
+    /// An oscillator with dry friction, which comes to rest.
+    pub struct Dry {}
+    H(x; p) = p^2/2 + x^2/2;
+    force(x; p) = -sign(p)/10
+}
+
+/// Free flight at the speed 1, and half an oscillation in each wall. Steps that see stages alone miss a wall that begins
+/// between the last stage and the end: the error at 1e-9 was 1e-3 then.
+#[test]
+fn a_jump_of_the_derivative_of_a_force_is_resolved() {
+    let exact = 3.0 - 2.0 * PI / 3.0_f64.sqrt();
+    for (tolerance, bound) in [(1e-6, 1e-5), (1e-9, 1e-7), (1e-12, 1e-9)] {
+        let start = State::new([1.0], [1.0]);
+        let mut run = Integrator::to_tolerance(&Walls::default(), start, tolerance).unwrap();
+        let end = run.advance_until(10.0).unwrap();
+        println!(
+            "{tolerance:e}: {:e}, {} steps",
+            end.q[0] - exact,
+            run.steps()
+        );
+        assert!((end.q[0] - exact).abs() < bound, "{end:?}");
+        assert!((end.p[0] - 1.0).abs() < bound, "{end:?}");
+    }
+    // Walls that the orbit does not reach, as a negative control.
+    let start = State::new([1.0], [1.0]);
+    let mut run = Integrator::to_tolerance(&Walls { w: 20.0 }, start, 1e-9).unwrap();
+    assert_eq!(run.advance_until(10.0).unwrap().q[0], 11.0);
+    assert_eq!(run.refused_steps(), 0);
+}
+
+/// A run through a jump of the force has the right energy, or ends at a jump.
+#[test]
+fn a_jump_of_a_force_gives_no_wrong_number() {
+    let system = Ball::default();
+    for height in [1.5, 1.6, 1.73, 2.0] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let start = State::new([height], [0.0]);
+            let energy = system.energy(&start);
+            let mut run = Integrator::to_tolerance(&system, start, tolerance).unwrap();
+            match run.advance_until(5.0) {
+                Ok(end) => {
+                    let error = system.energy(&end) / energy - 1.0;
+                    println!("{height}, {tolerance:e}: {error:e}, {} steps", run.steps());
+                    assert!(error.abs() < 1e-6, "{error:e}");
+                }
+                Err(error) => {
+                    println!("{height}, {tolerance:e}: {error}");
+                    assert!(matches!(error, Error::Step(StepError::Refused { .. })));
+                    let x = run.state().q[0] - system.floor_at;
+                    assert!(x.abs() < 1e-6, "{x:e}");
+                }
+            }
+        }
+    }
+}
+
+/// The gradient says nothing of a jump of H.
+#[test]
+fn a_jump_of_h_is_an_error_with_its_time() {
+    fn refused<S>(system: &S, start: StateOf<S>) -> (Result<StateOf<S>, Error>, f64)
+    where
+        S: hamiltonian::schemes::ToTolerance,
+        hamiltonian::schemes::Adaptive<S::Scheme>: Scheme<S>,
+    {
+        let mut run = Integrator::to_tolerance(system, start, 1e-9).unwrap();
+        let end = run.advance_until(10.0);
+        (end, run.time())
+    }
+    // cos t = 0.3 at first.
+    let (end, time) = refused(&Sill::default(), State::new([1.0], [0.0]));
+    let error = end.unwrap_err();
+    println!("{error}");
+    assert!((time - 0.3_f64.acos()).abs() < 1e-9, "{time}");
+    let Error::Step(StepError::Jumped { before, after, .. }) = &error else {
+        panic!("{error}")
+    };
+    assert!((before - 0.6).abs() < 1e-9 && (after - before).abs() > 0.09);
+    assert!(error.to_string().contains("end the run at an event"));
+    let (end, time) = refused(&Stairs {}, State::new([0.1, 0.0], [1.0, 0.0]));
+    assert!(matches!(end, Err(Error::Step(StepError::Jumped { .. }))));
+    assert!((time - 0.9).abs() < 1e-9, "{time}");
+    // An orbit that stays on one side of the sill, as a negative control.
+    let (end, _) = refused(&Sill::default(), State::new([0.2], [0.0]));
+    assert!((end.unwrap().q[0] - 0.2 * 10.0_f64.cos()).abs() < 1e-8);
+}
+
+#[test]
+fn friction_that_holds_is_an_error() {
+    let start = State::new([1.0], [0.0]);
+    let mut run = Integrator::to_tolerance(&Dry {}, start, 1e-9).unwrap();
+    let error = run.advance_until(20.0).unwrap_err();
+    assert!(error.to_string().contains("its gradient jumps"), "{error}");
+    // A half-period takes 0.2 of the amplitude, until the spring no longer overcomes the friction.
+    assert!(
+        (run.time() / PI - (run.time() / PI).round()).abs() < 1e-3,
+        "{error}"
+    );
+}

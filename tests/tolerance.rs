@@ -8,9 +8,10 @@ use crate::allocator::allocations;
 use crate::common::is_heavy;
 use hamiltonian::errors::{Error, StartError, StepError};
 use hamiltonian::lanes::DoubleDouble;
+use hamiltonian::nalgebra::SVector;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::author::Listed;
-use hamiltonian::schemes::{Adaptive, ToTolerance, Tolerance};
+use hamiltonian::schemes::{Adaptive, Density, Paced, ToTolerance, Tolerance};
 use std::f64::consts::TAU;
 
 hamiltonian! {
@@ -268,6 +269,58 @@ fn varying_steps_do_not_drift() {
         run.advance(1).unwrap().clone()
     };
     let drifted = tenths(&Kepler {}, n, energy, &mut steps);
+    println!("negative control: {drifted:?}");
+    assert!(drifted[9] > 3.0 * drifted[1], "{drifted:?}");
+}
+
+/// The density of steps of an oscillator with the restoring force q³: √(1 + 3q²).
+#[derive(Debug, Clone)]
+struct Stiffness;
+
+impl Density<Oscillator> for Stiffness {
+    fn rate<T: Real>(
+        &self,
+        _: T,
+        q: &SVector<T, 1>,
+        _: &SVector<T, 1>,
+        dq: &SVector<T, 1>,
+        _: &SVector<T, 1>,
+    ) -> T {
+        let three = T::constant(3.0, 0.0);
+        three * q[0] * dq[0] / (T::one() + three * q[0] * q[0])
+    }
+}
+
+/// Reversible steps of varying length on an anharmonic oscillator: the error of H is the random walk of its rounding. Steps
+/// by the same density at the point before them, as a negative control, drift.
+#[test]
+fn varying_steps_of_an_oscillator_stay_at_rounding() {
+    let n = if is_heavy() { 10_000_000 } else { 20_000 };
+    let start = || State::new([10.0], [0.0]);
+    let energy = quartic().energy(&start());
+    let scheme = Paced::new(BlanesMoan6, Stiffness);
+    let mut run = Integrator::new(&quartic(), scheme, start(), 3e-4).unwrap();
+    let mut sizes = [f64::INFINITY, 0.0_f64];
+    let kept = tenths(&quartic(), n, energy, || {
+        let before = run.time();
+        let state = run.advance(1).unwrap().clone();
+        let size = run.time() - before;
+        sizes = [sizes[0].min(size), sizes[1].max(size)];
+        state
+    });
+    println!("{kept:?}, steps of {sizes:?}");
+    assert!(sizes[1] > 10.0 * sizes[0], "{sizes:?}");
+    // Each step rounds numbers that change H by its own rounding.
+    let walk = (n as f64).sqrt() * f64::EPSILON * energy;
+    assert!(kept[9] < 4.0 * walk, "{kept:?} beside {walk:e}");
+
+    let scheme = GaussNystrom::<2>::default();
+    let mut run = Integrator::new(&quartic(), scheme, start(), 1e-3).unwrap();
+    let drifted = tenths(&quartic(), n.min(100_000), energy, || {
+        let q = run.state().q[0];
+        run.change_step(0.01 / (1.0 + 3.0 * q * q).sqrt()).unwrap();
+        run.advance(1).unwrap().clone()
+    });
     println!("negative control: {drifted:?}");
     assert!(drifted[9] > 3.0 * drifted[1], "{drifted:?}");
 }

@@ -22,15 +22,22 @@ pub(crate) fn is_inside<T: Real, S: System>(
     is_moderate(prepared.description(), state) || undefined::<T, S>(prepared, state).is_none()
 }
 
+/// H is finite at states all of whose numbers are smaller; 0 if there is no such bound.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn bound_of_moderate<T: Real>(system: &Description) -> f64 {
+    match system.growth {
+        // Scalars of less than double precision have smaller exponents.
+        Some(growth) if T::epsilon() <= f64::EPSILON => {
+            f64::from_bits((1023 + EXPONENT / u64::from(growth.max(1))) << 52)
+        }
+        _ => 0.0,
+    }
+}
+
 /// Returns true if the numbers of a state are so small that H is finite there.
 #[cfg_attr(not(unoptimised), inline(always))]
 fn is_moderate<V: Vector>(system: &Description, state: &State<V>) -> bool {
-    // Scalars of less than double precision have smaller exponents.
-    let growth = match system.growth {
-        Some(growth) if V::Scalar::epsilon() <= f64::EPSILON => growth,
-        _ => return false,
-    };
-    let bound = f64::from_bits((1023 + EXPONENT / u64::from(growth.max(1))) << 52);
+    let bound = bound_of_moderate::<V::Scalar>(system);
     let mut is_moderate = state.t.magnitude() < bound;
     for vector in [&state.q, &state.p] {
         for k in 0..V::PARTS {
@@ -81,11 +88,23 @@ pub(crate) fn write_state<V: Vector>(
 /// member is a prepared system and a state of its shape.
 #[inline(never)]
 pub(crate) fn inside<'a, T: Real, S: System + 'a>(
-    members: impl Iterator<Item = Option<(&'a S::Prepared<T>, &'a State<VectorOf<S, T>>)>>,
+    members: impl Iterator<Item = Option<(&'a S::Prepared<T>, &'a State<VectorOf<S, T>>)>> + Clone,
     rows: &[T],
     lanes: usize,
 ) -> Vec<bool> {
     let mut inside = vec![true; lanes];
+    // Most often the numbers of all are moderate.
+    let mut bound = f64::INFINITY;
+    for (prepared, _) in members.clone().flatten() {
+        bound = bound.min(bound_of_moderate::<T>(prepared.description()));
+    }
+    let mut are_moderate = true;
+    for number in rows {
+        are_moderate &= number.magnitude() < bound;
+    }
+    if are_moderate {
+        return inside;
+    }
     let mut of_shape: Option<State<VectorOf<S, T>>> = None;
     for (lane, member) in members.enumerate() {
         let Some((prepared, shape)) = member else {

@@ -6,6 +6,7 @@
 //! `block` writes every step. The other files give its `Writer` methods, one file a kind of loop.
 
 pub mod block;
+pub mod calls;
 pub mod iteration;
 pub mod join;
 pub mod pairs;

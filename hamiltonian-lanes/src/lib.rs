@@ -64,5 +64,7 @@ mod double_double;
 mod level;
 
 pub use double_double::{DoubleDouble, ParseDoubleDoubleError};
-pub use hamiltonian_real::{Dual, Mask, Pack, Parameter, Real, computed_together, itself_in_lanes};
+pub use hamiltonian_real::{
+    Dual, Mask, OfNumbers, Pack, Parameter, Real, computed_together, itself_in_lanes,
+};
 pub use level::{AtHand, Base, Called, Cpu, Kernel, Level, Nf, W, dispatch, dispatch_at_most};

@@ -43,7 +43,7 @@ mod float;
 mod dual;
 
 pub use dual::Dual;
-pub use real::{Mask, Pack, Parameter, Real};
+pub use real::{Mask, OfNumbers, Pack, Parameter, Real};
 
 /// The parts for crates that define further scalars.
 ///

@@ -3,10 +3,12 @@
 //! Input: nothing. Output: [`Real`], [`Mask`], [`Parameter`]. Invariant: a `Real` is a value of fixed
 //! size without heap memory; all its operations are total (NaN and infinities instead of panics).
 
+mod calls;
 pub(crate) mod kepler;
 mod parameter;
 pub mod series;
 
+pub use calls::OfNumbers;
 pub use parameter::{Parameter, words};
 
 use core::fmt::Debug;
@@ -338,6 +340,15 @@ pub trait Real:
         }
         entry(f)
     }
+    /// A function in a function of its own, as [`out_of_line`](Real::out_of_line). A pack of several registers calls it with
+    /// one after the other, where its own functions compute all in lock-step; see [`OfNumbers`].
+    #[inline(always)]
+    fn apart<F: OfNumbers<N>, const N: usize>(f: F, x: [Self; N]) -> Self {
+        Self::out_of_line(
+            #[inline(always)]
+            || f.of(x),
+        )
+    }
 
     /// 0.
     #[inline(always)]
@@ -573,34 +584,6 @@ macro_rules! itself_in_lanes {
             if let Some(first) = into.first_mut() {
                 *first = from;
             }
-        }
-    };
-}
-
-/// Calls a macro with the functions of one number whose independent calls are faster together: a name, the method of
-/// [`Real`], and the least number of calls. Core computes them, and the engine looks for them.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! computed_together {
-    ($list:ident) => {
-        // From how many calls on the chain of an evaluation is shorter by a fifth or more. (Zen 5, ns of 2, 4 and 8
-        // calls alone and together: exp 19 → 17, 23 → 18, 41 → 21; ln 25 → 19, 27 → 19, 49 → 22; sines and cosines
-        // together 20 → 20, 28 → 23, 56 → 34. Sines alone, cosines, inverse sines and error functions are slower
-        // together.)
-        $list! {
-            Cbrt cbrt 4;
-            Tan tan 4;
-            Atan atan 2;
-            Sinh sinh 2;
-            Cosh cosh 2;
-            Tanh tanh 2;
-            Asinh asinh 2;
-            Acosh acosh 2;
-            Atanh atanh 2;
-            Exp exp 3;
-            ExpM1 exp_m1 4;
-            Ln ln 2;
-            Ln1p ln_1p 4;
         }
     };
 }

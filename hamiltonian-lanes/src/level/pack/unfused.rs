@@ -5,10 +5,11 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::apart::Unfused;
 use super::{Base, assigning};
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Rare, Word};
-use hamiltonian_real::{Pack, Real, itself_in_lanes};
+use hamiltonian_real::{OfNumbers, Pack, Real, itself_in_lanes};
 
 /// A pack whose [`fma`](Real::fma) rounds twice, as that of `f64` does: the bits of single runs on
 /// every CPU, for 20 to 50 % more time on levels that fuse.
@@ -131,6 +132,14 @@ impl<P: Base> Real for Nf<P> {
     #[inline(always)]
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
         P::out_of_line(f)
+    }
+    #[inline(always)]
+    fn apart<F: OfNumbers<N>, const N: usize>(f: F, x: [Self; N]) -> Self {
+        let mut fused = [P::default(); N];
+        for (to, x) in fused.iter_mut().zip(&x) {
+            *to = x.0;
+        }
+        Self(P::by_registers(Unfused(f), fused))
     }
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
         Self(P::read_words(next))

@@ -7,10 +7,11 @@
 use core::fmt::{Debug, Formatter, Result};
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
+use super::apart::Apart;
 use super::{Base, assigning};
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Bits, Rare, Word};
-use hamiltonian_real::{Mask, Pack, Real, itself_in_lanes};
+use hamiltonian_real::{Mask, OfNumbers, Pack, Real, itself_in_lanes};
 
 /// `K` packs as one of `K` times as many lanes; pack 0 has the first lanes.
 ///
@@ -275,6 +276,10 @@ impl<P: Base, const K: usize> Real for W<P, K> {
     #[inline(always)]
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
         P::out_of_line(f)
+    }
+    #[inline(always)]
+    fn apart<F: OfNumbers<N>, const N: usize>(f: F, x: [Self; N]) -> Self {
+        Self::by_registers(Apart(f), x)
     }
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
         Self([(); K].map(|()| P::read_words(next)))

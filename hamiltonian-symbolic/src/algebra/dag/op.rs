@@ -8,7 +8,7 @@
 
 use super::{Dag, Node};
 use crate::rational::Rational;
-use hamiltonian_real::Real;
+use hamiltonian_real::{OfNumbers, Real};
 
 /// The parity of a function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -177,10 +177,22 @@ macro_rules! operations {
             pub fn eval_apart<T: Real>(self, arguments: &[T]) -> T {
                 match (self, arguments) {
                     $((Op::$variant, &[$($arg),+]) => {
-                        T::out_of_line(
+                        #[derive(Clone, Copy)]
+                        struct Apart;
+                        impl OfNumbers<{ [$(stringify!($arg)),+].len() }> for Apart {
                             #[inline(always)]
-                            || operations!(@call $name $($arg)+),
-                        )
+                            fn of<T: Real>(self, [$($arg),+]: [T; [$(stringify!($arg)),+].len()]) -> T {
+                                operations!(@call $name $($arg)+)
+                            }
+                        }
+                        if const { Op::$variant.is_short_or_frequent() } {
+                            T::out_of_line(
+                                #[inline(always)]
+                                || Apart.of([$($arg),+]),
+                            )
+                        } else {
+                            T::apart(Apart, [$($arg),+])
+                        }
                     })+
                     (op, arguments) => unreachable!("{op:?} of {} arguments", arguments.len()),
                 }
@@ -382,6 +394,15 @@ fn bell(dag: &mut Dag, x: Node, k: i64) -> Node {
 }
 
 impl Op {
+    /// True if packs compute the function of all their registers in lock-step: it is a few operations, or is called so often
+    /// that a sixth to a tenth of the time of a step is worth several times the code.
+    const fn is_short_or_frequent(self) -> bool {
+        use Op::{Abs, Cos, Exp, Floor, Ln, Max, Min, Round, Sign, Sin, Sqrt};
+        matches!(
+            self,
+            Abs | Cos | Exp | Floor | Ln | Max | Min | Round | Sign | Sin | Sqrt
+        )
+    }
     /// The function's row.
     #[must_use]
     pub fn row(self) -> &'static OpRow {

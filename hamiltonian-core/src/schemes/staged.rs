@@ -169,15 +169,18 @@ pub(super) trait StagedMap<const S: usize>: Map + Sized {
         work: &mut Self::Work,
     ) {
         let mut made = 0;
-        while made < n && S >= LEAST && self.has_bundles() {
-            let clock_of = (clock, from + made, n - made);
-            let Some(steps) = self.steps_in_lanes(clock_of, z, work, &mut Uninspected) else {
-                break;
-            };
-            made += steps;
-            if made < n {
-                self.complete_unsolved(clock.at(from + made), z, work);
-                made += 1;
+        // The condition is constant, so that no code is compiled for the lanes of few stages.
+        if const { S >= LEAST } {
+            while made < n && self.has_bundles() {
+                let clock_of = (clock, from + made, n - made);
+                let Some(steps) = self.steps_in_lanes(clock_of, z, work, &mut Uninspected) else {
+                    break;
+                };
+                made += steps;
+                if made < n {
+                    self.complete_unsolved(clock.at(from + made), z, work);
+                    made += 1;
+                }
             }
         }
         while made < n {

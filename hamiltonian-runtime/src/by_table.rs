@@ -4,14 +4,12 @@
 //! take a splitting. Invariant: a step applies the same flows in the same order as the scheme of the type, so the bits are
 //! the same; the map is compiled once.
 
-use crate::beside::PartWork;
-use crate::cycle::{Cycle, CycleFrame};
 use crate::flow::{Inside, PartFlow};
+use crate::in_frame::InFrameMap;
 use crate::prepared::{Flat, Prepared};
 use crate::system::{RuntimePieces, RuntimeSystem};
 use hamiltonian_core::schemes::author::{
-    Cause, Clock, Description, Durations, Dynamics, Entry, Listed, Map, Point, Splitting, Step,
-    Zigzag,
+    Description, Durations, Dynamics, Entry, Listed, Point, Splitting, Step, Zigzag,
 };
 use hamiltonian_core::{Scheme, State};
 use hamiltonian_lanes::Real;
@@ -72,6 +70,22 @@ impl<M: Listed + Copy, W: Splitting> Splitting for Named<M, W> {
 /// A table that is never freed, so that it is copied as a reference.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Weights(pub(crate) &'static Table);
+
+/// The flows of a table for a step.
+pub(crate) type Flows<T> = Zigzag<Point<Flat<T>>, PartFlow<T>, Inside<T>, Weights>;
+
+impl Weights {
+    /// The flows on these pieces.
+    #[inline(always)]
+    pub(crate) fn flows<T: Real>(
+        &self,
+        pieces: &RuntimePieces,
+        prepared: &Prepared<T>,
+        step: Step<T>,
+    ) -> Flows<T> {
+        Zigzag::new(self, pieces, prepared, step)
+    }
+}
 
 impl Debug for Weights {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -151,7 +165,7 @@ impl Listed for ByTable {
 
 impl Scheme<RuntimeSystem> for ByTable {
     type Carried = Point<<RuntimeSystem as hamiltonian_core::System>::Shape>;
-    type Map<T: Real> = ByTableMap<T>;
+    type Map<T: Real> = InFrameMap<Flows<T>, T>;
 
     fn times_of_jumps(&self, of: &Description) -> [f64; 2] {
         self.weights.times_on(self.moves.on(of).1)
@@ -159,73 +173,10 @@ impl Scheme<RuntimeSystem> for ByTable {
 
     fn prepare<T: Real>(&self, prepared: &Prepared<T>, step: Step<T>) -> Self::Map<T> {
         let (pieces, _) = self.moves.on(prepared.description());
-        let flows = Zigzag::new(&self.weights, &pieces, prepared, step);
-        ByTableMap {
-            cycle: Cycle::new(flows.flows()),
-            flows,
-        }
+        InFrameMap::of(self.weights.flows(&pieces, prepared, step))
     }
 
     fn start<T: Real>(&self, _: &Prepared<T>, state: &State<Flat<T>>, _: T) -> Point<Flat<T>> {
         state.point()
-    }
-}
-
-/// A splitting for a given step, whose flows are one code where they are short.
-#[derive(Debug)]
-pub(crate) struct ByTableMap<T: Real> {
-    flows: Zigzag<Point<Flat<T>>, PartFlow<T>, Inside<T>, Weights>,
-    cycle: Option<Cycle<T>>,
-}
-
-impl<T: Real> Map for ByTableMap<T> {
-    type Carried = Point<Flat<T>>;
-    /// The scratch of the flows, and the frame.
-    type Work = ((PartWork<T>, PartWork<T>), CycleFrame<T>);
-
-    #[inline(always)]
-    fn open(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
-        self.flows.open(t, z, &mut work.0);
-    }
-    #[inline(always)]
-    fn body(&self, t: T, end: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
-        self.flows.body(t, end, z, &mut work.0);
-    }
-    #[inline(always)]
-    fn close(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
-        self.flows.close(t, z, &mut work.0);
-    }
-    #[inline(always)]
-    fn closing(&self) -> [bool; 2] {
-        self.flows.closing()
-    }
-    #[inline(always)]
-    fn join(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
-        self.flows.join(t, z, &mut work.0);
-    }
-    #[cold]
-    fn explain(
-        &self,
-        t: T,
-        end: T,
-        first: bool,
-        z: &mut Point<Flat<T>>,
-        work: &mut Self::Work,
-    ) -> Cause {
-        self.flows.explain(t, end, first, z, &mut work.0)
-    }
-    #[inline(always)]
-    fn go_on(
-        &self,
-        clock: Clock<T>,
-        made: u64,
-        end: u64,
-        z: &mut Point<Flat<T>>,
-        work: &mut Self::Work,
-    ) {
-        match &self.cycle {
-            Some(cycle) => cycle.go_on(|k| clock.at(k), (made, end), z, &mut work.1),
-            None => self.flows.go_on(clock, made, end, z, &mut work.0),
-        }
     }
 }

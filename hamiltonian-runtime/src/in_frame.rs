@@ -1,16 +1,15 @@
-//! Processed schemes whose kernel is made in a frame.
+//! Steps of splittings that are made in a frame.
 //!
-//! Input: a processed scheme, and the table of its kernel. Output: [`InFrame`], the same scheme, whose steps are those of a
-//! [`Cycle`]. Invariant: the flows of the kernel in their order, so the bits are those of the scheme.
+//! Input: the flows of a splitting, and a map whose steps they are. Output: [`InFrameMap`], the same map, whose steps are those
+//! of a [`Cycle`] where the flows are short, and [`InFrame`], a processed scheme by the table of its kernel. Invariant: the
+//! flows in their order, so the bits are those of the map.
 
-use crate::by_table::Weights;
+use crate::by_table::{Flows, Weights};
 use crate::cycle::{Cycle, CycleFrame};
-use crate::erased::once;
-use crate::flow::{Inside, PartFlow};
 use crate::prepared::{Flat, Prepared};
 use crate::system::{RuntimePieces, RuntimeSystem};
 use hamiltonian_core::schemes::author::{
-    Cause, Clock, Description, Entry, Listed, Map, Point, Step, Zigzag,
+    Cause, Clock, Description, Entry, Listed, Map, Point, Step,
 };
 use hamiltonian_core::{Error, Scheme, State, System};
 use hamiltonian_lanes::Real;
@@ -51,8 +50,7 @@ where
     }
 
     fn prepare<T: Real>(&self, prepared: &Prepared<T>, step: Step<T>) -> Self::Map<T> {
-        let flows: Zigzag<Point<Flat<T>>, PartFlow<T>, Inside<T>, Weights> =
-            Zigzag::new(&self.kernel, &RuntimePieces::All, prepared, step);
+        let flows = self.kernel.flows(&RuntimePieces::All, prepared, step);
         InFrameMap {
             cycle: Cycle::new(flows.flows()),
             map: self.scheme.prepare(prepared, step),
@@ -69,11 +67,21 @@ where
     }
 }
 
-/// The map of a processed scheme, with the steps of its kernel as one code where they are short.
+/// A map, with its steps as one code where they are short.
 #[derive(Debug)]
 pub(crate) struct InFrameMap<K, T: Real> {
     map: K,
     cycle: Option<Cycle<T>>,
+}
+
+impl<T: Real> InFrameMap<Flows<T>, T> {
+    /// The map of a splitting.
+    pub(crate) fn of(flows: Flows<T>) -> Self {
+        InFrameMap {
+            cycle: Cycle::new(flows.flows()),
+            map: flows,
+        }
+    }
 }
 
 impl<T: Real, K: Map<Carried = Point<Flat<T>>>> Map for InFrameMap<K, T> {
@@ -81,15 +89,27 @@ impl<T: Real, K: Map<Carried = Point<Flat<T>>>> Map for InFrameMap<K, T> {
     /// The scratch of the map, and the frame.
     type Work = (K::Work, CycleFrame<T>);
 
+    #[inline(always)]
     fn open(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
         self.map.open(t, z, &mut work.0);
     }
+    /// Compiled once, for one step and for a loop over them.
+    #[inline(always)]
     fn body(&self, t: T, end: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
-        once(&self.map, [t, end], z, &mut work.0);
+        T::out_of_line(
+            #[inline(always)]
+            || self.map.body(t, end, z, &mut work.0),
+        );
     }
+    #[inline(always)]
     fn close(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
         self.map.close(t, z, &mut work.0);
     }
+    #[inline(always)]
+    fn closing(&self) -> [bool; 2] {
+        self.map.closing()
+    }
+    #[inline(always)]
     fn join(&self, t: T, z: &mut Point<Flat<T>>, work: &mut Self::Work) {
         self.map.join(t, z, &mut work.0);
     }
@@ -104,6 +124,7 @@ impl<T: Real, K: Map<Carried = Point<Flat<T>>>> Map for InFrameMap<K, T> {
     ) -> Cause {
         self.map.explain(t, end, first, z, &mut work.0)
     }
+    #[inline(always)]
     fn go_on(
         &self,
         clock: Clock<T>,

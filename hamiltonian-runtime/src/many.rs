@@ -4,7 +4,8 @@
 //! theirs. Invariant: the operations and the carried numbers are those of the scheme, so the bits are the same; core's
 //! ensembles and sweeps are compiled once for all of them.
 
-use crate::by_table::{ByTable, ByTableMap};
+use crate::by_table::{ByTable, Flows};
+use crate::in_frame::InFrameMap;
 use crate::prepared::{Flat, Prepared};
 use crate::system::RuntimeSystem;
 use hamiltonian_core::schemes::author::{
@@ -51,6 +52,7 @@ impl Listed for Many {
 /// The carried value of all of them is that of Gauss' method. A splitting has no numbers behind the point, and the midpoint
 /// rule has its slope in the place of the low words.
 type Carried<T> = Carries<Flat<T>, 4>;
+type ByTableMap<T> = InFrameMap<Flows<T>, T>;
 type MidpointMap<T> = <ImplicitMidpoint as Scheme<RuntimeSystem>>::Map<T>;
 type GaussMap<T> = <Gauss<4> as Scheme<RuntimeSystem>>::Map<T>;
 

@@ -8,7 +8,6 @@ use crate::machine::Arrays;
 use crate::prepared::{Flat, Prepared, at};
 use crate::system::RuntimeSystem;
 use hamiltonian_core::Vector;
-use hamiltonian_core::private::hessian_by_gradient;
 use hamiltonian_core::schemes::author::{
     Arithmetic, Description, Dynamics, InPack, Kept, VectorField, gather,
 };
@@ -154,7 +153,7 @@ impl<T: Real> Dynamics<T> for Prepared<T> {
             ..at(t, q, p)
         };
         if !self.call(Purpose::HessianVector, &[], arrays) {
-            hessian_by_gradient(&self.lifted(), t, [q, p], [vq, vp], [out_q, out_p]);
+            self.hessian_by_gradient(t, [q, p], [vq, vp], [out_q, out_p]);
         }
     }
 

@@ -51,6 +51,7 @@ mod readme {}
 
 mod allocate;
 mod beside;
+mod by_lanes;
 mod by_table;
 mod chain;
 mod code;

@@ -6,7 +6,7 @@
 
 use crate::op::{Change, DEPTH, From, Op, Register, Stage, To};
 use crate::registers::{Home, SHORT};
-use crate::tabulated::{Derivative, Tabulated};
+use crate::tabulated::Tabulated;
 use hamiltonian_lanes::{Mask, Real};
 
 /// The least number of iterations of an innermost loop whose sums are trees.
@@ -198,15 +198,6 @@ pub(crate) fn sin_cos_apart<T: Real>(angle: T) -> (T, T) {
     )
 }
 
-/// A derivative of a function with data, compiled likewise.
-#[inline(always)]
-fn derivative_apart<T: Real>(function: &Tabulated, derivative: Derivative, at: [T; 2]) -> T {
-    T::out_of_line(
-        #[inline(always)]
-        || function.derivative(derivative, at),
-    )
-}
-
 /// A loop that runs.
 #[derive(Clone, Copy)]
 struct Loop {
@@ -327,7 +318,7 @@ macro_rules! operation {
             Op::External(to, function, derivative, a, b) => {
                 let function = &$given.functions[usize::from(function)];
                 let at = [$r[$index(a)], $r[$index(b)]];
-                put!($r, [$($last)?], $index(to), derivative_apart(function, derivative, at));
+                put!($r, [$($last)?], $index(to), function.derivative(derivative, at));
             }
             Op::Store(to, at, change, a, b) => {
                 $arrays.change(to, at as usize, change, [$r[$index(a)], $r[$index(b)]]);

@@ -3,6 +3,7 @@
 //! Input: code, the numbers of parameters. Output: [`Prepared`], which runs its functions.
 //! Invariant: numbers that depend on parameters alone are computed once, those of a step coefficient once for each flow.
 
+use crate::by_lanes::Kept;
 use crate::code::Code;
 use crate::frame::in_frame;
 use crate::machine::{Arrays, Given, run};
@@ -40,6 +41,7 @@ pub struct Prepared<T: Real> {
     /// The kick for −1 and the drift for 1, or the field for −1, of which the gradient is made.
     pub(crate) unit: Arc<Vec<Vec<T>>>,
     pub(crate) arithmetic: Arithmetic,
+    pub(crate) lanes: Kept,
 }
 
 impl<T: Real> fmt::Debug for Prepared<T> {
@@ -134,6 +136,7 @@ impl<T: Real> Prepared<T> {
             pool: Pool::new(),
             unit: Arc::new(Vec::new()),
             arithmetic,
+            lanes: Kept::default(),
         };
         let unit = match made.code.gradient {
             GradientSource::Written => Vec::new(),
@@ -175,16 +178,20 @@ impl<T: Real> Prepared<T> {
 
     /// The system over numbers with derivatives, which are zero.
     pub(crate) fn lifted(&self) -> Prepared<Varied<T>> {
-        let fixed = |numbers: &[T]| numbers.iter().copied().map(constant).collect();
+        self.mapped(|numbers| numbers.iter().copied().map(constant).collect())
+    }
+
+    /// The system over other numbers.
+    pub(crate) fn mapped<U: Real>(&self, map: impl Fn(&[T]) -> Vec<U>) -> Prepared<U> {
         let held = self.held.iter().map(|held| HeldOf {
-            coefficient: fixed(&held.coefficient),
-            evaluation: fixed(&held.evaluation),
-            framed: fixed(&held.framed),
+            coefficient: map(&held.coefficient),
+            evaluation: map(&held.evaluation),
+            framed: map(&held.framed),
         });
         Prepared::whole(
             self.code.clone(),
             held.collect(),
-            fixed(&self.data),
+            map(&self.data),
             self.functions.clone(),
             self.arithmetic,
         )

@@ -3,9 +3,10 @@
 //! Input: core's `Spline` and `Grid`. Output: [`Tabulated`]. Invariant: a derivative is that of emitted code, the value over
 //! dual numbers, so that the bits agree.
 
+use crate::by_lanes::{is_pack, of_two};
 use hamiltonian_core::private::Dual;
 use hamiltonian_core::systems::function::{Function, Grid, Spline};
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{OfNumbers, Real};
 use hamiltonian_symbolic::dag::Partial;
 
 /// A function with data: the value of a parameter `V: fn(r)` or `V: fn(x, y)`.
@@ -72,14 +73,6 @@ impl Derivative {
     }
 }
 
-/// The most words of a number that is taken apart into lanes.
-const WORDS: usize = 128;
-
-/// True for numbers over a pack with no more words.
-const fn is_pack<T: Real>() -> bool {
-    T::LANES > 1 && (T::LANES as usize) << T::DUALS <= WORDS
-}
-
 /// The arguments as dual numbers, argument i as the variable.
 #[inline(always)]
 fn duals<T: Real>(at: [T; 2], i: u8) -> [Dual<T>; 2] {
@@ -106,21 +99,31 @@ impl Tabulated {
         }
     }
 
-    /// A derivative at a point; a spline does not read the second number. Dual numbers over a pack have that of a grid lane by
-    /// lane: a product of three dual numbers inside each other is many products, in each register of the pack.
+    /// A derivative at a point; a spline does not read the second number. Dual numbers over a pack have it lane by lane: a
+    /// product of three dual numbers inside each other is many products, in each register of the pack.
     #[inline(always)]
     pub(crate) fn derivative<T: Real>(&self, derivative: Derivative, at: [T; 2]) -> T {
-        match self {
-            Tabulated::Spline(spline) => spline.derivative(derivative, at),
-            Tabulated::Grid(grid) => {
-                if const { is_pack::<T>() && T::DUALS == 1 } {
-                    by_lanes::<T, Dual<f64>>(grid, derivative, at)
-                } else if const { is_pack::<T>() && T::DUALS == 2 } {
-                    by_lanes::<T, Dual<Dual<f64>>>(grid, derivative, at)
-                } else {
-                    grid.derivative(derivative, at)
-                }
-            }
+        let of = DerivativeOf(self, derivative);
+        if const { is_pack::<T>(1) } {
+            of_two(at, |at: [Dual<f64>; 2]| Real::apart(of, at))
+        } else if const { is_pack::<T>(2) } {
+            of_two(at, |at: [Dual<Dual<f64>>; 2]| Real::apart(of, at))
+        } else {
+            T::apart(of, at)
+        }
+    }
+}
+
+/// A derivative as a function.
+#[derive(Clone, Copy)]
+struct DerivativeOf<'a>(&'a Tabulated, Derivative);
+
+impl OfNumbers<2> for DerivativeOf<'_> {
+    #[inline(always)]
+    fn of<T: Real>(self, at: [T; 2]) -> T {
+        match self.0 {
+            Tabulated::Spline(spline) => spline.derivative(self.1, at),
+            Tabulated::Grid(grid) => grid.derivative(self.1, at),
         }
     }
 }
@@ -151,40 +154,4 @@ impl OfTwo for Grid {
     fn at<T: Real>(&self, at: [T; 2]) -> T {
         self.value(at)
     }
-}
-
-/// A derivative over the scalar `E` of each lane.
-#[inline(always)]
-fn by_lanes<T: Real, E: Real>(grid: &Grid, derivative: Derivative, at: [T; 2]) -> T {
-    // The lanes of the value, then those of its derivative.
-    let lanes = T::LANES as usize;
-    let words = at.map(|x| {
-        let (mut words, mut next) = ([0.0; WORDS], 0);
-        x.write_words(&mut |word| {
-            words[next % WORDS] = word;
-            next += 1;
-        });
-        words
-    });
-    let mut found = [0.0; WORDS];
-    for lane in 0..lanes {
-        let at = words.each_ref().map(|words| {
-            let mut parts = words.iter().skip(lane).step_by(lanes);
-            E::read_words(&mut || parts.next().copied().unwrap_or(f64::NAN))
-        });
-        let mut places = found.iter_mut().skip(lane).step_by(lanes);
-        of_lane(grid, derivative, at).write_words(&mut |word| {
-            if let Some(place) = places.next() {
-                *place = word;
-            }
-        });
-    }
-    let mut words = found.into_iter();
-    T::read_words(&mut || words.next().unwrap_or(f64::NAN))
-}
-
-/// The same of one lane, of which all packs have one copy.
-#[inline(never)]
-fn of_lane<E: Real>(grid: &Grid, derivative: Derivative, at: [E; 2]) -> E {
-    grid.derivative(derivative, at)
 }

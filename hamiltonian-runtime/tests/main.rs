@@ -16,9 +16,9 @@ mod diagnostics;
 #[path = "../../hamiltonian-macros/src/emit/mod.rs"]
 mod emit;
 mod emitted;
+mod lanes;
 mod named;
 mod refusals;
 mod runs;
-mod tabulated;
 mod tolerance;
 mod variables;

@@ -136,9 +136,16 @@ impl<T: Real> Scratch<Carried<T>> for ManyWork<T> {
     }
 }
 
-/// Calls a method of the map with its carried value and its scratch.
+/// Calls a method of the map with its carried value and its scratch, in a function of its own: each is compiled once for all
+/// drivers over a scalar.
 macro_rules! on {
     ($self:ident, $z:ident, $work:ident, ($map:ident, $own:ident, $scratch:ident) => $call:expr) => {
+        T::out_of_line(
+            #[inline(always)]
+            || on!(@here $self, $z, $work, ($map, $own, $scratch) => $call),
+        )
+    };
+    (@here $self:ident, $z:ident, $work:ident, ($map:ident, $own:ident, $scratch:ident) => $call:expr) => {
         match $self {
             ManyMap::Table($map) => {
                 let $own = &mut $z.x;

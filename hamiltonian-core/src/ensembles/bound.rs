@@ -25,8 +25,9 @@ pub(super) fn drive<T: Real, S: System, M: Scheme<S>, O, A: Rounding>(
     scheme: &M,
     host: &mut dyn Host<T, S>,
 ) {
-    // Lanes follow drifts and signs, which an observer keeps. One without data, such as `()`, has none.
-    if const { size_of::<O>() > 0 } {
+    // Lanes follow drifts and signs, which an observer keeps. One without data, such as `()`, has none; interpreted systems
+    // have one copy of the code for all observers.
+    if const { size_of::<O>() > 0 || S::INTERPRETED } {
         dispatch(WorkOnMembers::<T, S, M, A, _>::new(
             scheme,
             DriveMembers::<T, S, true>(host),

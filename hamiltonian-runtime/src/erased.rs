@@ -87,7 +87,7 @@ impl<M: Runs, const ONCE: bool> Erased for Typed<M, ONCE> {
         }))
     }
     fn start(&self, prepared: &Prepared<f64>, state: &State<Flat<f64>>, h: f64) -> Words<f64> {
-        words(&self.0.start(prepared, state, h))
+        words(&started(&self.0, prepared, state, h))
     }
     fn start_alone(
         &self,
@@ -275,14 +275,20 @@ struct Native<M: Runs, const ONCE: bool> {
 type CarriedOf<M> = <<M as Scheme<RuntimeSystem>>::Map<f64> as Map>::Carried;
 type WorkOf<M> = <<M as Scheme<RuntimeSystem>>::Map<f64> as Map>::Work;
 
+/// A start in a function of its own: some schemes make a step in it.
+#[inline(never)]
+fn started<M: Runs>(
+    scheme: &M,
+    prepared: &Prepared<f64>,
+    state: &State<Flat<f64>>,
+    h: f64,
+) -> CarriedOf<M> {
+    scheme.start(prepared, state, h)
+}
+
 /// A step in a function of its own.
 #[inline(never)]
-pub(crate) fn once<M: Map>(
-    map: &M,
-    [t, end]: [ScalarOf<M>; 2],
-    z: &mut M::Carried,
-    work: &mut M::Work,
-) {
+fn once<M: Map>(map: &M, [t, end]: [ScalarOf<M>; 2], z: &mut M::Carried, work: &mut M::Work) {
     map.body(t, end, z, work);
 }
 
@@ -297,7 +303,7 @@ impl<M: Runs, const ONCE: bool> Native<M, ONCE> {
             let Point { q, p } = z.x.clone();
             // For its shape.
             let state = State { t: 0.0, q, p };
-            let carried = self.scheme.start(&self.prepared, &state, self.h);
+            let carried = started(&self.scheme, &self.prepared, &state, self.h);
             let scratch = WorkOf::<M>::like(&carried);
             Box::new((carried, scratch))
         });

@@ -67,7 +67,7 @@ const MAGIC: &[u8; 8] = b"HAMILTON";
 /// changed. Version 4: the formulas of the pieces are apart from that of H, in their order. Version 5: parameters of an H with
 /// loops may be multiplied in another order, a part of a Gauss step begins at the polynomial of the step, and each member of
 /// an ensemble has a count of steps. Version 6: `ImplicitMidpoint` and `Gauss` compute forces from new velocities if H is separable.
-/// Version 7: runs to a tolerance compare H at the ends of steps where it may jump.
+/// Version 7: runs to a tolerance compare H at the ends of steps where it may jump, and add up their time scale in another order.
 const VERSION: u64 = 7;
 
 impl Checkpoint {

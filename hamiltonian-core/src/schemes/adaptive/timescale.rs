@@ -20,58 +20,76 @@ use hamiltonian_lanes::{Mask, Real};
 
 /// The derivatives of an orbit at a point, and scratch.
 pub struct Derivatives<V> {
-    /// The first to the fourth.
+    /// The first to the fourth; 0 before they are found.
     of: [Point<V>; 4],
-    near: Point<V>,
-    slope: Point<V>,
+    /// Two points on the Taylor polynomial, at opposite times, and J∇H there.
+    near: [Point<V>; 2],
+    slopes: [Point<V>; 2],
 }
-
-/// An evaluation of J∇H, at `at`·τ on the Taylor polynomial of degree `degree`. `weight`/τⁿ times its value is a part of
-/// derivative n + 1.
-struct Difference {
-    at: f64,
-    degree: usize,
-    n: usize,
-    weight: f64,
-}
-
-const fn difference(at: f64, degree: usize, n: usize, weight: f64) -> Difference {
-    Difference {
-        at,
-        degree,
-        n,
-        weight,
-    }
-}
-
-/// Central differences. Each derivative is found along the polynomial of those before it.
-const DIFFERENCES: [Difference; 9] = [
-    difference(0.0, 0, 0, 1.0),
-    difference(1.0, 1, 1, 0.5),
-    difference(-1.0, 1, 1, -0.5),
-    difference(1.0, 2, 2, 1.0),
-    difference(-1.0, 2, 2, 1.0),
-    difference(2.0, 3, 3, 0.5),
-    difference(1.0, 3, 3, -1.0),
-    difference(-1.0, 3, 3, 1.0),
-    difference(-2.0, 3, 3, -0.5),
-];
 
 #[cfg_attr(not(unoptimised), inline(always))]
 fn number<T: Real>(x: f64) -> T {
     T::constant(x, 0.0)
 }
 
+/// J∇H at a point.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn slope_at<V: Vector, F: VectorField<V>>(
+    field: &F,
+    t: V::Scalar,
+    point: &Point<V>,
+    to: &mut Point<V>,
+) {
+    to.set_zero();
+    field.add(t, &point.q, &point.p, &mut to.q, &mut to.p);
+}
+
 impl<V: Vector> Derivatives<V> {
     pub(super) fn like(point: &Point<V>) -> Self {
         Derivatives {
             of: [(); 4].map(|()| point.zeros_like()),
-            near: point.zeros_like(),
-            slope: point.zeros_like(),
+            near: [(); 2].map(|()| point.zeros_like()),
+            slopes: [(); 2].map(|()| point.zeros_like()),
         }
     }
 
-    /// Finds Q⁴ and G at a point, with differences over τ. Where the orbit has no time scale, Q is 0 or NaN.
+    /// Finds J∇H at t + x and t − x on the Taylor polynomial of the derivatives found so far.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn evaluate_beside<F: VectorField<V>>(
+        &mut self,
+        field: &F,
+        t: V::Scalar,
+        point: &Point<V>,
+        x: V::Scalar,
+    ) {
+        let [second, third] = [0.5, 1.0 / 6.0].map(number::<V::Scalar>);
+        let square = second * x * x;
+        let cube = third * x * x * x;
+        let [later, earlier] = &mut self.near;
+        for k in 0..Point::<V>::PARTS {
+            let [one, two, three, _] = self.of.each_ref().map(|of| of.part(k));
+            let (later, earlier) = (later.part_mut(k), earlier.part_mut(k));
+            for (i, at) in point.part(k).iter().enumerate() {
+                let even = *at + square * two[i];
+                let odd = x * one[i] + cube * three[i];
+                later[i] = even + odd;
+                earlier[i] = even - odd;
+            }
+        }
+        let [above, below] = &mut self.slopes;
+        slope_at(field, t + x, later, above);
+        slope_at(field, t - x, earlier, below);
+    }
+
+    /// Derivative `n` + 1 `+= weight`·(J∇H later + `sign`·J∇H earlier).
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn add(&mut self, n: usize, weight: V::Scalar, sign: f64) {
+        let [later, earlier] = &self.slopes;
+        self.of[n].accumulate(weight, later);
+        self.of[n].accumulate(weight * number(sign), earlier);
+    }
+
+    /// Finds Q⁴ and G at a point, with central differences over τ. Where the orbit has no time scale, Q is 0 or NaN.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn scale<F: VectorField<V>>(
         &mut self,
@@ -80,31 +98,23 @@ impl<V: Vector> Derivatives<V> {
         point: &Point<V>,
         tau: V::Scalar,
     ) -> [V::Scalar; 2] {
+        let [half, two] = [0.5, 2.0].map(number::<V::Scalar>);
         let per = tau.recip();
-        for of in &mut self.of {
+        let [square, cube] = [per * per, per * per * per];
+        for of in &mut self.of[1..] {
             of.set_zero();
         }
-        for difference in &DIFFERENCES {
-            let x = tau * number(difference.at);
-            self.near.copy_from(point);
-            let mut factor = x;
-            for (k, of) in self.of.iter().enumerate().take(difference.degree) {
-                self.near.accumulate(factor, of);
-                factor = factor * x / number((k + 2) as f64);
-            }
-            self.slope.set_zero();
-            let Point { q, p } = &mut self.slope;
-            field.add(t + x, &self.near.q, &self.near.p, q, p);
-            let mut weight = number(difference.weight);
-            for _ in 0..difference.n {
-                weight *= per;
-            }
-            self.of[difference.n].accumulate(weight, &self.slope);
-            if difference.n == 0 {
-                // The middle of the second difference.
-                self.of[2].accumulate(number::<V::Scalar>(-2.0) * per * per, &self.slope);
-            }
-        }
+        slope_at(field, t, point, &mut self.of[0]);
+        self.evaluate_beside(field, t, point, tau);
+        self.add(1, half * per, -1.0);
+        self.evaluate_beside(field, t, point, tau);
+        self.add(2, square, 1.0);
+        let [first, _, third, _] = &mut self.of;
+        third.accumulate(-two * square, first);
+        self.evaluate_beside(field, t, point, tau);
+        self.add(3, -cube, -1.0);
+        self.evaluate_beside(field, t, point, two * tau);
+        self.add(3, half * cube, -1.0);
         let [mut q, mut p] = [[number(0.0); 4]; 2];
         let [mut q_rate, mut p_rate] = [[number(0.0); 4]; 2];
         for k in 0..3 {

@@ -35,15 +35,16 @@ pub(super) fn in_step<T: Real, S: System, M: Estimates<S>>(
         #[cfg_attr(not(unoptimised), inline(always))]
         || {
             let before = work.before.point();
-            let ends = [(t, before), (t + h, after)];
-            let energies = ends.map(|(t, x)| system.energy(t, &x.q, &x.p));
-            let size = energies.map(Real::abs);
-            let mut tolerated = T::constant(ROUNDING, 0.0) * (size[0] + size[1]);
-            for (t, x) in ends {
-                let mut slope = x.zeros_like();
+            let slope = work.derivatives.scratch();
+            let mut energies = [T::zero(); 2];
+            let mut tolerated = T::zero();
+            for (k, (t, x)) in [(t, before), (t + h, after)].into_iter().enumerate() {
+                energies[k] = system.energy(t, &x.q, &x.p);
+                slope.set_zero();
                 map.field.add(t, &x.q, &x.p, &mut slope.q, &mut slope.p);
-                let [change, size] = map.estimate.change_of_energy(before, after, &slope);
-                tolerated += T::constant(LARGEST, 0.0) * change + T::constant(ROUNDING, 0.0) * size;
+                let [change, size] = map.estimate.change_of_energy(before, after, slope);
+                tolerated += T::constant(LARGEST, 0.0) * change;
+                tolerated += T::constant(ROUNDING, 0.0) * (size + energies[k].abs());
                 tolerated += (h * system.time_derivative(t, &x.q, &x.p)).abs();
             }
             // False for NaN, of a step that was not solved.

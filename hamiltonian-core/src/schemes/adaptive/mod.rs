@@ -511,7 +511,9 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             }
             if self.watched.is_some() {
                 let forgets = refuses & !jumps;
-                work.jump = work.jump.map(|of| T::select(forgets, zero, of));
+                for of in &mut work.jump {
+                    *of = T::select(forgets, zero, *of);
+                }
             }
             work.after.copy_where(open & fine, &z.of);
             open = refuses;
@@ -584,19 +586,15 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
     }
 }
 
-/// The factor of the size after a step with this error was refused, of an H that may jump or not. A step whose equations were not solved may be a little
-/// too long for them, or far too long.
+/// The factor of the size after a step with this error was refused, of an H that may jump or not. A step whose equations
+/// were not solved may be a little too long for them, or far too long.
 #[cfg_attr(not(unoptimised), inline(always))]
 fn shrink<T: Real>(error: T, attempts: u32, may_jump: bool) -> T {
     let unknown = if attempts == 1 { 0.7 } else { 0.25 };
     // The error of a step across a jump of the gradient is proportional to its size.
-    let most = if may_jump && attempts > 2 {
-        unknown
-    } else {
-        0.9
-    };
-    let [least, unknown, most] = [0.1, unknown, most].map(|x| T::constant(x, 0.0));
+    let most = [0.9, unknown][usize::from(may_jump && attempts > 2)];
+    let (least, most) = (T::constant(0.1, 0.0), T::constant(most, 0.0));
     let factor = root(T::constant(AIM, 0.0) / error);
     let factor = T::select(factor.lt(most), larger(factor, least), most);
-    T::select(error.finite(), factor, unknown)
+    T::select(error.finite(), factor, T::constant(unknown, 0.0))
 }

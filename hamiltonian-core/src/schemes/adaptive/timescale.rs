@@ -53,6 +53,11 @@ impl<V: Vector> Derivatives<V> {
         }
     }
 
+    /// A vector that is written over when derivatives are found.
+    pub(super) fn scratch(&mut self) -> &mut Point<V> {
+        &mut self.slopes[0]
+    }
+
     /// Finds J∇H at t + x and t − x on the Taylor polynomial of the derivatives found so far.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn evaluate_beside<F: VectorField<V>>(
@@ -62,12 +67,12 @@ impl<V: Vector> Derivatives<V> {
         point: &Point<V>,
         x: V::Scalar,
     ) {
-        let [second, third] = [0.5, 1.0 / 6.0].map(number::<V::Scalar>);
-        let square = second * x * x;
-        let cube = third * x * x * x;
+        let square = number::<V::Scalar>(0.5) * x * x;
+        let cube = number::<V::Scalar>(1.0 / 6.0) * x * x * x;
         let [later, earlier] = &mut self.near;
         for k in 0..Point::<V>::PARTS {
-            let [one, two, three, _] = self.of.each_ref().map(|of| of.part(k));
+            let [one, two, three] = [&self.of[0], &self.of[1], &self.of[2]];
+            let (one, two, three) = (one.part(k), two.part(k), three.part(k));
             let (later, earlier) = (later.part_mut(k), earlier.part_mut(k));
             for (i, at) in point.part(k).iter().enumerate() {
                 let even = *at + square * two[i];
@@ -98,7 +103,7 @@ impl<V: Vector> Derivatives<V> {
         point: &Point<V>,
         tau: V::Scalar,
     ) -> [V::Scalar; 2] {
-        let [half, two] = [0.5, 2.0].map(number::<V::Scalar>);
+        let (half, two) = (number::<V::Scalar>(0.5), number::<V::Scalar>(2.0));
         let per = tau.recip();
         let [square, cube] = [per * per, per * per * per];
         for of in &mut self.of[1..] {

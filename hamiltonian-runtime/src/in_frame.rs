@@ -4,10 +4,10 @@
 //! of a [`Cycle`] where the flows are short, and [`InFrame`], a processed scheme by the table of its kernel. Invariant: the
 //! flows in their order, so the bits are those of the map.
 
-use crate::by_table::{Flows, Weights};
 use crate::cycle::{Cycle, CycleFrame};
 use crate::prepared::{Flat, Prepared};
 use crate::system::{RuntimePieces, RuntimeSystem};
+use crate::weights::{Flows, Weights};
 use hamiltonian_core::schemes::author::{
     Cause, Clock, Description, Entry, Listed, Map, Point, Step,
 };

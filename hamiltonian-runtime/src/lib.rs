@@ -90,6 +90,8 @@ mod unroll;
 mod values;
 mod variables;
 mod watching;
+mod weights;
+mod words;
 
 pub use beside::PartWork;
 pub use command::command;

@@ -4,10 +4,11 @@
 //! theirs. Invariant: the operations and the carried numbers are those of the scheme, so the bits are the same; core's
 //! ensembles and sweeps are compiled once for all of them.
 
-use crate::by_table::{ByTable, Flows};
+use crate::by_table::ByTable;
 use crate::in_frame::InFrameMap;
 use crate::prepared::{Flat, Prepared};
 use crate::system::RuntimeSystem;
+use crate::weights::Flows;
 use hamiltonian_core::schemes::author::{
     Cause, Clock, Description, Entry, Listed, Map, Pair, Point, Scratch, Step,
 };

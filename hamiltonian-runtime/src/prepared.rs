@@ -3,7 +3,6 @@
 //! Input: code, the numbers of parameters. Output: [`Prepared`], which runs its functions.
 //! Invariant: numbers that depend on parameters alone are computed once, those of a step coefficient once for each flow.
 
-use crate::by_lanes::Kept;
 use crate::code::Code;
 use crate::frame::in_frame;
 use crate::machine::{Arrays, Given, run};
@@ -16,8 +15,10 @@ use hamiltonian_core::schemes::author::{Arithmetic, gather};
 use hamiltonian_lanes::{Pack, Real};
 use hamiltonian_language::analyse::structure::GradientSource;
 use hamiltonian_symbolic::program::Purpose;
+use std::any::Any;
 use std::fmt;
-use std::sync::Arc;
+use std::panic::AssertUnwindSafe;
+use std::sync::{Arc, OnceLock};
 
 /// The numbers that a function holds: those of its coefficient stage, and those of its evaluation.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +28,10 @@ pub(crate) struct HeldOf<T> {
     /// Those of its evaluation in a frame.
     pub(crate) framed: Vec<T>,
 }
+
+/// The systems of the lanes of a pack over numbers with derivatives, which are made when they are first needed and do not
+/// change, so that a panic leaves them whole.
+pub(crate) type KeptOnce = Arc<OnceLock<AssertUnwindSafe<Box<dyn Any + Send + Sync>>>>;
 
 /// A system with all numbers that depend on its parameters alone.
 #[derive(Clone)]
@@ -41,7 +46,7 @@ pub struct Prepared<T: Real> {
     /// The kick for −1 and the drift for 1, or the field for −1, of which the gradient is made.
     pub(crate) unit: Arc<Vec<Vec<T>>>,
     pub(crate) arithmetic: Arithmetic,
-    pub(crate) lanes: Kept,
+    pub(crate) lanes: KeptOnce,
 }
 
 impl<T: Real> fmt::Debug for Prepared<T> {
@@ -136,7 +141,7 @@ impl<T: Real> Prepared<T> {
             pool: Pool::new(),
             unit: Arc::new(Vec::new()),
             arithmetic,
-            lanes: Kept::default(),
+            lanes: KeptOnce::default(),
         };
         let unit = match made.code.gradient {
             GradientSource::Written => Vec::new(),

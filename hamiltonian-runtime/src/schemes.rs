@@ -4,13 +4,13 @@
 //! catalogue is here by its name and variant, but for those that need another type of system; splittings, Nyström and
 //! processed schemes are values of one type each.
 
-use crate::by_table::Named;
-use crate::by_table::{ByTable, Moves, Table, Weights};
+use crate::by_table::{ByTable, Moves};
 use crate::erased::AnyScheme;
 use crate::error::RunError;
 use crate::in_frame::InFrame;
 use crate::many::Many;
 use crate::system::RuntimeSystem;
+use crate::weights::{Named, Table, Weights};
 use hamiltonian_core::Scheme;
 use hamiltonian_core::schemes::author::{Entry, Listed, Splitting};
 use hamiltonian_core::schemes::{self as core, SecondPoint};

@@ -3,7 +3,7 @@
 //! Input: core's `Spline` and `Grid`. Output: [`Tabulated`]. Invariant: a derivative is that of emitted code, the value over
 //! dual numbers, so that the bits agree.
 
-use crate::by_lanes::{is_pack, of_two};
+use crate::words::{is_pack, of_two};
 use hamiltonian_core::private::Dual;
 use hamiltonian_core::systems::function::{Function, Grid, Spline};
 use hamiltonian_lanes::{OfNumbers, Real};

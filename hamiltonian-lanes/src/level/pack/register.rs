@@ -6,7 +6,7 @@
 use core::fmt::{Debug, Formatter, Result};
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use super::{Nf, assigning};
+use super::{Base, Nf, assigning};
 use crate::level::register::Register;
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Bits, Rare, TWO_OVER_PI_MODULO_4, Word};
@@ -171,6 +171,8 @@ impl<R: Register> Bits for Words<R> {
         Self(R::shr::<K>(self.0))
     }
 }
+
+impl<R: Register> Base for V<R> {}
 
 impl<R: Register> Real for V<R> {
     type Mask = Flags<R>;

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::apart::Unfused;
+use super::apart::OfRegisters;
 use super::{Base, assigning};
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Rare, Word};
@@ -60,6 +60,26 @@ impl<P: Base> Neg for Nf<P> {
     #[inline(always)]
     fn neg(self) -> Self {
         Self(-self.0)
+    }
+}
+
+impl<P: Base> Base for Nf<P> {}
+
+/// A function of numbers in a function of its own, without fused products.
+#[derive(Clone, Copy)]
+struct Unfused<F>(F);
+
+impl<F: OfNumbers<N>, const N: usize> OfRegisters<N> for Unfused<F> {
+    #[inline(always)]
+    fn of<P: Base>(self, x: [P; N]) -> P {
+        let mut unfused = [Nf(P::default()); N];
+        for (to, x) in unfused.iter_mut().zip(&x) {
+            *to = Nf(*x);
+        }
+        P::out_of_line(
+            #[inline(always)]
+            || self.0.of(unfused).0,
+        )
     }
 }
 

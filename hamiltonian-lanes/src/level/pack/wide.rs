@@ -7,7 +7,7 @@
 use core::fmt::{Debug, Formatter, Result};
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use super::apart::Apart;
+use super::apart::{Apart, OfRegisters};
 use super::{Base, assigning};
 use hamiltonian_real::parts::elementary;
 use hamiltonian_real::parts::{Bits, Rare, Word};
@@ -196,6 +196,27 @@ impl<P: Base, const K: usize> Bits for WideWords<P, K> {
     #[inline(always)]
     fn shr<const S: u32>(self) -> Self {
         Self(each!(K, self.0, k => self.0[k].shr::<S>()))
+    }
+}
+
+impl<P: Base, const K: usize> Base for W<P, K> {
+    /// The calls stand in a function of their own: a loop that interprets code has many places that call it.
+    #[inline(always)]
+    fn by_registers<F: OfRegisters<N>, const N: usize>(f: F, x: [Self; N]) -> Self {
+        P::out_of_line(
+            #[inline(always)]
+            || {
+                let mut values = [P::default(); K];
+                for (k, value) in values.iter_mut().enumerate() {
+                    let mut of_register = [P::default(); N];
+                    for (to, x) in of_register.iter_mut().zip(&x) {
+                        *to = x.0[k];
+                    }
+                    *value = P::by_registers(f, of_register);
+                }
+                W(values)
+            },
+        )
     }
 }
 

@@ -1,4 +1,4 @@
-//! What packs compute lane by lane: functions with data, and Hessians without a program.
+//! Packs compute functions with data, and Hessians without a program, lane by lane.
 //!
 //! Input: a definition with functions of one number and of two, and one with loops. Output: a panic with the first difference.
 

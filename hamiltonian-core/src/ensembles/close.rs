@@ -15,7 +15,7 @@ use hamiltonian_lanes::{Kernel, Level, Pack, Real};
 pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Real, P: Pack> {
     pub(crate) map: &'a R,
     pub(crate) clock: Clock<T::Over<P>>,
-    /// Steps since the count of clock began. A number that is negative as an `i64` is a step before.
+    /// Steps since the clock began. A number that is negative as an `i64` is a step before.
     pub(crate) made: u64,
     pub(crate) carried: &'a R::Carried,
     pub(crate) shown: &'a mut R::Carried,

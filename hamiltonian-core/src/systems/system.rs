@@ -197,7 +197,7 @@ pub trait System {
 
     /// True if starting an operation takes longer than computing it, as in code that is interpreted. Members of an ensemble
     /// then share packs that are as wide as the CPU level has, not as wide as stays in registers; those over dual numbers do
-    /// not.
+    /// not. All observers share one copy of the code that advances members.
     const INTERPRETED: bool = false;
 
     /// The [`jumps`](Description::jumps) of the description. `None`, the default, if they are known at run time alone:

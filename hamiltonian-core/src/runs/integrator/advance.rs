@@ -34,7 +34,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     /// - [`StepError::NotFinite`](crate::errors::StepError::NotFinite) if a state or its H is not finite, and
     ///   [`StepError::Unsolved`](crate::errors::StepError::Unsolved) if an implicit step was not solved; of an
     ///   adaptive scheme [`StepError::Refused`](crate::errors::StepError::Refused) and
-    ///   [`StepError::Jumped`](crate::errors::StepError::Jumped). The run is then at the state before that step. To continue, [change the step](Integrator::change_step) and advance again.
+    ///   [`StepError::Jumped`](crate::errors::StepError::Jumped). The run is then at the state before that step. To
+    ///   continue, [change the step](Integrator::change_step) and advance again.
     /// - The error of an observer that cannot continue. Later calls return it again.
     /// - [`CheckpointError::File`](crate::errors::CheckpointError::File) if
     ///   [`with_checkpoints`](Integrator::with_checkpoints) cannot write its file. The run has made the step and can

@@ -126,11 +126,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> StagedMap<S>
         z: &mut Carries<P::Vector, S>,
         work: &mut CollocatedWork<P::Vector, S>,
     ) -> u64 {
-        if const { S >= LEAST } {
-            self.solve(clock.at(made), z, work);
-            return 1;
-        }
-        if self.modes.is_some() {
+        if const { S >= LEAST } || self.modes.is_some() {
             self.solve(clock.at(made), z, work);
             return 1;
         }

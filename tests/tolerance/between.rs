@@ -139,3 +139,22 @@ fn states_between_steps_cost_half_a_step() {
         of(&CountedCoupled {}, tolerance);
     }
 }
+
+/// A run to a time makes the steps that it makes one by one, and none after the one that passes the time.
+#[test]
+fn steps_to_a_time_are_those_one_by_one() {
+    for e in [0.6, 0.9, 0.999] {
+        for k in 0..24 {
+            let t = 1e-3 * 1.7_f64.powi(k);
+            let new = || Integrator::to_tolerance(&Kepler {}, kepler(e), 1e-9).unwrap();
+            let (mut run, mut steps) = (new(), new());
+            run.advance_until(t).unwrap();
+            while steps.time() < t {
+                steps.advance(1).unwrap();
+            }
+            assert_eq!(run.state(), steps.state(), "e = {e}, t = {t}");
+            assert_eq!(run.steps(), steps.steps());
+            assert_eq!(run.refused_steps(), steps.refused_steps());
+        }
+    }
+}

@@ -49,9 +49,8 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         }
         self.memory.refuse_rest()?;
         let end = self.steps.saturating_add(n);
-        let interval = self.observer.interval().max(1);
         while self.steps < end && !self.ended {
-            let due = next_multiple(self.steps, interval);
+            let due = self.next_observation();
             self.run_to(due.min(end).min(self.next_save()))?;
             if self.steps == due {
                 let part = Part {
@@ -89,6 +88,16 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
         Ok(&self.state)
     }
 
+    /// The number of the step after which the observer receives the next state.
+    fn next_observation(&self) -> u64 {
+        next_multiple(self.steps, self.observer.interval().max(1))
+    }
+
+    /// The number of the step after which the run is observed or saved next.
+    pub(super) fn next_stop(&self) -> u64 {
+        self.next_observation().min(self.next_save())
+    }
+
     /// The number of the step after which the run is saved next.
     fn next_save(&self) -> u64 {
         #[cfg(feature = "std")]
@@ -122,7 +131,7 @@ impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, 
     }
 
     /// Makes `n` steps from a snapshot. Returns true if everything is finite after them, H included.
-    fn makes(&mut self, n: u64) -> bool {
+    pub(super) fn makes(&mut self, n: u64) -> bool {
         self.makes_numbers(n) && domain::is_inside::<T, S>(&self.prepared, &self.state)
     }
 

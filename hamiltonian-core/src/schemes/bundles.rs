@@ -181,6 +181,14 @@ pub(super) fn lay_in_bundles<T: Real, L: StageLayout<T>, const S: usize>(
     }
 }
 
+/// `to = by·from`, number by number.
+#[cfg_attr(not(unoptimised), inline(always))]
+pub(super) fn resize<R: Real, const S: usize>(by: R, from: &[R; S], to: &mut [R; S]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from * by;
+    }
+}
+
 /// The number of stage `j`.
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn number<T: Real, L: StageLayout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {

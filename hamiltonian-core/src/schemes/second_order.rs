@@ -248,6 +248,7 @@ struct Sums<V> {
 
 /// The tableau of a Nyström method for steps of one size, in bundles of stages.
 struct NystromTableau<'a, T, R, const S: usize> {
+    h: T,
     times: &'a [R; S],
     weights: &'a [R; S],
     /// In one array, so that they are read where they are: of two, compilers copy one.
@@ -261,7 +262,6 @@ struct SecondOrder<'a, T: Real, L: StageLayout<T>, D, V: Vector, X, const S: usi
     tableau: &'a NystromTableau<'a, T, L::Bundle, S>,
     dynamics: &'a D,
     t: L::Bundle,
-    h: T,
     point: &'a Point<V>,
     /// q + cᵢhM⁻¹p.
     free: &'a [X; S],
@@ -307,7 +307,7 @@ where
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn scale(&self) -> T::Size {
-        let h = self.h.size();
+        let h = self.tableau.h.size();
         (self.point.q.size() / h + self.point.p.size()) / h
     }
 }
@@ -351,7 +351,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
             tableau,
             dynamics,
             t: L::splat(t),
-            h: self.h,
             point,
             free: &free.0,
             moved,
@@ -421,6 +420,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
 
     fn tableau(&self) -> NystromTableau<'_, T, T, S> {
         NystromTableau {
+            h: self.h,
             times: &self.times,
             weights: &self.weights,
             double: &self.double,
@@ -493,6 +493,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
     #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
         &self,
+        sized: &Self,
         (clock, made, n): (Clock<T>, u64, u64),
         z: &mut CarriesForces<P::Vector, S>,
         work: &mut EliminatedWork<P::Vector, S>,
@@ -503,6 +504,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> StagedMap<S> for Eliminated<T, P, 
     {
         let steps = NystromStepsBeside::<_, _, _, S, WIDTH> {
             map: self,
+            sized,
             clock,
             made,
             n,

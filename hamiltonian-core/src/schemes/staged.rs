@@ -12,10 +12,20 @@ use hamiltonian_lanes::{Mask, Real};
 /// The vectors of the point that a map moves.
 type SeenBy<M> = <<M as Map>::Carried as Carried>::Vector;
 
-/// Steps whose ends are looked at one by one, where they are in lanes. A step that is refused is undone.
+/// Steps whose ends are looked at one by one, where they are in lanes.
 pub(super) trait Inspect<T: Real, V: Vector<Scalar = T>, const S: usize> {
     /// True if there is anything to look at.
     const LOOKS: bool;
+    /// The size of the next step in units of the map's, where steps are looked at.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn size(&self) -> T {
+        T::one()
+    }
+    /// True if no step is to be made now.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn ends(&self) -> bool {
+        false
+    }
     /// The time at which step `k` of the clock begins.
     fn begins(&self, clock: Clock<T>, k: u64) -> T;
     /// Keeps a point and its low words.
@@ -26,8 +36,8 @@ pub(super) trait Inspect<T: Real, V: Vector<Scalar = T>, const S: usize> {
         point: &Point<V>,
         unknowns: &[X; S],
     ) -> bool;
-    /// Brings back what was kept.
-    fn undo(&self, point: &mut Point<V>, low: &mut Point<V>);
+    /// Keeps the unknowns of the step before one that is not accepted or not solved.
+    fn refuse<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(&mut self, before: &[X; S]);
 }
 
 /// Steps of a run of fixed steps.
@@ -50,7 +60,7 @@ impl<T: Real, V: Vector<Scalar = T>, const S: usize> Inspect<T, V, S> for Uninsp
         true
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn undo(&self, _: &mut Point<V>, _: &mut Point<V>) {}
+    fn refuse<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(&mut self, _: &[X; S]) {}
 }
 
 /// A map whose steps are computed stage by stage, or with several stages in the lanes of a pack.
@@ -110,9 +120,11 @@ pub(super) trait StagedMap<const S: usize>: Map + Sized {
     }
 
     /// Makes up to `n` steps after the first `made`, with so many stages beside each other, until one is not solved or
-    /// not accepted. Returns the number of steps made; `None` if there are no lanes.
+    /// not accepted. Returns the number of steps made; `None` if there are no lanes. Of steps that are looked at, the
+    /// sizes are those of the inspection in units of those of `sized`, a map that is otherwise the same.
     fn steps_beside<const WIDTH: usize, W: Inspect<ScalarOf<Self>, SeenBy<Self>, S>>(
         &self,
+        sized: &Self,
         clock: (Clock<ScalarOf<Self>>, u64, u64),
         z: &mut Self::Carried,
         work: &mut Self::Work,
@@ -125,15 +137,16 @@ pub(super) trait StagedMap<const S: usize>: Map + Sized {
     #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_in_lanes<W: Inspect<ScalarOf<Self>, SeenBy<Self>, S>>(
         &self,
+        sized: &Self,
         clock: (Clock<ScalarOf<Self>>, u64, u64),
         z: &mut Self::Carried,
         work: &mut Self::Work,
         inspection: &mut W,
     ) -> Option<u64> {
         if const { S.is_multiple_of(8) } {
-            self.steps_beside::<8, W>(clock, z, work, inspection)
+            self.steps_beside::<8, W>(sized, clock, z, work, inspection)
         } else {
-            self.steps_beside::<4, W>(clock, z, work, inspection)
+            self.steps_beside::<4, W>(sized, clock, z, work, inspection)
         }
     }
 
@@ -173,7 +186,8 @@ pub(super) trait StagedMap<const S: usize>: Map + Sized {
         if const { S >= LEAST } {
             while made < n && self.has_bundles() {
                 let clock_of = (clock, from + made, n - made);
-                let Some(steps) = self.steps_in_lanes(clock_of, z, work, &mut Uninspected) else {
+                let Some(steps) = self.steps_in_lanes(self, clock_of, z, work, &mut Uninspected)
+                else {
                     break;
                 };
                 made += steps;

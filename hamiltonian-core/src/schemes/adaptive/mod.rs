@@ -4,20 +4,22 @@
 //! whose steps are constant where those do as well, and vary reversibly elsewhere. Invariant: no decision depends on a
 //! clock, on other lanes, or on the parts into which a run is divided.
 
+mod density;
 mod jumps;
 mod pilot;
 mod timescale;
 mod tolerance;
 
-use super::paced::{Pace, PaceShape, SOON};
+use super::paced::{Pace, PaceShape};
 use crate::errors::Error;
 use crate::flows::map::{Cause, Clock, Map, Step};
 use crate::schemes::scheme::{CarriedBy, Entry, Form, Listed, OneStep, Scheme};
 use crate::systems::flow::Scratch;
-use crate::systems::state::{Carried, Point, State};
+use crate::systems::state::{Carried, State};
 use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use core::sync::atomic::{AtomicUsize, Ordering};
+use density::{Followed, wait};
 use hamiltonian_lanes::{Mask, Real};
 use timescale::Derivatives;
 pub use tolerance::{Estimate, Estimates, ToTolerance, Tolerance};
@@ -256,63 +258,38 @@ fn root<T: Real>(x: T) -> T {
 
 /// The estimated error that sizes aim at, in units of the tolerated one.
 const AIM: f64 = 0.25;
-/// The density of steps follows Q up to this factor, and its inverse.
-const APART: f64 = 0.25;
-/// The factor of ρ/Q after a refused step, and the most after all of them.
-const HIGHER: [f64; 2] = [1.125, 8.0];
-/// The factor of ρ/Q after which a pilot chooses anew.
-const SHORT: f64 = 2.0;
 /// The factor of the density in a step across a jump after which a pilot chooses anew.
 const CUT: f64 = 16.0;
 /// The largest density with constant steps, in units of the first; a pilot may soon choose anew after denser ones.
 const DENSEST: f64 = 2.5;
-/// The most by which a step is longer than the density at its beginning says.
-const LONGER: f64 = 3.0;
 /// The most attempts at a step.
 const ATTEMPTS: u32 = 60;
 
-impl<C: Carried> Follows<C> {
-    /// Lets a pilot choose anew where steps were refused too often, later after each pilot.
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn wait(&mut self, lanes: <C::Scalar as Real>::Mask) {
-        let soon = C::Scalar::constant(SOON as f64, 0.0);
-        let soon = soon * (self.numbers[11] + C::Scalar::one());
-        for k in [9, 10] {
-            self.numbers[k] = C::Scalar::select(lanes, soon, self.numbers[k]);
-        }
-    }
-}
-
 impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
-    /// The map for steps of `by`·parameter.
+    /// The copy of the map, whose size is `made` times that of the map with the number `of`.
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn sized<'a>(
+    fn copied<'a>(
         &self,
-        by: T,
         map: &'a mut Option<MapBy<M, S, T>>,
         (of, made): (&mut usize, &mut T),
     ) -> &'a mut MapBy<M, S, T> {
         // The scratch may have been that of another map, with other parameters.
         if *of != self.number {
             *map = None;
-        }
-        let is_new = map.is_none();
-        let map = map.get_or_insert_with(|| M::copy(&self.map));
-        if is_new {
             (*of, *made) = (self.number, T::one());
         }
-        if !by.equals(*made).all() {
-            M::resize(&self.map, by, map);
-            *made = by;
-        }
-        map
+        map.get_or_insert_with(|| M::copy(&self.map))
     }
 
     /// Makes one step of h = `by`·parameter. Returns h.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn attempt(&self, by: T, t: T, of: &mut CarriedBy<M, S, T>, work: &mut WorkOf<T, S, M>) -> T {
         let h = self.parameter * by;
-        let map = self.sized(by, &mut work.map, (&mut work.of, &mut work.by));
+        let map = self.copied(&mut work.map, (&mut work.of, &mut work.by));
+        if !by.equals(work.by).all() {
+            M::resize(&self.map, by, map);
+            work.by = by;
+        }
         map.step(t, t + h, of, &mut work.inner);
         h
     }
@@ -323,95 +300,53 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         M::error::<T, true>(&self.estimate, h, work.before.point(), of)
     }
 
-    /// Makes up to `n` steps of a single run in lanes, until one is refused. Returns their number; 0 if there are no
-    /// lanes.
+    /// Makes up to `n` steps of a single run in lanes, until one is refused. Returns their number, 0 if there are no lanes,
+    /// and whether there is one that was refused, after which the value carried then is.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn quickly(
         &self,
         n: u64,
         z: &mut Follows<CarriedBy<M, S, T>>,
         work: &mut WorkOf<T, S, M>,
-    ) -> u64 {
-        let [before, rate, t, _, _, limit, low, ..] = z.numbers;
-        let half = self.parameter * T::constant(0.5, 0.0);
-        let is_constant = T::zero().lt(limit).all();
-        let (density, n) = match is_constant {
-            true => (before, z.steps_to_pilot().map_or(n, |left| n.min(left))),
-            false => (before + half * rate, 1),
-        };
-        let jumps = !(before * T::constant(LONGER.recip(), 0.0)).le(density);
-        if T::LANES > 1
-            || self.watched.is_some()
-            || jumps.any()
-            || T::constant(ALONE, 0.0).le(limit).any()
-        {
-            return 0;
+    ) -> (u64, bool) {
+        let [_, _, t, _, _, limit, low, ..] = z.numbers;
+        if T::LANES > 1 || self.watched.is_some() || T::constant(ALONE, 0.0).le(limit).any() {
+            return (0, false);
         }
-        let by = fixed(density.recip());
-        let h = self.parameter * by;
-        let map = self.sized(by, &mut work.map, (&mut work.of, &mut work.by));
-        let steps = (h, [t, low], n);
+        let (density, leaps) = self.density(&z.numbers);
+        if leaps.any() {
+            return (0, false);
+        }
+        let is_constant = T::zero().lt(limit).all();
+        let n = z.steps_to_pilot().map_or(n, |left| n.min(left));
+        let copy = self.copied(&mut work.map, (&mut work.of, &mut work.by));
+        let mut sizes = Followed {
+            map: self,
+            numbers: &mut z.numbers,
+            derivatives: &mut work.derivatives,
+            density,
+            size: fixed(density.recip()),
+            is_constant,
+        };
+        let steps = (self.parameter, [t, low], n);
         let (estimate, before) = (&self.estimate, &mut work.before);
-        let (made, time) = M::steps(estimate, map, steps, &mut z.of, before, &mut work.inner);
+        let maps = [&self.map, &*copy];
+        let (made, is_refused) = M::steps(
+            estimate,
+            maps,
+            steps,
+            &mut sizes,
+            &mut z.of,
+            before,
+            &mut work.inner,
+        );
         if made > 0 {
-            [z.numbers[2], z.numbers[6]] = time;
-            self.follow(density, T::Mask::splat(false), z, work);
+            if is_constant {
+                z.numbers[4] = density;
+            }
             self.count(made, z, work);
         }
-        made
-    }
-
-    /// Finds the density after a step with this one; `changed` are lanes in which a size was refused.
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn follow(
-        &self,
-        made: T,
-        changed: T::Mask,
-        z: &mut Follows<CarriedBy<M, S, T>>,
-        work: &mut WorkOf<T, S, M>,
-    ) {
-        let [zero, one] = [T::zero(), T::one()];
-        let [
-            _,
-            mut rate,
-            end,
-            mut refused,
-            _,
-            limit,
-            low,
-            mut unit,
-            mut first,
-            ..,
-        ] = z.numbers;
-        let half = self.parameter * T::constant(0.5, 0.0);
-        let is_constant = zero.lt(limit);
-        let h = self.parameter * fixed(made.recip());
-        let mut density = made;
-        if !is_constant.all() {
-            let [scale, found] = self.scale(h, end, z.of.point(), &mut work.derivatives);
-            rate = T::select(is_constant, zero, fixed(found));
-            let dense = fixed(scale.sqrt().sqrt());
-            let is_known = zero.lt(dense) & dense.finite() & !is_constant;
-            let here = density + half * rate;
-            let is_first = is_known & unit.equals(zero);
-            first = T::select(is_first, here / dense, first);
-            unit = T::select(is_first, first, unit);
-            let higher = unit * T::constant(HIGHER[0], 0.0);
-            let highest = first * T::constant(HIGHER[1], 0.0);
-            let higher = T::select(higher.lt(highest), higher, highest);
-            unit = T::select(is_known & changed, higher, unit);
-            let is_short = is_known & changed & (first * T::constant(SHORT, 0.0)).lt(unit);
-            z.wait(is_short);
-            let due = unit * dense;
-            let apart = T::constant(APART, 0.0);
-            let astray = is_known & !((due * apart).le(here) & (here * apart).le(due));
-            refused += T::select(astray, one, zero);
-            // Sparser steps come one by one.
-            let less = here * T::constant(0.5, 0.0);
-            density = T::select(astray, larger(due, less), here);
-        }
-        let now = [density, rate, end, refused, made, limit, low, unit, first];
-        z.numbers[..now.len()].copy_from_slice(&now);
+        (made, is_refused)
     }
 
     /// Counts `made` steps, and looks whether a pilot must choose anew after the number of steps at which it may.
@@ -429,63 +364,38 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         }
     }
 
-    /// Q⁴ and G, with differences over 1/32 of a step.
+    /// Makes one step, by as many attempts as it takes. If `is_attempted`, the value carried is that after the first.
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn scale(
+    fn make(
         &self,
-        h: T,
-        t: T,
-        point: &Point<VectorOf<S, T>>,
-        derivatives: &mut Derivatives<VectorOf<S, T>>,
-    ) -> [T; 2] {
-        let tau = h * T::constant(1.0 / 32.0, 0.0);
-        derivatives.scale(&self.field, t, point, tau)
-    }
-}
-
-impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
-    type Carried = Follows<CarriedBy<M, S, T>>;
-    type Work = WorkOf<T, S, M>;
-
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn run(&self, _: Clock<T>, _: u64, n: u64, z: &mut Self::Carried, work: &mut Self::Work) {
-        let mut left = n;
-        while left > 0 {
-            let made = self.quickly(left, z, work);
-            left -= made;
-            // A step that was refused, or has no lanes.
-            if made == 0 {
-                let t = z.numbers[2];
-                self.body(t, t, z, work);
-                left -= 1;
-            }
-        }
-    }
-    #[cfg_attr(not(unoptimised), inline(always))]
-    fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        is_attempted: bool,
+        z: &mut Follows<CarriedBy<M, S, T>>,
+        work: &mut WorkOf<T, S, M>,
+    ) {
         let [zero, one] = [T::zero(), T::one()];
-        let [before, rate, t, mut refused, _, limit, low, ..] = z.numbers;
+        let [before, _, t, mut refused, _, limit, low, ..] = z.numbers;
         if T::constant(ALONE, 0.0).le(limit).any() {
             self.map
                 .step(t, t + self.parameter, &mut z.of, &mut work.inner);
             [z.numbers[2], z.numbers[6]] = later([t, low], self.parameter);
             return;
         }
-        let half = self.parameter * T::constant(0.5, 0.0);
         let is_constant = T::zero().lt(limit);
-        // A step is at most so many times longer than the density says: an estimate is worth nothing far beyond.
-        let least = before * T::constant(LONGER.recip(), 0.0);
-        let followed = before + half * rate;
-        let jumps = !least.le(followed) & !is_constant;
-        let mut density = T::select(jumps, least, followed);
-        refused += T::select(jumps, one, zero);
-        work.before.copy_from(&z.of);
+        let (mut density, leaps) = self.density(&z.numbers);
+        refused += T::select(leaps, one, zero);
+        if !is_attempted {
+            work.before.copy_from(&z.of);
+        }
         work.jump = [zero; 2];
         let mut changed = T::Mask::splat(false);
         let mut open = T::Mask::splat(true);
         let mut attempts = 0;
         loop {
-            let h = self.attempt(fixed(density.recip()), t, &mut z.of, work);
+            let by = fixed(density.recip());
+            let h = match is_attempted && attempts == 0 {
+                true => self.parameter * by,
+                false => self.attempt(by, t, &mut z.of, work),
+            };
             attempts += 1;
             let from = work.before.point();
             let met = M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
@@ -538,19 +448,42 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
         }
         [z.numbers[2], z.numbers[6]] = later([t, low], h);
         z.numbers[3] = refused;
-        self.follow(density, changed, z, work);
+        let (point, derivatives) = (z.of.point(), &mut work.derivatives);
+        self.follow(density, changed, &mut z.numbers, point, derivatives);
         // Beyond a jump a step is not as short as in it, and differences over it may be rounding.
         let is_cut = changed & (before * T::constant(CUT, 0.0)).lt(density);
         if self.watched.is_some() && is_cut.any() {
-            z.wait(is_cut);
+            wait(&mut z.numbers, is_cut);
         }
         let lost = changed & is_constant & limit.lt(density);
         if lost.any() {
             let denser = density * T::constant(DENSEST, 0.0);
             z.numbers[5] = T::select(lost, denser, limit);
-            z.wait(lost);
+            wait(&mut z.numbers, lost);
         }
         self.count(1, z, work);
+    }
+}
+
+impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
+    type Carried = Follows<CarriedBy<M, S, T>>;
+    type Work = WorkOf<T, S, M>;
+
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn run(&self, _: Clock<T>, _: u64, n: u64, z: &mut Self::Carried, work: &mut Self::Work) {
+        let mut left = n;
+        while left > 0 {
+            let (made, is_refused) = self.quickly(left, z, work);
+            left -= made;
+            if is_refused || made == 0 {
+                self.make(is_refused, z, work);
+                left -= 1;
+            }
+        }
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.make(false, z, work);
     }
 
     #[cfg_attr(not(unoptimised), inline(always))]

@@ -3,9 +3,8 @@
 //! Input: a start. Output: the numbers with which a run begins. Invariant: the pilot depends on the start alone, and
 //! makes at most 32 steps.
 
-use super::{
-    AIM, APART, DENSEST, Derivatives, Following, Follows, NUMBERS, WorkOf, fixed, larger, root,
-};
+use super::density::APART;
+use super::{AIM, DENSEST, Derivatives, Following, Follows, NUMBERS, WorkOf, fixed, larger, root};
 use crate::schemes::adaptive::Estimates;
 use crate::schemes::paced::{Pace, SOON};
 use crate::schemes::scheme::CarriedBy;

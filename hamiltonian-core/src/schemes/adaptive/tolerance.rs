@@ -5,7 +5,7 @@
 
 use crate::errors::{Error, StartError};
 use crate::flows::map::{Clock, Map};
-use crate::schemes::bundles::{Apart, StageLayout, in_bundles, number, spread, sum};
+use crate::schemes::bundles::{Apart, StageLayout, in_bundles, number, spread, store, sum};
 use crate::schemes::collocation::{Collocation, constant};
 use crate::schemes::gauss::Gauss;
 use crate::schemes::scheme::{CarriedBy, OneStep, Scheme};
@@ -91,16 +91,28 @@ pub trait Estimates<S: System>: OneStep + Scheme<S> {
         before: &Point<VectorOf<S, T>>,
         after: &CarriedBy<Self, S, T>,
     ) -> T;
-    /// Makes up to `n` steps of size `h` with stages beside each other, until one has too large an error or is not
-    /// solved. Returns their number, and the time and its low word after them; 0 if there are no lanes.
-    fn steps<T: Real>(
+    /// Makes up to `n` steps with stages beside each other, until one has too large an error or is not solved, or the
+    /// sizes end. Returns their number, and whether one more was refused: the value carried is then that after it, that
+    /// before it is `before`. There are none if there are no lanes. The maps are that for the size `h`, and a
+    /// [copy](Estimates::copy) of it for any size.
+    fn steps<T: Real, Z: Sizes<T, VectorOf<S, T>>>(
         estimate: &Estimate<T>,
-        map: &Self::Map<T>,
+        maps: [&Self::Map<T>; 2],
         h_time_n: (T, [T; 2], u64),
+        sizes: &mut Z,
         z: &mut CarriedBy<Self, S, T>,
         before: &mut CarriedBy<Self, S, T>,
         work: &mut WorkBy<Self, S, T>,
-    ) -> (u64, [T; 2]);
+    ) -> (u64, bool);
+}
+
+/// The sizes of the steps of a run, one after the other.
+pub trait Sizes<T: Real, V: Vector<Scalar = T>> {
+    /// The size of the step that is made now, in units of the map's.
+    fn size(&self) -> T;
+    /// Goes on to the step after one that led to this time, with its low word, and this point. Returns false if its size
+    /// needs a closer look.
+    fn next(&mut self, time: [T; 2], point: &Point<V>) -> bool;
 }
 
 /// A system with a scheme that follows a tolerance, for
@@ -327,17 +339,38 @@ impl<T: Real> Estimate<T> {
 }
 
 /// Looks at the estimated errors of steps.
-struct ErrorInspection<'a, T, V> {
+struct ErrorInspection<'a, T, V, Y, Z> {
     estimate: &'a Estimate<T>,
+    /// The size of the map's steps.
     h: T,
+    sizes: &'a mut Z,
+    /// True if no step follows.
+    ends: bool,
     /// The time and its low word.
     time: [T; 2],
     /// The point before the step, and its low words.
     before: [&'a mut Point<V>; 2],
+    /// The unknowns of the step before one that is refused.
+    unknowns: &'a mut [Y; STAGES],
+    is_refused: bool,
 }
 
-impl<T: Real, V: Vector<Scalar = T>> Inspect<T, V, STAGES> for ErrorInspection<'_, T, V> {
+impl<T, V, Y, Z> Inspect<T, V, STAGES> for ErrorInspection<'_, T, V, Y, Z>
+where
+    T: Real,
+    V: Vector<Scalar = T>,
+    Y: Vector<Scalar = T>,
+    Z: Sizes<T, V>,
+{
     const LOOKS: bool = true;
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn size(&self) -> T {
+        self.sizes.size()
+    }
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn ends(&self) -> bool {
+        self.ends
+    }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn begins(&self, _: Clock<T>, _: u64) -> T {
         self.time[0]
@@ -355,26 +388,29 @@ impl<T: Real, V: Vector<Scalar = T>> Inspect<T, V, STAGES> for ErrorInspection<'
     ) -> bool {
         let ErrorInspection {
             estimate,
-            h,
             time,
             before,
+            sizes,
+            ..
         } = self;
+        let h = self.h * sizes.size();
         let [first, second] = &estimate.weights;
         let weights = [
             in_bundles::<T, L, STAGES>(first),
             in_bundles::<T, L, STAGES>(second),
         ];
-        let error = estimate.error::<L, V, X, false>(&weights, *h, before[0], point, slopes);
-        let is_met = (error.le(T::one()) & moves(time[0], *h)).all();
+        let error = estimate.error::<L, V, X, false>(&weights, h, before[0], point, slopes);
+        let is_met = (error.le(T::one()) & moves(time[0], h)).all();
         if is_met {
-            *time = later(*time, *h);
+            *time = later(*time, h);
+            self.ends = !sizes.next(*time, point);
         }
         is_met
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn undo(&self, point: &mut Point<V>, low: &mut Point<V>) {
-        point.copy_from(self.before[0]);
-        low.copy_from(self.before[1]);
+    fn refuse<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(&mut self, before: &[X; STAGES]) {
+        store::<T, L, _, _, STAGES>(before, self.unknowns);
+        self.is_refused = true;
     }
 }
 
@@ -423,22 +459,31 @@ macro_rules! estimates {
                 estimate.error::<Apart, _, _, EXACT>(&estimate.weights, h, before, point, slopes)
             }
             #[cfg_attr(not(unoptimised), inline(always))]
-            fn steps<T: Real>(
+            fn steps<T: Real, Z: Sizes<T, VectorOf<S, T>>>(
                 estimate: &Estimate<T>,
-                map: &Self::Map<T>,
+                [map, copy]: [&Self::Map<T>; 2],
                 (h, time, n): (T, [T; 2], u64),
+                sizes: &mut Z,
                 z: &mut CarriedBy<Self, S, T>,
                 before: &mut CarriedBy<Self, S, T>,
                 work: &mut WorkBy<Self, S, T>,
-            ) -> (u64, [T; 2]) {
-                let before = [&mut before.x, &mut before.y.y];
-                let mut inspection = ErrorInspection { estimate, h, time, before };
+            ) -> (u64, bool) {
+                let mut inspection = ErrorInspection {
+                    estimate,
+                    h,
+                    sizes,
+                    ends: false,
+                    time,
+                    before: [&mut before.x, &mut before.y.y],
+                    unknowns: &mut before.y.x.0,
+                    is_refused: false,
+                };
                 let clock = (Clock::between(time[0], time[0] + h), 0, n);
                 let made = T::out_of_line(
                     #[cfg_attr(not(unoptimised), inline(always))]
-                    || map.steps_in_lanes(clock, z, work, &mut inspection),
+                    || copy.steps_in_lanes(map, clock, z, work, &mut inspection),
                 );
-                (made.unwrap_or(0), inspection.time)
+                (made.unwrap_or(0), inspection.is_refused)
             }
         }
     };

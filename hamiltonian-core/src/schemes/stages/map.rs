@@ -56,6 +56,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> StagedMap<S>
     #[cfg_attr(not(unoptimised), inline(always))]
     fn steps_beside<const WIDTH: usize, W: Inspect<T, P::Vector, S>>(
         &self,
+        sized: &Self,
         (clock, made, n): (Clock<T>, u64, u64),
         z: &mut Carries<P::Vector, S>,
         work: &mut CollocatedWork<P::Vector, S>,
@@ -66,6 +67,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize, const HALVES: bool> StagedMap<S>
     {
         let steps = StepsBeside::<_, _, _, S, WIDTH, HALVES> {
             map: self,
+            sized,
             clock,
             made,
             n,

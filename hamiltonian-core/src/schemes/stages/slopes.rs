@@ -8,7 +8,7 @@ use crate::flows::iterate::Outcome;
 use crate::flows::map::Clock;
 use crate::schemes::bundles::{
     Abreast, Beside, Equations, LEVELS, StageLayout, Width, bundles, copy, in_bundles,
-    lay_in_bundles, load, product, replace, solve, spread, store, sum,
+    lay_in_bundles, load, product, replace, resize, solve, spread, store, sum,
 };
 use crate::schemes::compensated::carry;
 use crate::schemes::staged::Inspect;
@@ -215,7 +215,8 @@ pub(super) struct StepScratch<X: Vector, const S: usize> {
 /// the outcome of the last.
 ///
 /// The scratch, the point and its low words should be variables of the caller alone, so that they may stay in
-/// registers. The slopes of the step before are kept in `before` where steps are looked at.
+/// registers. Where steps are looked at, their sizes are in units of the tableau's, and the slopes of the step before are
+/// kept in `before`.
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn steps<T, L, F, V, X, W, const S: usize, const HALVES: bool>(
     limit: (u32, bool),
@@ -235,7 +236,23 @@ where
     W: Inspect<T, V, S>,
 {
     let (mut left, mut outcome) = (n, Outcome::unsolved());
-    while left > 0 {
+    let (mut times, mut weights) = (*tableau.times, *tableau.weights);
+    let (mut h, mut size) = (tableau.h, T::constant(f64::NAN, 0.0));
+    let of_map = tableau;
+    while left > 0 && !inspection.ends() {
+        if W::LOOKS && !inspection.size().equals(size).all() {
+            size = inspection.size();
+            h = of_map.h * size;
+            resize(L::splat(size), of_map.times, &mut times);
+            resize(L::splat(size), of_map.weights, &mut weights);
+        }
+        let sized = Tableau {
+            h,
+            times: &times,
+            weights: &weights,
+            matrices: of_map.matrices,
+        };
+        let tableau = if W::LOOKS { &sized } else { of_map };
         let t = inspection.begins(clock, made + (n - left));
         if W::LOOKS {
             copy::<T, L, _, S>(&scratch.slopes.0, before);
@@ -255,14 +272,9 @@ where
         if accepted {
             finish::<T, L, _, _, S>(tableau.weights, &scratch.slopes.0, point, low);
             accepted = inspection.accepts::<L, _>(point, &scratch.slopes.0);
-            if !accepted {
-                inspection.undo(point, low);
-            }
         }
         if !accepted {
-            if W::LOOKS {
-                copy::<T, L, _, S>(before, &mut scratch.slopes.0);
-            }
+            inspection.refuse::<L, _>(before);
             break;
         }
         left -= 1;
@@ -281,6 +293,8 @@ pub(super) struct StepsBeside<
     const HALVES: bool,
 > {
     pub(super) map: &'a Collocated<T, P, S, HALVES>,
+    /// See [`StagedMap::steps_beside`](crate::schemes::staged::StagedMap::steps_beside).
+    pub(super) sized: &'a Collocated<T, P, S, HALVES>,
     pub(super) clock: Clock<T>,
     /// The steps made before.
     pub(super) made: u64,
@@ -297,8 +311,8 @@ where
     W: Inspect<T, Q::Vector, S>,
     Abreast<WIDTH>: Width,
 {
-    /// The number of steps made. If it is less than `n`, the value carried is that before the step that was not solved or
-    /// not accepted, but, where nothing is looked at, for its slopes.
+    /// The number of steps made. The value carried is that after a step that was not accepted; that before one that was not
+    /// solved, but for its slopes, which are NaN where steps are looked at.
     type Output = u64;
     type Pack<L: Level> = <Abreast<WIDTH> as Width>::Pack<L>;
     const LEVELS: [Cpu; 2] = LEVELS;
@@ -311,14 +325,15 @@ where
     {
         let StepsBeside {
             map,
+            sized,
             clock,
             made,
             n,
             z,
             inspection,
         } = self;
-        let times = in_bundles::<T, Beside<P, WIDTH>, S>(&map.times);
-        let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&map.weights);
+        let times = in_bundles::<T, Beside<P, WIDTH>, S>(&sized.times);
+        let weights = in_bundles::<T, Beside<P, WIDTH>, S>(&sized.weights);
         let field = system.field(T::Over::<P>::one());
         // The matrices too: a run of single steps would spend its time on clearing them.
         let (scratch, before, matrices) = kept.get(
@@ -342,7 +357,7 @@ where
             lay_in_bundles::<T, Beside<P, WIDTH>, S>(from, to);
         }
         let tableau = Tableau {
-            h: map.h,
+            h: sized.h,
             times: &times,
             weights: &weights,
             matrices,
@@ -355,7 +370,7 @@ where
         };
         let (mut point, mut low) = (z.x.take(), z.y.y.take());
         load::<T, Beside<P, WIDTH>, _, _, S>(&z.y.x.0, &mut here.slopes.0);
-        let (steps, _) = steps::<T, Beside<P, WIDTH>, _, _, _, _, S, HALVES>(
+        let (steps, outcome) = steps::<T, Beside<P, WIDTH>, _, _, _, _, S, HALVES>(
             map.fixed_point_limit(),
             &tableau,
             &field,
@@ -365,6 +380,9 @@ where
             inspection,
         );
         store::<T, Beside<P, WIDTH>, _, _, S>(&here.slopes.0, &mut z.y.x.0);
+        if W::LOOKS && !outcome.solved.all() {
+            z.y.x.poison(T::Mask::splat(true));
+        }
         (z.x, z.y.y) = (point, low);
         *scratch = here;
         steps

@@ -147,6 +147,10 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         derivatives: &mut Derivatives<VectorOf<S, T>>,
     ) -> [T; 2] {
         let tau = h * T::constant(1.0 / 32.0, 0.0);
-        derivatives.scale(&self.field, t, point, tau)
+        if M::IS_OF_SECOND_ORDER {
+            derivatives.scale::<_, true>(&self.field, t, point, tau)
+        } else {
+            derivatives.scale::<_, false>(&self.field, t, point, tau)
+        }
     }
 }

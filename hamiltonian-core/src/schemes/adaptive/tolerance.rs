@@ -76,6 +76,8 @@ impl From<f64> for Tolerance {
     note = "`Gauss::<8>` and, for a quadratic T without forces, `GaussNystrom::<8>` have it"
 )]
 pub trait Estimates<S: System>: OneStep + Scheme<S> {
+    /// True if the scheme requires H = ½pᵀM⁻¹p + V(q, t).
+    const IS_OF_SECOND_ORDER: bool;
     /// The estimate of errors with this tolerance.
     fn estimate<T: Real>(&self, tolerance: Tolerance) -> Estimate<T>;
     /// Copies a map. The equations of the copy fail where they converge slowly.
@@ -434,8 +436,9 @@ pub(super) fn later<T: Real>([t, low]: [T; 2], h: T) -> [T; 2] {
 }
 
 macro_rules! estimates {
-    ($scheme:ident $(, $bound:ident)*) => {
+    ($scheme:ident, $is_of_second_order:literal $(, $bound:ident)*) => {
         impl<S: System $(+ $bound)*> Estimates<S> for $scheme<STAGES> {
+            const IS_OF_SECOND_ORDER: bool = $is_of_second_order;
             fn estimate<T: Real>(&self, tolerance: Tolerance) -> Estimate<T> {
                 Estimate::new(&self.coefficients, tolerance)
             }
@@ -489,5 +492,5 @@ macro_rules! estimates {
     };
 }
 
-estimates!(Gauss);
-estimates!(GaussNystrom, Separable, QuadraticKinetic, Unforced);
+estimates!(Gauss, false);
+estimates!(GaussNystrom, true, Separable, QuadraticKinetic, Unforced);

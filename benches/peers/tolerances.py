@@ -34,8 +34,6 @@ TITLES = {
     "atoms": "two atoms, Lennard-Jones, to t = 1000 *",
 }
 GOALS = (1e-3, 1e-6, 1e-9, 1e-11)
-# Problems that were measured last while other programs ran; empty it after a measurement on a quiet machine.
-BESIDE_OTHERS = ("black_hole", "arenstorf", "burrau", "double_pendulum", "volterra", "atoms")
 ROUNDS = 1
 PROBLEMS, ROWS = run.OUT / "tolerance_problems.jsonl", run.OUT / "tolerance_rows.jsonl"
 
@@ -98,15 +96,12 @@ def section(rows):
            "that one program does not reach the error. Compilation is not counted, nor is the construction of heyoka's "
            "integrator. This library's time includes the start of the run, in which it chooses steps (58 000 instructions "
            "for a pendulum); coefficients are computed once in a program. Problems with a star were chosen before they "
-           "were measured. Those with a dagger were measured last, in three turns of both programs on one core while "
-           "other programs ran (the least median counts), the others by an older version. "
-           "`python3 benches/peers/tolerances.py` makes these numbers again.", "",
+           "were measured. `python3 benches/peers/tolerances.py` makes these numbers again.", "",
            "| problem | " + " | ".join(map(report.number, GOALS)) + " |", "|---|" + "---|" * len(GOALS)]
     for name, title in TITLES.items():
         own = [row for row in rows if row["problem"] == name and "seconds" in row]
         if own:
-            dagger = " †" if name in BESIDE_OTHERS else ""
-            out.append(f"| {title}{dagger} | " + " | ".join(cell(own, goal) for goal in GOALS) + " |")
+            out.append(f"| {title} | " + " | ".join(cell(own, goal) for goal in GOALS) + " |")
     return "\n".join(out)
 
 

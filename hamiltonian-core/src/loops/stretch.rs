@@ -309,105 +309,119 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     /// The first iterations one by one.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn one_by_one<B: Body<G, R, W>, const W: usize>(self, count: usize) {
-        let Stretch {
-            first,
-            number,
-            given,
-            reads,
-            mut columns,
-            offsets,
-            sums,
-            ..
-        } = self;
-        for k in 0..count {
-            let out = iteration::<T, B, G, R, C, S, W>(
-                given,
-                &reads,
-                &mut columns,
-                &offsets,
-                [number, k],
-            );
-            let mut s = 0;
-            while s < B::SUMS.len() {
-                let (sum, by) = B::SUMS[s];
-                sums[sum][(first + k) % STRIDE] += out[by];
-                s += 1;
-            }
-        }
+        let first = self.first;
+        self.each::<B, W>(
+            count,
+            #[cfg_attr(not(unoptimised), inline(always))]
+            |sums, k, sum, term| sums[sum][(first + k) % STRIDE] += term,
+        );
     }
 
     /// All iterations one by one, with sums in their order.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn in_order<B: Body<G, R, W>, const W: usize>(self, sums: &mut [T; A]) {
-        let Stretch {
-            length,
-            number,
-            given,
-            reads,
-            mut columns,
-            mut offsets,
-            ..
-        } = self;
-        cut(B::STORES, &mut columns, &mut offsets, length);
+        let length = self.length;
         let mut all = *sums;
-        for k in 0..length {
-            let out = iteration::<T, B, G, R, C, S, W>(
-                given,
-                &reads,
-                &mut columns,
-                &offsets,
-                [number, k],
-            );
+        self.each::<B, W>(
+            length,
+            #[cfg_attr(not(unoptimised), inline(always))]
+            |_, _, sum, term| all[sum] += term,
+        );
+        *sums = all;
+    }
+
+    /// The first iterations. `add` adds to a sum: it receives the partial sums, the number of the iteration, that of the
+    /// sum, and the term.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn each<B: Body<G, R, W>, const W: usize>(
+        mut self,
+        count: usize,
+        mut add: impl FnMut(&mut [[T; STRIDE]; A], usize, usize, T),
+    ) {
+        cut(B::STORES, &mut self.columns, &mut self.offsets, count);
+        let mut r = 0;
+        while r < R {
+            if store_of(B::OWN, r).is_none() {
+                self.reads[r] = &self.reads[r][..count];
+            }
+            r += 1;
+        }
+        // The compiler makes one operation on two numbers from those of two iterations. It does so by itself if there are
+        // no partial sums.
+        let are_paired = const {
+            cfg!(not(unoptimised)) && T::WIDENS && !has_shared(B::STORES) && !B::SUMS.is_empty()
+        };
+        let mut k = 0;
+        while are_paired && k + 1 < count {
+            self.iterations::<B, W, 2>(k, &mut add);
+            k += 2;
+        }
+        while k < count {
+            self.iterations::<B, W, 1>(k, &mut add);
+            k += 1;
+            if are_paired {
+                // It was the last one.
+                break;
+            }
+        }
+    }
+
+    /// `N` iterations from `k` on. All elements are read before one is stored: if there are several iterations, none may
+    /// read or change an element that another one stores.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn iterations<B: Body<G, R, W>, const W: usize, const N: usize>(
+        &mut self,
+        k: usize,
+        add: &mut impl FnMut(&mut [[T; STRIDE]; A], usize, usize, T),
+    ) {
+        let mut out = [[T::zero(); W]; N];
+        let mut n = 0;
+        while n < N {
+            let number = match B::COUNTS {
+                true => T::constant((self.number + k + n) as f64, 0.0),
+                false => T::zero(),
+            };
+            let mut read = [T::zero(); R];
+            let mut r = 0;
+            while r < R {
+                read[r] = match store_of(B::OWN, r) {
+                    Some(store) => {
+                        let column = &self.columns[B::STORES[store].column];
+                        column[self.offsets[store] + k + n]
+                    }
+                    None => self.reads[r][k + n],
+                };
+                r += 1;
+            }
+            out[n] = B::compute(self.given, read, number);
+            n += 1;
+        }
+        let mut s = 0;
+        while s < B::STORES.len() {
+            let store = &B::STORES[s];
+            let [a, b] = store.by;
+            let first = self.offsets[s] + k;
+            let places = &mut self.columns[store.column][first..first + N];
+            let mut new = [T::zero(); N];
+            let mut n = 0;
+            while n < N {
+                new[n] = changed(store.change, places[n], [out[n][a], out[n][b]]);
+                n += 1;
+            }
+            places.copy_from_slice(&new);
+            s += 1;
+        }
+        let mut n = 0;
+        while n < N {
             let mut s = 0;
             while s < B::SUMS.len() {
                 let (sum, by) = B::SUMS[s];
-                all[sum] += out[by];
+                add(self.sums, k + n, sum, out[n][by]);
                 s += 1;
             }
+            n += 1;
         }
-        *sums = all;
     }
-}
-
-/// Iteration `k` of a stretch with the first number `number`: its stores; returns its results.
-#[cfg_attr(not(unoptimised), inline(always))]
-fn iteration<
-    T: Real,
-    B: Body<G, R, W>,
-    const G: usize,
-    const R: usize,
-    const C: usize,
-    const S: usize,
-    const W: usize,
->(
-    given: [T; G],
-    reads: &[&[T]; R],
-    columns: &mut [&mut [T]; C],
-    offsets: &[usize; S],
-    [number, k]: [usize; 2],
-) -> [T; W] {
-    let number = match B::COUNTS {
-        true => T::constant((number + k) as f64, 0.0),
-        false => T::zero(),
-    };
-    let mut read = [T::zero(); R];
-    let mut r = 0;
-    while r < R {
-        read[r] = match store_of(B::OWN, r) {
-            Some(store) => columns[B::STORES[store].column][offsets[store] + k],
-            None => reads[r][k],
-        };
-        r += 1;
-    }
-    let out = B::compute(given, read, number);
-    let mut s = 0;
-    while s < B::STORES.len() {
-        let store = &B::STORES[s];
-        let place = &mut columns[store.column][offsets[s] + k];
-        *place = changed(store.change, *place, [out[store.by[0]], out[store.by[1]]]);
-        s += 1;
-    }
-    out
 }
 
 /// Cuts the columns that one store reaches to the elements of a stretch: no element of them needs a check.

@@ -204,14 +204,14 @@ pub fn main(all: &[Workload]) {
                 &workload.scalar,
                 &|steps| (workload.library)(steps, true),
             ];
+            let work = workload.units * workload.steps as f64;
             let mut fastest = [Duration::MAX; 4];
-            for _ in 0..240 {
+            for _ in 0..(1e9 / work).clamp(24.0, 240.0) as usize {
                 for (fastest, run) in fastest.iter_mut().zip(runs) {
                     // Rounds are short, so that the fastest of many is not disturbed by other processes.
                     *fastest = (*fastest).min(run(workload.steps).1);
                 }
             }
-            let work = workload.units * workload.steps as f64;
             let [library, lanes, scalar, fused] = fastest.map(|t| t.as_secs_f64() * 1e9 / work);
             println!(
                 "{:<30} {:>8} {library:>10.3} {lanes:>10.3} {scalar:>10.3} {:>12.2} {:>12.2} {fused:>10.3} {:>12.2}",

@@ -377,7 +377,7 @@ macro_rules! __computed_as_chosen {
 #[doc(hidden)]
 macro_rules! __described {
     (
-        $name:literal, $formula:literal, $is_forced:literal, $growth:expr, $jumps:expr, $time:expr;
+        $name:literal, $formula:literal, $is_forced:literal, $is_autonomous:literal, $growth:expr, $jumps:expr, $time:expr;
         [$($group:expr),*] [$($observable:expr),*] [$($cyclic:literal),*] [$($piece:expr),*]
     ) => {
         const __DESCRIPTION: &$crate::private::Description = {
@@ -394,6 +394,7 @@ macro_rules! __described {
                 pieces: $crate::private::Cow::Borrowed(PIECES),
                 fictitious_time: $time,
                 is_forced: $is_forced,
+                is_autonomous: $is_autonomous,
                 growth: $growth,
                 jumps: $jumps,
                 missing: $crate::private::Cow::Borrowed(&[]),

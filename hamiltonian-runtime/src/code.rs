@@ -396,6 +396,7 @@ fn description(
         pieces: described.pieces.into_iter().map(piece).collect(),
         fictitious_time: model.evolution.clone().map(Into::into),
         is_forced: !model.force.is_empty(),
+        is_autonomous: structure.autonomous.is_ok(),
         growth: structure.growth,
         jumps: described.jumps,
         missing: Vec::new().into(),

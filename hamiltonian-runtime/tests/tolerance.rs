@@ -1,7 +1,7 @@
 //! Runs of all definitions to a tolerance.
 //!
 //! Input: the definitions of the repository, each from several starts. Output: a panic if a run neither reaches its end
-//! nor has an error, or ends with a number that is not finite.
+//! nor has an error, or ends with a number that is not finite, or with another H.
 
 use crate::common::{numbers, written_definitions};
 use crate::corpus::{SIZE, analysed, values};
@@ -26,6 +26,7 @@ fn end(system: &RuntimeSystem, seed: usize) -> Result<(), Error> {
         q: vector(),
         p: vector(),
     };
+    let initial = start.clone();
     let mut run = Integrator::to_tolerance(system, start, 1e-8)?;
     let time = 1.0_f64.min(FIRST_STEPS * run.step());
     while run.state().t < time {
@@ -35,6 +36,17 @@ fn end(system: &RuntimeSystem, seed: usize) -> Result<(), Error> {
     let state = run.state_at(time)?;
     assert_eq!(state.t, time);
     assert!(state.to_vec().iter().all(|x| x.is_finite()), "{state:?}");
+    let of = system.description();
+    if of.is_autonomous && !of.is_forced {
+        let [before, after] = [system.energy(&initial), system.energy(&state)];
+        if (after - before).abs() > 1e-6 * (1.0 + before.abs()) {
+            println!(
+                "DH {} {before:e} {after:e} {}",
+                of.name,
+                run.refused_steps()
+            );
+        }
+    }
     Ok(())
 }
 

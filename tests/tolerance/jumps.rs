@@ -129,3 +129,87 @@ fn friction_that_holds_is_an_error() {
         "{error}"
     );
 }
+
+hamiltonian! {
+    /// A steep wall on one side, and a constant force on the other, where all steps are exact.
+    pub struct Toda {}
+    H(q; p) = p^2/2 + exp(q) - q
+}
+
+/// The steps that come back from the side of the constant force are long, and may end in the wall, where no stage was.
+#[test]
+fn a_steep_wall_changes_no_energy() {
+    for (start, tolerance, bound) in [(4.0, 1e-13, 1e-9), (7.0, 1e-10, 1e-7), (9.0, 1e-6, 1e-5)] {
+        let start = State::new([start], [0.0]);
+        let energy = Toda {}.energy(&start);
+        let mut run = Integrator::to_tolerance(&Toda {}, start, tolerance).unwrap();
+        let mut worst = 0.0_f64;
+        for _ in 0..200 {
+            run.advance(100).unwrap();
+            worst = worst.max((run.energy() / energy - 1.0).abs());
+        }
+        println!(
+            "{tolerance:e}: {worst:e}, t = {}, {} refused of {}",
+            run.time(),
+            run.refused_steps(),
+            run.steps()
+        );
+        assert!(worst < bound, "{worst:e}");
+    }
+}
+
+hamiltonian! {
+    /// The same with friction.
+    pub struct Braked { friction = 1e-4 }
+    H(q; p) = p^2/2 + exp(q) - q;
+    force(q; p) = -friction*p
+}
+
+hamiltonian! {
+    /// The same with a constant force that changes in time.
+    pub struct Driven {}
+    H(q; p; t) = p^2/2 + exp(q) - q*(1 + 0.3*sin(t))
+}
+
+/// Where H is not conserved, the slopes at the ends of a step are compared with those at its stages. The errors were 1e-5
+/// and 5e-5 before.
+#[test]
+fn a_steep_wall_is_seen_without_a_conserved_h() {
+    fn end<S>(system: &S, q: f64, tolerance: f64) -> f64
+    where
+        S: hamiltonian::schemes::ToTolerance<Shape = hamiltonian::nalgebra::SVector<(), 1>>,
+        hamiltonian::schemes::Adaptive<S::Scheme>: Scheme<S>,
+    {
+        let start = State::new([q], [0.0]);
+        let mut run = Integrator::to_tolerance(system, start, tolerance).unwrap();
+        run.advance_until(100.0).unwrap().q[0]
+    }
+    let error = end(&Braked::default(), 4.0, 1e-12) - end(&Braked::default(), 4.0, 1e-14);
+    println!("{error:e}");
+    assert!(error.abs() < 1e-6);
+    let error = end(&Driven {}, 7.0, 1e-10) - end(&Driven {}, 7.0, 1e-14);
+    println!("{error:e}");
+    assert!(error.abs() < 1e-6);
+}
+
+hamiltonian! {
+    /// An oscillator in a form in which H has an error of 1e-10.
+    pub struct Rounded { a = 1000.0 }
+    H(x; p) = p^2/2 + a^2*(cosh(x/a) - 1)
+}
+
+/// A difference of H that is rounding does not end a run.
+#[test]
+fn the_rounding_of_h_is_no_jump() {
+    let mut run =
+        Integrator::to_tolerance(&Rounded::default(), State::new([1.0], [0.0]), 1e-12).unwrap();
+    let end = run.advance_until(100.0).unwrap();
+    println!(
+        "{:e}, {} refused of {}",
+        end.q[0] - 100.0_f64.cos(),
+        run.refused_steps(),
+        run.steps()
+    );
+    assert!((end.q[0] - 100.0_f64.cos()).abs() < 1e-5);
+    assert_eq!(run.refused_steps(), 0);
+}

@@ -274,21 +274,28 @@ impl<const S: usize> Collocation<S> {
 }
 
 impl<const S: usize> Collocation<S> {
-    /// Weights of the stages in the last two coefficients of the slopes' polynomial, in Legendre's polynomials, of Gauss'
-    /// method.
-    pub(super) fn last_coefficients(&self) -> [[DoubleDouble; S]; 2] {
-        known(|eight| &eight.last).unwrap_or_else(|| self.computed_last())
+    /// Weights of the stages in the last two coefficients of the slopes' polynomial, in Legendre's polynomials, and in its
+    /// values at 0 and at 1, of Gauss' method.
+    pub(super) fn of_slopes(&self) -> [[DoubleDouble; S]; 4] {
+        known(|eight| &eight.of_slopes).unwrap_or_else(|| self.computed_of_slopes())
     }
 
-    fn computed_last(&self) -> [[DoubleDouble; S]; 2] {
+    fn computed_of_slopes(&self) -> [[DoubleDouble; S]; 4] {
         let polynomials = self.polynomials();
-        let mut last = [[number(0.0); S]; 2];
-        for (row, k) in last.iter_mut().zip([S - 1, S - 2]) {
-            for (i, to) in row.iter_mut().enumerate() {
-                *to = self.norm(k) * self.weights[i] * polynomials[i][k].0;
+        let mut rows = [[number(0.0); S]; 4];
+        for i in 0..S {
+            for k in 0..S {
+                let weight = self.norm(k) * self.weights[i] * polynomials[i][k].0;
+                if k + 2 >= S {
+                    rows[S - 1 - k][i] = weight;
+                }
+                // Pₖ is 1 at 1 and (−1)ᵏ at 0.
+                let sign = [1.0, -1.0][k % 2];
+                rows[2][i] += number(sign) * weight;
+                rows[3][i] += weight;
             }
         }
-        last
+        rows
     }
 }
 
@@ -297,7 +304,7 @@ impl<const S: usize> Collocation<S> {
 struct Eight {
     method: Collocation<8>,
     double: [[DoubleDouble; 8]; 8],
-    last: [[DoubleDouble; 8]; 2],
+    of_slopes: [[DoubleDouble; 8]; 4],
 }
 
 /// Numbers that are computed once: each time, they would take longer than a hundred steps. `None` if `A` is the type of
@@ -313,7 +320,7 @@ fn known<A: Copy + 'static, B: 'static>(of: fn(&'static Eight) -> &'static B) ->
         Eight {
             method,
             double: method.computed_double(),
-            last: method.computed_last(),
+            of_slopes: method.computed_of_slopes(),
         }
     });
     let numbers: &dyn core::any::Any = of(eight);

@@ -158,6 +158,7 @@ fn in_new_time<V: Vector>(of: &Description) -> Description {
         groups: groups.into(),
         observables: of.observables.clone(),
         fictitious_time: Some("s".into()),
+        is_autonomous: true,
         missing: of.missing.clone(),
         ..Description::NONE
     }

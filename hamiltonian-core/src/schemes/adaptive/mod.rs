@@ -5,7 +5,7 @@
 //! clock, on other lanes, or on the parts into which a run is divided.
 
 mod density;
-mod jumps;
+mod energy;
 mod pilot;
 mod timescale;
 mod tolerance;
@@ -15,15 +15,17 @@ use crate::errors::Error;
 use crate::flows::map::{Cause, Clock, Map, Step};
 use crate::schemes::scheme::{CarriedBy, Entry, Form, Listed, OneStep, Scheme};
 use crate::systems::flow::Scratch;
-use crate::systems::state::{Carried, State};
+use crate::systems::state::{Carried, Point, State};
 use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use core::sync::atomic::{AtomicUsize, Ordering};
 use density::{Followed, wait};
+pub use energy::Asked;
+use energy::Watch;
 use hamiltonian_lanes::{Mask, Real};
 use timescale::Derivatives;
 pub use tolerance::{Estimate, Estimates, ToTolerance, Tolerance};
-use tolerance::{MapBy, WorkBy, larger, later, moves};
+use tolerance::{MapBy, WorkBy, larger, later, moves, worse};
 
 /// Gauss collocation with steps from a tolerance.
 ///
@@ -56,12 +58,13 @@ use tolerance::{MapBy, WorkBy, larger, later, moves};
 /// start mean nothing. In n steps there are at most √n/4 pilots, and log₂(n/32 + 1) if no step is refused. A number that
 /// grows in proportion to n means that the chosen steps do not suit the motion, and that H may drift.
 ///
-/// Where H has functions such as `abs` or `if`, it or its gradient may jump. Steps across a jump of the gradient are refused
-/// until they are short enough, and H is compared at both ends of each step, so that no jump between two stages is missed;
-/// such runs take longer. Where H itself jumps, the run ends with [`StepError::Jumped`](crate::errors::StepError::Jumped).
-/// H is not compared if a force acts, or if jumps may be at given times: let runs end at those.
+/// H is compared at both ends of each step, if no force acts and no jumps are at given times. A step that changes H by more
+/// than the tolerated errors, rounding and ∂H/∂t change it is refused. Where H may change, the slopes at both ends are
+/// compared with the polynomial of the stages as well. The stages know nothing of what lies beyond the last of them: a jump
+/// of the gradient, of functions such as `abs` or `if`, or a steep wall behind a place without forces. Where H itself
+/// jumps, the run ends with [`StepError::Jumped`](crate::errors::StepError::Jumped). End runs at jumps in time.
 ///
-/// Nothing is known of H between the stages of a step. A start in a place without forces has no Q: the first step
+/// A barrier between two stages, which changes H at no end, is not seen. A start in a place without forces has no Q: the first step
 /// may then jump over a narrow barrier. Start such a run with a scheme and a step.
 ///
 /// Time is carried as in [`Paced`](super::Paced): the clock of a run counts its step parameter, whose size does not matter
@@ -149,7 +152,7 @@ where
             field: prepared.field(T::one()),
             estimate: self.scheme.estimate(self.tolerance),
             tolerance: self.tolerance,
-            watched: jumps::watched::<T, S>(prepared),
+            watch: Watch::of(prepared),
             parameter: step.h,
             number: MAPS.fetch_add(1, Ordering::Relaxed),
         }
@@ -198,8 +201,7 @@ pub struct Following<T: Real, S: System, M: Estimates<S>> {
     field: <S::Prepared<T> as Dynamics<T>>::Field,
     estimate: Estimate<T>,
     tolerance: Tolerance,
-    /// The system, if H may jump.
-    watched: Option<S::Prepared<T>>,
+    watch: Watch<S::Prepared<T>>,
     parameter: T,
     /// No other map has it.
     number: usize,
@@ -218,6 +220,7 @@ pub struct FollowingWork<C: Carried, M, W> {
     before: C,
     after: C,
     derivatives: Derivatives<C::Vector>,
+    scratch: [Point<C::Vector>; 2],
     /// H before and after the last attempt that was refused for a jump; 0 if a later one was refused for its error.
     jump: [C::Scalar; 2],
 }
@@ -232,6 +235,7 @@ impl<C: Carried, M, W: Scratch<C>> Scratch<Follows<C>> for FollowingWork<C, M, W
             before: like.of.clone(),
             after: like.of.clone(),
             derivatives: Derivatives::like(like.of.point()),
+            scratch: [(); 2].map(|()| like.of.point().zeros_like()),
             jump: [C::Scalar::zero(); 2],
         }
     }
@@ -310,7 +314,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         work: &mut WorkOf<T, S, M>,
     ) -> (u64, bool) {
         let [_, _, t, _, _, limit, low, ..] = z.numbers;
-        if T::LANES > 1 || self.watched.is_some() || T::constant(ALONE, 0.0).le(limit).any() {
+        if T::LANES > 1 || T::constant(ALONE, 0.0).le(limit).any() {
             return (0, false);
         }
         let (density, leaps) = self.density(&z.numbers);
@@ -329,10 +333,11 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             is_constant,
         };
         let steps = (self.parameter, [t, low], n);
-        let (estimate, before) = (&self.estimate, &mut work.before);
+        let mut asked = Asked::by(self, &mut work.scratch);
+        let before = &mut work.before;
         let maps = [&self.map, &*copy];
         let (made, is_refused) = M::steps(
-            estimate,
+            &mut asked,
             maps,
             steps,
             &mut sizes,
@@ -387,6 +392,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             work.before.copy_from(&z.of);
         }
         work.jump = [zero; 2];
+        let energy = Asked::by(self, &mut work.scratch).energy(t, work.before.point());
         let mut changed = T::Mask::splat(false);
         let mut open = T::Mask::splat(true);
         let mut attempts = 0;
@@ -399,16 +405,15 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             attempts += 1;
             let from = work.before.point();
             let met = M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
-            let jumps = match &self.watched {
-                Some(of) => jumps::in_step(self, of, (h, t), z.of.point(), work),
-                None => T::Mask::splat(false),
-            };
-            let met = met & !jumps;
+            let mut asked = Asked::by(self, &mut work.scratch);
+            let energies = [energy, asked.energy(t + h, z.of.point())];
+            let change = M::change(&mut asked, (h, t), from, &z.of, energies);
+            let same = change.le(one);
+            let met = met & same;
             if attempts == 1 && met.all() {
                 break;
             }
-            let error = self.error(h, &z.of, work);
-            let error = T::select(jumps, T::constant(f64::NAN, 0.0), error);
+            let error = worse(self.error(h, &z.of, work), change);
             // This is false for NaN, of a step that was not solved.
             let fine = met | error.le(one);
             let mut refuses = open & !fine;
@@ -419,11 +424,13 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             if !refuses.any() {
                 break;
             }
-            if self.watched.is_some() {
-                let forgets = refuses & !jumps;
-                for of in &mut work.jump {
-                    *of = T::select(forgets, zero, *of);
-                }
+            let mut jumps = refuses & !same;
+            if jumps.any() {
+                let ends = [work.before.point(), z.of.point()];
+                jumps = jumps & Asked::by(self, &mut work.scratch).jumps((h, t), ends, energies);
+            }
+            for (to, energy) in work.jump.iter_mut().zip(energies) {
+                *to = T::select(refuses, T::select(jumps, energy, zero), *to);
             }
             work.after.copy_where(open & fine, &z.of);
             open = refuses;
@@ -432,7 +439,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
                 z.of.poison(refuses);
                 break;
             }
-            let smaller = density / shrink(error, attempts, self.watched.is_some());
+            let smaller = density / pilot::shrink(error, attempts);
             density = T::select(refuses, fixed(smaller), density);
             refused += T::select(refuses, one, zero);
             z.of.copy_from(&work.before);
@@ -452,7 +459,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         self.follow(density, changed, &mut z.numbers, point, derivatives);
         // Beyond a jump a step is not as short as in it, and differences over it may be rounding.
         let is_cut = changed & (before * T::constant(CUT, 0.0)).lt(density);
-        if self.watched.is_some() && is_cut.any() {
+        if is_cut.any() {
             wait(&mut z.numbers, is_cut);
         }
         let lost = changed & is_constant & limit.lt(density);
@@ -517,17 +524,4 @@ impl<T: Real, S: System, M: Estimates<S>> Map for Following<T, S, M> {
             absolute: self.tolerance.absolute,
         }
     }
-}
-
-/// The factor of the size after a step with this error was refused, of an H that may jump or not. A step whose equations
-/// were not solved may be a little too long for them, or far too long.
-#[cfg_attr(not(unoptimised), inline(always))]
-fn shrink<T: Real>(error: T, attempts: u32, may_jump: bool) -> T {
-    let unknown = if attempts == 1 { 0.7 } else { 0.25 };
-    // The error of a step across a jump of the gradient is proportional to its size.
-    let most = [0.9, unknown][usize::from(may_jump && attempts > 2)];
-    let (least, most) = (T::constant(0.1, 0.0), T::constant(most, 0.0));
-    let factor = root(T::constant(AIM, 0.0) / error);
-    let factor = T::select(factor.lt(most), larger(factor, least), most);
-    T::select(error.finite(), factor, T::constant(unknown, 0.0))
 }

@@ -45,6 +45,19 @@ fn factor<T: Real>(error: T, most: f64) -> T {
     T::select(error.finite(), fixed(factor), number(0.25))
 }
 
+/// The factor of the size after a step with this error was refused. A step whose equations were not solved may be a little
+/// too long for them, or far too long.
+#[cfg_attr(not(unoptimised), inline(always))]
+pub(super) fn shrink<T: Real>(error: T, attempts: u32) -> T {
+    let unknown = if attempts == 1 { 0.7 } else { 0.25 };
+    // The error of a step across a jump of the gradient is proportional to its size.
+    let most = [0.9, unknown][usize::from(attempts > 2)];
+    let (least, most) = (T::constant(0.1, 0.0), T::constant(most, 0.0));
+    let factor = root(T::constant(AIM, 0.0) / error);
+    let factor = T::select(factor.lt(most), larger(factor, least), most);
+    T::select(error.finite(), factor, T::constant(unknown, 0.0))
+}
+
 /// A step, as runs make it, and its estimated error, compiled once for all of the pilot.
 #[inline(never)]
 fn attempt<T: Real, S: System, M: Estimates<S>>(

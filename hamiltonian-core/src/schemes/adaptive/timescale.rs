@@ -34,7 +34,7 @@ fn number<T: Real>(x: f64) -> T {
 
 /// J∇H at a point.
 #[cfg_attr(not(unoptimised), inline(always))]
-fn slope_at<V: Vector, F: VectorField<V>>(
+pub(super) fn slope_at<V: Vector, F: VectorField<V>>(
     field: &F,
     t: V::Scalar,
     point: &Point<V>,
@@ -100,11 +100,6 @@ impl<V: Vector> Derivatives<V> {
             near: [near[0].take(), near[1].take()],
             slopes: [slopes[0].take(), slopes[1].take()],
         }
-    }
-
-    /// A vector that is written over when derivatives are found.
-    pub(super) fn scratch(&mut self) -> &mut Point<V> {
-        &mut self.slopes[0]
     }
 
     /// Finds J∇H at t + x and t − x on the Taylor polynomial of the derivatives found so far.

@@ -3,6 +3,7 @@
 //! Input: a step of eight stages and a [`Tolerance`]. Output: the estimated error in units of the tolerated one.
 //! Invariant: the estimate is the same for the step backwards, so that decisions by it are reversible.
 
+use super::energy::Asked;
 use crate::errors::{Error, StartError};
 use crate::flows::map::{Clock, Map};
 use crate::schemes::bundles::{Apart, StageLayout, in_bundles, number, spread, store, sum};
@@ -93,12 +94,21 @@ pub trait Estimates<S: System>: OneStep + Scheme<S> {
         before: &Point<VectorOf<S, T>>,
         after: &CarriedBy<Self, S, T>,
     ) -> T;
-    /// Makes up to `n` steps with stages beside each other, until one has too large an error or is not solved, or the
+    /// The change at the ends of a step of size h from t, in units of the tolerated one: that of H, or that of the slopes
+    /// from the polynomial of the stages.
+    fn change<T: Real>(
+        asked: &mut Asked<'_, T, S>,
+        h_t: (T, T),
+        before: &Point<VectorOf<S, T>>,
+        after: &CarriedBy<Self, S, T>,
+        energies: [T; 2],
+    ) -> T;
+    /// Makes up to `n` steps with stages beside each other, until one is not what is asked or is not solved, or the
     /// sizes end. Returns their number, and whether one more was refused: the value carried is then that after it, that
     /// before it is `before`. There are none if there are no lanes. The maps are that for the size `h`, and a
     /// [copy](Estimates::copy) of it for any size.
     fn steps<T: Real, Z: Sizes<T, VectorOf<S, T>>>(
-        estimate: &Estimate<T>,
+        asked: &mut Asked<'_, T, S>,
         maps: [&Self::Map<T>; 2],
         h_time_n: (T, [T; 2], u64),
         sizes: &mut Z,
@@ -158,7 +168,7 @@ pub(super) fn larger<T: Real>(a: T, b: T) -> T {
 
 /// The larger of two numbers; NaN if one is NaN.
 #[cfg_attr(not(unoptimised), inline(always))]
-fn worse<T: Real>(a: T, b: T) -> T {
+pub(super) fn worse<T: Real>(a: T, b: T) -> T {
     T::select(a.lt(b) | !b.equals(b), b, a)
 }
 
@@ -177,6 +187,11 @@ fn most<V: Vector>(x: &V) -> V::Scalar {
 /// The error of a step over `h·r²√r` times its slope. The errors that follow are tested at the ends of runs of twenty
 /// problems, among them Kepler's with e = 0.99, the restricted three-body problem and H = ½(q² + 1)(p² + 1).
 const FACTOR: f64 = 0.5;
+
+/// The part of a step before its first stage, and beyond its last one.
+const UNSEEN: f64 = 0.02;
+/// The largest difference of the slope at an end from the stages' polynomial, in units of its last coefficient.
+const DEFECT: f64 = 4.0;
 
 /// The largest tolerance of a step, in units of the largest coordinate or momentum: steps with larger errors take so many
 /// iterations that a run takes no less time.
@@ -240,21 +255,21 @@ impl<T: Real> Tolerated<T> {
 #[derive(Debug, Clone, Copy)]
 pub struct Estimate<T> {
     tolerance: Tolerance,
-    /// Weights of the stages in the last two coefficients of the slopes' polynomial, in Legendre's polynomials.
-    weights: [[T; STAGES]; 2],
+    /// Weights of the stages in the last two coefficients of the slopes' polynomial, in Legendre's polynomials, and in its
+    /// values at the ends of the step.
+    weights: [[T; STAGES]; 4],
 }
 
 impl<T: Real> Estimate<T> {
     fn new(method: &Collocation<STAGES>, tolerance: Tolerance) -> Self {
-        let weights = method.last_coefficients().map(|row| row.map(constant));
+        let weights = method.of_slopes().map(|row| row.map(constant));
         Estimate { tolerance, weights }
     }
 
     /// Σ |∂H/∂xᵢ|·(the tolerated error of xᵢ) of a step, and Σ |xᵢ·∂H/∂xᵢ|. `slope` is J∇H.
     pub(super) fn change_of_energy<V: Vector<Scalar = T>>(
         &self,
-        before: &Point<V>,
-        after: &Point<V>,
+        [before, after]: [&Point<V>; 2],
         slope: &Point<V>,
     ) -> [T; 2] {
         let [mut tolerated, mut size] = [T::zero(); 2];
@@ -283,7 +298,7 @@ impl<T: Real> Estimate<T> {
     /// the one before it counts an eighth.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn tail<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
-        weights: &[[L::Bundle; STAGES]; 2],
+        weights: &WeightsOf<L, T>,
         slopes: &[X; STAGES],
         (k, i): (usize, usize),
     ) -> [T; 2] {
@@ -301,12 +316,54 @@ impl<T: Real> Estimate<T> {
         [tail / T::select(is_zero, T::one(), most), most]
     }
 
+    /// The largest difference of the slopes at the ends of a step from their polynomial there, in units of the tolerated
+    /// one. Beyond the last stage lies a part of the step that no stage sees, with the weight [`UNSEEN`]; a polynomial of
+    /// slopes is worth what its last coefficient is.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    pub(super) fn defect<L, V, X>(
+        &self,
+        weights: &WeightsOf<L, T>,
+        h: T,
+        [before, after]: [&Point<V>; 2],
+        slopes: &[X; STAGES],
+        at_ends: &[Point<V>; 2],
+    ) -> T
+    where
+        L: StageLayout<T>,
+        V: Vector<Scalar = T>,
+        X: Vector<Scalar = L::Bundle>,
+    {
+        let q = Tolerated::of(self.tolerance, &before.q, &after.q);
+        let p = Tolerated::of(self.tolerance, &before.p, &after.p);
+        let per = (T::constant(UNSEEN, 0.0) * h.abs()).recip();
+        let mut worst = T::zero();
+        for k in 0..X::PARTS {
+            for i in 0..slopes[0].part(k).len() {
+                let [r, most] = Self::tail::<L, X>(weights, slopes, (k, i));
+                // Forces stand for ∂V/∂q.
+                let (group, part, sign) = match X::PARTS > V::PARTS {
+                    true if k < V::PARTS => (&q, k, 1.0),
+                    true => (&p, k, 1.0),
+                    false => (&p, k + V::PARTS, -1.0),
+                };
+                let tolerated = group.error(before.part(part)[i], after.part(part)[i]) * per
+                    + T::constant(DEFECT, 0.0) * r * most;
+                for (weights, slope) in weights[2..].iter().zip(at_ends) {
+                    let of = spread::<T, L, _, 1, STAGES>([weights], slopes, k, i);
+                    let of = sum::<T, L, STAGES>(&of) * T::constant(sign, 0.0);
+                    worst = worse(worst, (slope.part(part)[i] - of).abs() / tolerated);
+                }
+            }
+        }
+        worst
+    }
+
     /// The error of a step in units of the tolerated one, from the slopes at its stages, or from the forces there: their
     /// relative error is taken for that of the coordinates' change as well.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn error<L, V, X, const EXACT: bool>(
         &self,
-        weights: &[[L::Bundle; STAGES]; 2],
+        weights: &WeightsOf<L, T>,
         h: T,
         before: &Point<V>,
         after: &Point<V>,
@@ -340,9 +397,12 @@ impl<T: Real> Estimate<T> {
     }
 }
 
-/// Looks at the estimated errors of steps.
-struct ErrorInspection<'a, T, V, Y, Z> {
-    estimate: &'a Estimate<T>,
+/// The weights of the stages of a step in bundles.
+pub(super) type WeightsOf<L, T> = [[<L as StageLayout<T>>::Bundle; STAGES]; 4];
+
+/// Looks at the estimated errors of steps, and at their ends.
+struct ErrorInspection<'a, 'b, T: Real, S: System, Y, Z> {
+    asked: &'a mut Asked<'b, T, S>,
     /// The size of the map's steps.
     h: T,
     sizes: &'a mut Z,
@@ -351,18 +411,20 @@ struct ErrorInspection<'a, T, V, Y, Z> {
     /// The time and its low word.
     time: [T; 2],
     /// The point before the step, and its low words.
-    before: [&'a mut Point<V>; 2],
+    before: [&'a mut Point<VectorOf<S, T>>; 2],
+    /// H there.
+    energy: T,
     /// The unknowns of the step before one that is refused.
     unknowns: &'a mut [Y; STAGES],
     is_refused: bool,
 }
 
-impl<T, V, Y, Z> Inspect<T, V, STAGES> for ErrorInspection<'_, T, V, Y, Z>
+impl<T, S, Y, Z> Inspect<T, VectorOf<S, T>, STAGES> for ErrorInspection<'_, '_, T, S, Y, Z>
 where
     T: Real,
-    V: Vector<Scalar = T>,
+    S: System,
     Y: Vector<Scalar = T>,
-    Z: Sizes<T, V>,
+    Z: Sizes<T, VectorOf<S, T>>,
 {
     const LOOKS: bool = true;
     #[cfg_attr(not(unoptimised), inline(always))]
@@ -378,36 +440,47 @@ where
         self.time[0]
     }
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn keep(&mut self, point: &Point<V>, low: &Point<V>) {
+    fn keep(&mut self, point: &Point<VectorOf<S, T>>, low: &Point<VectorOf<S, T>>) {
         self.before[0].copy_from(point);
         self.before[1].copy_from(low);
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn accepts<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
         &mut self,
-        point: &Point<V>,
+        point: &Point<VectorOf<S, T>>,
         slopes: &[X; STAGES],
     ) -> bool {
         let ErrorInspection {
-            estimate,
+            asked,
+            energy,
             time,
             before,
             sizes,
             ..
         } = self;
         let h = self.h * sizes.size();
-        let [first, second] = &estimate.weights;
+        let (estimate, t) = (asked.estimate, time[0]);
+        let [last, before_last, begin, end] = &estimate.weights;
         let weights = [
-            in_bundles::<T, L, STAGES>(first),
-            in_bundles::<T, L, STAGES>(second),
+            in_bundles::<T, L, STAGES>(last),
+            in_bundles::<T, L, STAGES>(before_last),
+            in_bundles::<T, L, STAGES>(begin),
+            in_bundles::<T, L, STAGES>(end),
         ];
-        let error = estimate.error::<L, V, X, false>(&weights, h, before[0], point, slopes);
-        let is_met = (error.le(T::one()) & moves(time[0], h)).all();
-        if is_met {
-            *time = later(*time, h);
-            self.ends = !sizes.next(*time, point);
+        let error = estimate.error::<L, _, X, false>(&weights, h, before[0], point, slopes);
+        if !(error.le(T::one()) & moves(t, h)).all() {
+            return false;
         }
-        is_met
+        let energies = [*energy, asked.energy(t + h, point)];
+        let ends = [&*before[0], point];
+        let change = asked.change::<L, X>(&weights, (h, t), ends, slopes, energies);
+        if !change.le(T::one()).all() {
+            return false;
+        }
+        *energy = energies[1];
+        *time = later(*time, h);
+        self.ends = !sizes.next(*time, point);
+        true
     }
     #[cfg_attr(not(unoptimised), inline(always))]
     fn refuse<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(&mut self, before: &[X; STAGES]) {
@@ -462,8 +535,19 @@ macro_rules! estimates {
                 estimate.error::<Apart, _, _, EXACT>(&estimate.weights, h, before, point, slopes)
             }
             #[cfg_attr(not(unoptimised), inline(always))]
+            fn change<T: Real>(
+                asked: &mut Asked<'_, T, S>,
+                step: (T, T),
+                before: &Point<VectorOf<S, T>>,
+                after: &CarriedBy<Self, S, T>,
+                energies: [T; 2],
+            ) -> T {
+                let weights = &asked.estimate.weights;
+                asked.change::<Apart, _>(weights, step, [before, &after.x], &after.y.x.0, energies)
+            }
+            #[cfg_attr(not(unoptimised), inline(always))]
             fn steps<T: Real, Z: Sizes<T, VectorOf<S, T>>>(
-                estimate: &Estimate<T>,
+                asked: &mut Asked<'_, T, S>,
                 [map, copy]: [&Self::Map<T>; 2],
                 (h, time, n): (T, [T; 2], u64),
                 sizes: &mut Z,
@@ -472,7 +556,8 @@ macro_rules! estimates {
                 work: &mut WorkBy<Self, S, T>,
             ) -> (u64, bool) {
                 let mut inspection = ErrorInspection {
-                    estimate,
+                    energy: asked.energy(time[0], &z.x),
+                    asked,
                     h,
                     sizes,
                     ends: false,

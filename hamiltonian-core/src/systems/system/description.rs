@@ -202,6 +202,8 @@ pub struct Description {
     pub fictitious_time: Option<Text>,
     /// True if a force acts on the momenta besides −∂H/∂q.
     pub is_forced: bool,
+    /// True if H is proven not to depend on t. Runs to a tolerance then compare H at both ends of a step, if no force acts.
+    pub is_autonomous: bool,
     /// `Some(n)` if H is defined for all finite numbers, and neither it nor a part of it grows faster than the n-th
     /// power of their size. Runs do not evaluate H where it is known to be finite. `None` if nothing is known: runs
     /// then evaluate H at the end of each block of steps.
@@ -228,31 +230,11 @@ impl Description {
         pieces: Cow::Borrowed(&[]),
         fictitious_time: None,
         is_forced: false,
+        is_autonomous: false,
         growth: None,
         jumps: [false; 2],
         missing: Cow::Borrowed(&[]),
     };
-
-    /// True if the formula has a function that is not smooth: H, or a derivative of it, may jump.
-    pub(crate) fn is_piecewise(&self) -> bool {
-        const FUNCTIONS: [&str; 8] = [
-            "abs(",
-            "sign(",
-            "min(",
-            "max(",
-            "floor(",
-            "round(",
-            "remainder(",
-            "if ",
-        ];
-        let is_called = |name: &str| {
-            self.formula.match_indices(name).any(|(at, _)| {
-                let before = self.formula[..at].chars().next_back();
-                !before.is_some_and(|c| c.is_alphanumeric() || c == '_')
-            })
-        };
-        FUNCTIONS.iter().any(|name| is_called(name)) || self.formula.contains(" % ")
-    }
 
     /// The description of a system of which its name and its variables are known.
     #[must_use]

@@ -22,10 +22,11 @@ pub fn constant(context: Context) -> String {
         None => "__h::Option::None".to_owned(),
     };
     format!(
-        "__h::described! {{\n{:?}, {:?}, {}, {growth}, {:?}, {time};\n[{}] [{}] [{}] [{}]\n}}\n",
+        "__h::described! {{\n{:?}, {:?}, {}, {}, {growth}, {:?}, {time};\n[{}] [{}] [{}] [{}]\n}}\n",
         model.name,
         described.formula,
         !model.force.is_empty(),
+        structure.autonomous.is_ok(),
         described.jumps,
         groups(model, context.layout),
         observables(&described),

@@ -4,8 +4,9 @@
 //! next step. Invariant: in steps that are not refused it is reversible, but where it leaves Q by a factor or grows too
 //! fast.
 
+use super::inspection::{Estimates, Sizes};
 use super::timescale::Derivatives;
-use super::tolerance::{Estimates, Sizes, larger};
+use super::tolerance::larger;
 use super::{Following, NUMBERS, fixed};
 use crate::schemes::paced::SOON;
 use crate::systems::state::Point;
@@ -31,7 +32,7 @@ pub(super) fn wait<T: Real>(numbers: &mut [T; NUMBERS], lanes: T::Mask) {
 }
 
 /// The sizes of steps in lanes, which follow the orbit if they vary.
-pub(super) struct Followed<'a, T: Real, S: System, M: Estimates<S>> {
+pub(super) struct OrbitSizes<'a, T: Real, S: System, M: Estimates<S>> {
     pub(super) map: &'a Following<T, S, M>,
     pub(super) numbers: &'a mut [T; NUMBERS],
     pub(super) derivatives: &'a mut Derivatives<VectorOf<S, T>>,
@@ -41,7 +42,7 @@ pub(super) struct Followed<'a, T: Real, S: System, M: Estimates<S>> {
     pub(super) is_constant: bool,
 }
 
-impl<T: Real, S: System, M: Estimates<S>> Sizes<T, VectorOf<S, T>> for Followed<'_, T, S, M> {
+impl<T: Real, S: System, M: Estimates<S>> Sizes<T, VectorOf<S, T>> for OrbitSizes<'_, T, S, M> {
     #[cfg_attr(not(unoptimised), inline(always))]
     fn size(&self) -> T {
         self.size

@@ -7,8 +7,7 @@
 //! gradient, or a steep wall. Where H is not known to be conserved, the slopes at the ends are compared with the stages'.
 
 use super::timescale::slope_at;
-use super::tolerance::{STAGES, WeightsOf, worse};
-use super::{Estimate, Estimates, Following, larger};
+use super::tolerance::{Estimate, STAGES, WeightsOf, larger, worse};
 use crate::schemes::bundles::StageLayout;
 use crate::systems::state::Point;
 use crate::systems::system::{Dynamics, System, VectorOf};
@@ -28,61 +27,46 @@ fn rounding<T: Real>() -> T {
 }
 
 /// How the ends of steps are compared.
-pub(super) struct Watch<P> {
+pub(super) struct Comparison<P> {
     /// The system, if H changes by ∂H/∂t alone.
     conserves: Option<P>,
     /// True if the slopes are compared: H is not known to be conserved.
     is_open: bool,
 }
 
-impl<P> Watch<P> {
+impl<P> Comparison<P> {
     pub(super) fn of<T: Real>(prepared: &P) -> Self
     where
         P: Dynamics<T> + Clone,
     {
         let of = prepared.description();
         let conserves = !of.is_forced && of.jumps == [false; 2];
-        Watch {
+        Comparison {
             conserves: conserves.then(|| prepared.clone()),
             is_open: of.is_forced || !of.is_autonomous,
         }
     }
 }
 
-type FieldOf<S, T> = <<S as System>::Prepared<T> as Dynamics<T>>::Field;
-
 /// What is asked of a step: a small estimated error, and the same H at both ends.
 pub struct Asked<'a, T: Real, S: System> {
     pub(super) estimate: &'a Estimate<T>,
-    field: &'a FieldOf<S, T>,
-    scratch: &'a mut [Point<VectorOf<S, T>>; 2],
-    watch: &'a Watch<S::Prepared<T>>,
+    pub(super) field: &'a <S::Prepared<T> as Dynamics<T>>::Field,
+    pub(super) scratch: &'a mut [Point<VectorOf<S, T>>; 2],
+    pub(super) comparison: &'a Comparison<S::Prepared<T>>,
 }
 
-impl<'a, T: Real, S: System> Asked<'a, T, S> {
-    #[cfg_attr(not(unoptimised), inline(always))]
-    pub(super) fn by<M: Estimates<S>>(
-        map: &'a Following<T, S, M>,
-        scratch: &'a mut [Point<VectorOf<S, T>>; 2],
-    ) -> Self {
-        Asked {
-            estimate: &map.estimate,
-            field: &map.field,
-            scratch,
-            watch: &map.watch,
-        }
-    }
-
+impl<T: Real, S: System> Asked<'_, T, S> {
     /// H, or 0 if it is not conserved.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn energy(&self, t: T, at: &Point<VectorOf<S, T>>) -> T {
-        match &self.watch.conserves {
+        match &self.comparison.conserves {
             Some(of) => of.energy(t, &at.q, &at.p),
             None => T::zero(),
         }
     }
 
-    /// As [`Estimates::change`], from the slopes at the stages, or from the forces there.
+    /// As [`Estimates::change`](super::Estimates::change), from the slopes at the stages, or from the forces there.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn change<L: StageLayout<T>, X: Vector<Scalar = L::Bundle>>(
         &mut self,
@@ -93,7 +77,7 @@ impl<'a, T: Real, S: System> Asked<'a, T, S> {
         energies: [T; 2],
     ) -> T {
         let change = self.change_of_energy((h, t), ends, energies);
-        if !self.watch.is_open {
+        if !self.comparison.is_open {
             return change;
         }
         for ((t, x), slope) in [t, t + h].into_iter().zip(ends).zip(&mut *self.scratch) {
@@ -168,7 +152,7 @@ impl<'a, T: Real, S: System> Asked<'a, T, S> {
         ends: [&Point<VectorOf<S, T>>; 2],
         energies: [T; 2],
     ) -> T {
-        let Some(of) = &self.watch.conserves else {
+        let Some(of) = &self.comparison.conserves else {
             return T::zero();
         };
         T::out_of_line(

@@ -6,6 +6,7 @@
 
 mod density;
 mod energy;
+mod inspection;
 mod pilot;
 mod timescale;
 mod tolerance;
@@ -19,13 +20,15 @@ use crate::systems::state::{Carried, Point, State};
 use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use core::sync::atomic::{AtomicUsize, Ordering};
-use density::{Followed, wait};
+use density::{OrbitSizes, wait};
 pub use energy::Asked;
-use energy::Watch;
+use energy::Comparison;
 use hamiltonian_lanes::{Mask, Real};
+pub use inspection::{Estimates, ToTolerance};
+use inspection::{MapBy, WorkBy, later, moves};
 use timescale::Derivatives;
-pub use tolerance::{Estimate, Estimates, ToTolerance, Tolerance};
-use tolerance::{MapBy, WorkBy, larger, later, moves, worse};
+pub use tolerance::{Estimate, Tolerance};
+use tolerance::{larger, worse};
 
 /// Gauss collocation with steps from a tolerance.
 ///
@@ -152,7 +155,7 @@ where
             field: prepared.field(T::one()),
             estimate: self.scheme.estimate(self.tolerance),
             tolerance: self.tolerance,
-            watch: Watch::of(prepared),
+            comparison: Comparison::of(prepared),
             parameter: step.h,
             number: MAPS.fetch_add(1, Ordering::Relaxed),
         }
@@ -201,7 +204,7 @@ pub struct Following<T: Real, S: System, M: Estimates<S>> {
     field: <S::Prepared<T> as Dynamics<T>>::Field,
     estimate: Estimate<T>,
     tolerance: Tolerance,
-    watch: Watch<S::Prepared<T>>,
+    comparison: Comparison<S::Prepared<T>>,
     parameter: T,
     /// No other map has it.
     number: usize,
@@ -270,6 +273,17 @@ const DENSEST: f64 = 2.5;
 const ATTEMPTS: u32 = 60;
 
 impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
+    /// What is asked of a step.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn asked<'a>(&'a self, scratch: &'a mut [Point<VectorOf<S, T>>; 2]) -> Asked<'a, T, S> {
+        Asked {
+            estimate: &self.estimate,
+            field: &self.field,
+            comparison: &self.comparison,
+            scratch,
+        }
+    }
+
     /// The copy of the map, whose size is `made` times that of the map with the number `of`.
     #[cfg_attr(not(unoptimised), inline(always))]
     fn copied<'a>(
@@ -324,7 +338,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
         let is_constant = T::zero().lt(limit).all();
         let n = z.steps_to_pilot().map_or(n, |left| n.min(left));
         let copy = self.copied(&mut work.map, (&mut work.of, &mut work.by));
-        let mut sizes = Followed {
+        let mut sizes = OrbitSizes {
             map: self,
             numbers: &mut z.numbers,
             derivatives: &mut work.derivatives,
@@ -333,7 +347,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             is_constant,
         };
         let steps = (self.parameter, [t, low], n);
-        let mut asked = Asked::by(self, &mut work.scratch);
+        let mut asked = self.asked(&mut work.scratch);
         let before = &mut work.before;
         let maps = [&self.map, &*copy];
         let (made, is_refused) = M::steps(
@@ -392,7 +406,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             work.before.copy_from(&z.of);
         }
         work.jump = [zero; 2];
-        let energy = Asked::by(self, &mut work.scratch).energy(t, work.before.point());
+        let energy = self.asked(&mut work.scratch).energy(t, work.before.point());
         let mut changed = T::Mask::splat(false);
         let mut open = T::Mask::splat(true);
         let mut attempts = 0;
@@ -405,7 +419,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             attempts += 1;
             let from = work.before.point();
             let met = M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
-            let mut asked = Asked::by(self, &mut work.scratch);
+            let mut asked = self.asked(&mut work.scratch);
             let energies = [energy, asked.energy(t + h, z.of.point())];
             let change = M::change(&mut asked, (h, t), from, &z.of, energies);
             let same = change.le(one);
@@ -427,7 +441,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             let mut jumps = refuses & !same;
             if jumps.any() {
                 let ends = [work.before.point(), z.of.point()];
-                jumps = jumps & Asked::by(self, &mut work.scratch).jumps((h, t), ends, energies);
+                jumps = jumps & self.asked(&mut work.scratch).jumps((h, t), ends, energies);
             }
             for (to, energy) in work.jump.iter_mut().zip(energies) {
                 *to = T::select(refuses, T::select(jumps, energy, zero), *to);

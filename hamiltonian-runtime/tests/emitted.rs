@@ -143,10 +143,11 @@ impl Statements {
         let pieces =
             pieces.map(|of| format!("__h::piece({:?}, {:?}, {})", of.name, of.formula, of.jumps));
         let text = format!(
-            "{:?}, {:?}, {}, {growth}, {:?}, {time} [{}] [{}] [{}]",
+            "{:?}, {:?}, {}, {}, {growth}, {:?}, {time} [{}] [{}] [{}]",
             description.name,
             description.formula,
             description.is_forced,
+            description.is_autonomous,
             description.jumps,
             observables.collect::<Vec<_>>().join(", "),
             { description.cyclic.iter() }

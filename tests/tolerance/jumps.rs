@@ -136,6 +136,12 @@ hamiltonian! {
     H(q; p) = p^2/2 + exp(q) - q
 }
 
+hamiltonian! {
+    /// The same far from the origin.
+    pub struct FarToda { a = 1e5 }
+    H(q; p) = p^2/2 + exp(q - a) - (q - a)
+}
+
 /// The steps that come back from the side of the constant force are long, and may end in the wall, where no stage was.
 #[test]
 fn a_steep_wall_changes_no_energy() {
@@ -156,6 +162,46 @@ fn a_steep_wall_changes_no_energy() {
         );
         assert!(worst < bound, "{worst:e}");
     }
+    let system = FarToda::default();
+    let start = State::new([1e5 + 7.0], [0.0]);
+    let energy = system.energy(&start);
+    let mut run = Integrator::to_tolerance(&system, start, 1e-10).unwrap();
+    run.advance(20_000).unwrap();
+    let error = run.energy() / energy - 1.0;
+    println!("{error:e}, {} refused", run.refused_steps());
+    assert!(error.abs() < 1e-5, "{error:e}");
+}
+
+hamiltonian! {
+    /// An oscillator with a force that begins at t = 1.
+    pub struct Begun {}
+    H(q; p; t) = p^2/2 + q^2/2 - q*max(0, t - 1)
+}
+
+/// Nothing changes at rest: the slopes at the ends, and those tolerated, are 0.
+#[test]
+fn a_point_at_rest_is_no_error() {
+    let mut run = Integrator::to_tolerance(&Begun {}, State::new([0.0], [0.0]), 1e-9).unwrap();
+    let end = run.advance_until(4.0).unwrap();
+    assert!((end.q[0] - (3.0 - 3.0_f64.sin())).abs() < 1e-7, "{end:?}");
+    let mut run = Integrator::to_tolerance(&Dry {}, State::new([0.0], [0.0]), 1e-9).unwrap();
+    assert_eq!(run.advance_until(4.0).unwrap().q[0], 0.0);
+}
+
+hamiltonian! {
+    /// An oscillator that is pushed a little, and fast.
+    pub struct Pushed { a = 1e-4 }
+    H(q; p; t) = p^2/2 + q^2/2 - a*q*cos(5*t)
+}
+
+/// H(t) changes by a push, and ∂H/∂t may be 0 at both ends of a step.
+#[test]
+fn a_push_refuses_no_step() {
+    let mut run =
+        Integrator::to_tolerance(&Pushed::default(), State::new([1.0], [0.0]), 1e-8).unwrap();
+    run.advance(2000).unwrap();
+    println!("{} refused, steps of {}", run.refused_steps(), run.step());
+    assert!(run.refused_steps() < 4);
 }
 
 hamiltonian! {

@@ -68,7 +68,8 @@ const MAGIC: &[u8; 8] = b"HAMILTON";
 /// loops may be multiplied in another order, a part of a Gauss step begins at the polynomial of the step, and each member of
 /// an ensemble has a count of steps. Version 6: `ImplicitMidpoint` and `Gauss` compute forces from new velocities if H is separable.
 /// Version 7: runs to a tolerance compare H at the ends of steps where it may jump, and add up their time scale in another order.
-const VERSION: u64 = 7;
+/// Version 8: they compare the ends of all steps, and find the time scale from other forces.
+const VERSION: u64 = 8;
 
 impl Checkpoint {
     /// The number of steps made.

@@ -11,9 +11,9 @@ use crate::systems::system::{Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
-/// The part of the steps to a time at their present size that are made at once: they may become eight times as long.
+/// The part of the steps to a time, at their present size, that are attempted at once: steps may become eight times as long.
 const LIKELY: f64 = 1.0 / 8.0;
-/// The most of them.
+/// The largest number of steps attempted at once before a time.
 const MOST_LIKELY: u64 = 64;
 
 impl<T: Real, S: System, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {

@@ -1,7 +1,7 @@
 //! The density of steps, which follows the time scale of the orbit.
 //!
 //! Input: the numbers that [`Adaptive`](super::Adaptive) carries, and the point after a step. Output: the density in the
-//! next step. Invariant: in steps that are not refused it is reversible, but where it leaves Q by a factor or grows too
+//! next step. Invariant: in steps that are not refused it is reversible, but where it leaves Q by a factor or falls too
 //! fast.
 
 use super::inspection::{Estimates, Sizes};

@@ -1,13 +1,13 @@
-//! What is asked of a step: a small estimated error, the same H at both ends, and slopes there that fit its stages.
+//! The conditions on a step: a small estimated error, the same H at both ends, and slopes there that fit its stages.
 //!
 //! Input: the points before and after a step. Output: their change in units of the tolerated one. Invariant: a step that
-//! keeps a conserved H takes no derivatives.
+//! keeps H takes no derivatives if H is proven to be conserved.
 //!
 //! The estimate from the stages knows nothing of what lies between two of them, or beyond the last: a jump of H or of its
 //! gradient, or a steep wall. Where H is not known to be conserved, the slopes at the ends are compared with the stages'.
 
 use super::timescale::slope_at;
-use super::tolerance::{Estimate, STAGES, WeightsOf, larger, worse};
+use super::tolerance::{Estimate, STAGES, WeightsOf, worse};
 use crate::schemes::bundles::StageLayout;
 use crate::systems::state::Point;
 use crate::systems::system::{Dynamics, System, VectorOf};
@@ -18,9 +18,6 @@ use hamiltonian_lanes::{Mask, Real};
 const LARGEST: f64 = 4.0;
 /// The rounding of H: a part of H and of Σ |xᵢ·∂H/∂xᵢ| in units of ε, and so many times what third differences of H show.
 const ROUNDING: [f64; 2] = [64.0, 8.0];
-/// The relative distance of the points of third differences: 2⁻¹⁷, at which those of a smooth H are rounding.
-const NEAR: f64 = 1.0 / (1_u64 << 17) as f64;
-
 #[cfg_attr(not(unoptimised), inline(always))]
 fn rounding<T: Real>() -> T {
     T::constant(ROUNDING[0] * T::epsilon(), 0.0)
@@ -48,15 +45,15 @@ impl<P> Comparison<P> {
     }
 }
 
-/// What is asked of a step: a small estimated error, and the same H at both ends.
-pub struct Asked<'a, T: Real, S: System> {
+/// The conditions on a step, and scratch.
+pub struct StepConditions<'a, T: Real, S: System> {
     pub(super) estimate: &'a Estimate<T>,
     pub(super) field: &'a <S::Prepared<T> as Dynamics<T>>::Field,
     pub(super) scratch: &'a mut [Point<VectorOf<S, T>>; 2],
     pub(super) comparison: &'a Comparison<S::Prepared<T>>,
 }
 
-impl<T: Real, S: System> Asked<'_, T, S> {
+impl<T: Real, S: System> StepConditions<'_, T, S> {
     /// H, or 0 if it is not conserved.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn energy(&self, t: T, at: &Point<VectorOf<S, T>>) -> T {
@@ -98,17 +95,18 @@ impl<T: Real, S: System> Asked<'_, T, S> {
         let [before, after] = energies;
         let change = (after - before).abs();
         let rounding = rounding::<T>() * (before.abs() + after.abs());
-        // False for NaN, of a step that was not solved.
-        let mut differs = rounding.lt(change);
+        // True if H is not finite.
+        let mut differs = !(change.le(rounding) & change.finite());
         if differs.any() {
-            // The mean slope tells most steps apart, and needs no derivatives.
+            // A bound from the mean slope suffices for most steps, and needs no derivatives.
             let by = step.0.recip();
             let scratch = &mut self.scratch[0];
             scratch.set_zero();
             scratch.accumulate(by, ends[1]);
             scratch.accumulate(-by, ends[0]);
             let [tolerated, _] = self.estimate.change_of_energy(ends, scratch);
-            differs = differs & !change.le(T::constant(2.0 * LARGEST, 0.0) * tolerated);
+            let tolerated = T::constant(2.0 * LARGEST, 0.0) * tolerated;
+            differs = differs & !(change.le(tolerated) & change.finite());
         }
         if !differs.any() {
             return T::zero();
@@ -117,7 +115,7 @@ impl<T: Real, S: System> Asked<'_, T, S> {
         T::select(differs, change, T::zero())
     }
 
-    /// The lanes in which H changes by more than its slope at the ends tells: near a singularity H changes too, in steps that
+    /// The lanes in which H changes by more than its slope at the ends explains: near a singularity H changes too, in steps that
     /// are too long for it, but so does its slope.
     #[cold]
     #[inline(never)]
@@ -127,7 +125,7 @@ impl<T: Real, S: System> Asked<'_, T, S> {
         ends: [&Point<VectorOf<S, T>>; 2],
         energies: [T; 2],
     ) -> T::Mask {
-        let mut told = T::zero();
+        let mut explained = T::zero();
         let slope = &mut self.scratch[0];
         for (t, x) in [t, t + h].into_iter().zip(ends) {
             slope_at(self.field, t, x, slope);
@@ -135,12 +133,12 @@ impl<T: Real, S: System> Asked<'_, T, S> {
                 for k in 0..VectorOf::<S, T>::PARTS {
                     for (i, slope) in slope.part(across + k).iter().enumerate() {
                         let moved = ends[1].part(at + k)[i] - ends[0].part(at + k)[i];
-                        told += (*slope * moved).abs();
+                        explained += (*slope * moved).abs();
                     }
                 }
             }
         }
-        told.lt((energies[1] - energies[0]).abs())
+        explained.lt((energies[1] - energies[0]).abs())
     }
 
     /// The change of H in units of the one by which the tolerated errors, the rounding of H, and ∂H/∂t change it.
@@ -165,14 +163,14 @@ impl<T: Real, S: System> Asked<'_, T, S> {
                     let [change, size] = self.estimate.change_of_energy(ends, scratch);
                     tolerated += T::constant(LARGEST, 0.0) * change;
                     tolerated += rounding::<T>() * (size + energy.abs());
-                    tolerated += (h * of.time_derivative(t, &x.q, &x.p)).abs();
                 }
                 let change = (energies[1] - energies[0]).abs();
                 if tolerated.lt(change).any() {
-                    for (t, x) in [t, t + h].into_iter().zip(ends) {
-                        tolerated +=
-                            T::constant(ROUNDING[1], 0.0) * rounding_at::<T, S>(of, t, x, scratch);
-                    }
+                    tolerated += change_in_time::<T, S>(of, (h, t), ends, scratch);
+                }
+                if tolerated.lt(change).any() {
+                    let noise = rounding_near::<T, S>(of, [t, t + h], ends, scratch);
+                    tolerated += T::constant(ROUNDING[1], 0.0) * noise;
                 }
                 change / tolerated
             },
@@ -180,30 +178,75 @@ impl<T: Real, S: System> Asked<'_, T, S> {
     }
 }
 
-/// The rounding of H near a point: the largest third difference of H on either side of it, the smaller of both, since a
-/// jump lies on one side.
+/// The point at `part` of the way through a step.
 #[cfg_attr(not(unoptimised), inline(always))]
-fn rounding_at<T: Real, S: System>(
+fn between<V: Vector>(ends: [&Point<V>; 2], part: V::Scalar, to: &mut Point<V>) {
+    to.copy_from(ends[0]);
+    to.accumulate(part, ends[1]);
+    to.accumulate(-part, ends[0]);
+}
+
+/// A bound of the change of H by ∂H/∂t in a step: twice the largest of nine, along the straight line.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn change_in_time<T: Real, S: System>(
     of: &S::Prepared<T>,
-    t: T,
-    point: &Point<VectorOf<S, T>>,
+    (h, t): (T, T),
+    ends: [&Point<VectorOf<S, T>>; 2],
+    at: &mut Point<VectorOf<S, T>>,
+) -> T {
+    let mut most = T::zero();
+    for k in 0..9 {
+        let part = T::constant(f64::from(k) / 8.0, 0.0);
+        between(ends, part, at);
+        let rate = of.time_derivative(t + part * h, &at.q, &at.p);
+        most = worse(most, (h * rate).abs());
+    }
+    // Rounding of t decides what H changes by in a shorter step.
+    let shortest = T::constant(1024.0 * T::epsilon(), 0.0) * t.abs();
+    let is_unknown = h.abs().lt(shortest) & !most.equals(T::zero());
+    T::select(is_unknown, T::constant(f64::MAX, 0.0), most + most)
+}
+
+/// The rounding of H near the ends of a step: the largest third difference of H on either side of an end, along the line
+/// through both, the smaller of both sides, since a jump lies on one. The distance of the points is ∛ε of the step, at
+/// which third differences of a smooth H are rounding, and another one, since rounding may repeat itself. It is taken for 0
+/// where rounding moves the points.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn rounding_near<T: Real, S: System>(
+    of: &S::Prepared<T>,
+    times: [T; 2],
+    ends: [&Point<VectorOf<S, T>>; 2],
     near: &mut Point<VectorOf<S, T>>,
 ) -> T {
-    let mut least = T::constant(f64::MAX, 0.0);
-    for side in [-1.0, 1.0] {
-        let mut energies = [T::zero(); 6];
-        for (k, energy) in energies.iter_mut().enumerate() {
-            near.set_zero();
-            let by = T::one() + T::constant(side * NEAR * (k + 1) as f64, 0.0);
-            near.accumulate(by, point);
-            *energy = of.energy(t, &near.q, &near.p);
+    let distance = Real::exp(Real::ln(T::epsilon()) / 3.0);
+    let mut sum = T::zero();
+    for (end, t) in [0.0, 1.0].into_iter().zip(times) {
+        let mut least = T::constant(f64::NAN, 0.0);
+        for side in [-distance, distance] {
+            let mut most = T::zero();
+            for distance in [side, 0.625 * side] {
+                let mut energies = [T::zero(); 8];
+                for (k, energy) in energies.iter_mut().enumerate() {
+                    let part = T::constant(distance * (k + 1) as f64, 0.0);
+                    between(ends, T::constant(end, 0.0) + part, near);
+                    *energy = of.energy(t, &near.q, &near.p);
+                }
+                for at in energies.windows(4) {
+                    let third = at[3] - at[0] + T::constant(3.0, 0.0) * (at[1] - at[2]);
+                    most = worse(most, third.abs());
+                }
+            }
+            let is_less = most.lt(least) | !least.equals(least);
+            least = T::select(is_less, most, least);
         }
-        let mut most = T::zero();
-        for at in energies.windows(4) {
-            let third = at[3] - at[0] + T::constant(3.0, 0.0) * (at[1] - at[2]);
-            most = larger(most, third.abs());
-        }
-        least = T::select(most.lt(least), most, least);
+        sum += least;
     }
-    least
+    let smallest = T::constant(1024.0 * T::epsilon() / distance, 0.0);
+    let mut moves = T::Mask::splat(false);
+    for k in 0..Point::<VectorOf<S, T>>::PARTS {
+        for (a, b) in ends[0].part(k).iter().zip(ends[1].part(k)) {
+            moves = moves | (smallest * (a.abs() + b.abs())).lt((*b - *a).abs());
+        }
+    }
+    T::select(moves, sum, T::zero())
 }

@@ -1,9 +1,9 @@
 //! Schemes with an estimate of their error, and their steps in lanes.
 //!
-//! Input: a map, sizes, and what is asked of a step. Output: steps, until one is not what is asked. Invariant: a step that
+//! Input: a map, sizes, and the conditions on a step. Output: steps, until one fails. Invariant: a step that
 //! is refused in lanes is refused alone.
 
-use super::energy::Asked;
+use super::energy::StepConditions;
 use super::tolerance::{Estimate, STAGES, Tolerance};
 use crate::flows::map::{Clock, Map};
 use crate::schemes::bundles::{Apart, StageLayout, in_bundles, store};
@@ -44,18 +44,18 @@ pub trait Estimates<S: System>: OneStep + Scheme<S> {
     /// The change at the ends of a step of size h from t, in units of the tolerated one: that of H, or that of the slopes
     /// from the polynomial of the stages.
     fn change<T: Real>(
-        asked: &mut Asked<'_, T, S>,
+        conditions: &mut StepConditions<'_, T, S>,
         h_t: (T, T),
         before: &Point<VectorOf<S, T>>,
         after: &CarriedBy<Self, S, T>,
         energies: [T; 2],
     ) -> T;
-    /// Makes up to `n` steps with stages beside each other, until one is not what is asked or is not solved, or the
+    /// Makes up to `n` steps with stages beside each other, until one fails a condition or is not solved, or the
     /// sizes end. Returns their number, and whether one more was refused: the value carried is then that after it, that
     /// before it is `before`. There are none if there are no lanes. The maps are that for the size `h`, and a
     /// [copy](Estimates::copy) of it for any size.
     fn steps<T: Real, Z: Sizes<T, VectorOf<S, T>>>(
-        asked: &mut Asked<'_, T, S>,
+        conditions: &mut StepConditions<'_, T, S>,
         maps: [&Self::Map<T>; 2],
         h_time_n: (T, [T; 2], u64),
         sizes: &mut Z,
@@ -117,7 +117,7 @@ fn most_iterations<T: Real>() -> u32 {
 
 /// Looks at the estimated errors of steps, and at their ends.
 struct ErrorInspection<'a, 'b, T: Real, S: System, Y, Z> {
-    asked: &'a mut Asked<'b, T, S>,
+    conditions: &'a mut StepConditions<'b, T, S>,
     /// The size of the map's steps.
     h: T,
     sizes: &'a mut Z,
@@ -166,7 +166,7 @@ where
         slopes: &[X; STAGES],
     ) -> bool {
         let ErrorInspection {
-            asked,
+            conditions,
             energy,
             time,
             before,
@@ -174,7 +174,7 @@ where
             ..
         } = self;
         let h = self.h * sizes.size();
-        let (estimate, t) = (asked.estimate, time[0]);
+        let (estimate, t) = (conditions.estimate, time[0]);
         let [last, before_last, begin, end] = &estimate.weights;
         let weights = [
             in_bundles::<T, L, STAGES>(last),
@@ -186,14 +186,16 @@ where
         if !(error.le(T::one()) & moves(t, h)).all() {
             return false;
         }
-        let energies = [*energy, asked.energy(t + h, point)];
+        // The time at which the next step begins, in this block or in another one.
+        let later = later(*time, h);
+        let energies = [*energy, conditions.energy(later[0], point)];
         let ends = [&*before[0], point];
-        let change = asked.change::<L, X>(&weights, (h, t), ends, slopes, energies);
+        let change = conditions.change::<L, X>(&weights, (h, t), ends, slopes, energies);
         if !change.le(T::one()).all() {
             return false;
         }
         *energy = energies[1];
-        *time = later(*time, h);
+        *time = later;
         self.ends = !sizes.next(*time, point);
         true
     }
@@ -251,18 +253,18 @@ macro_rules! estimates {
             }
             #[cfg_attr(not(unoptimised), inline(always))]
             fn change<T: Real>(
-                asked: &mut Asked<'_, T, S>,
+                conditions: &mut StepConditions<'_, T, S>,
                 step: (T, T),
                 before: &Point<VectorOf<S, T>>,
                 after: &CarriedBy<Self, S, T>,
                 energies: [T; 2],
             ) -> T {
-                let weights = &asked.estimate.weights;
-                asked.change::<Apart, _>(weights, step, [before, &after.x], &after.y.x.0, energies)
+                let weights = &conditions.estimate.weights;
+                conditions.change::<Apart, _>(weights, step, [before, &after.x], &after.y.x.0, energies)
             }
             #[cfg_attr(not(unoptimised), inline(always))]
             fn steps<T: Real, Z: Sizes<T, VectorOf<S, T>>>(
-                asked: &mut Asked<'_, T, S>,
+                conditions: &mut StepConditions<'_, T, S>,
                 [map, copy]: [&Self::Map<T>; 2],
                 (h, time, n): (T, [T; 2], u64),
                 sizes: &mut Z,
@@ -271,8 +273,8 @@ macro_rules! estimates {
                 work: &mut WorkBy<Self, S, T>,
             ) -> (u64, bool) {
                 let mut inspection = ErrorInspection {
-                    energy: asked.energy(time[0], &z.x),
-                    asked,
+                    energy: conditions.energy(time[0], &z.x),
+                    conditions,
                     h,
                     sizes,
                     ends: false,

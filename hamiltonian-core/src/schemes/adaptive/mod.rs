@@ -21,8 +21,8 @@ use crate::systems::system::{Description, Dynamics, System, VectorOf};
 use crate::systems::vector::Vector;
 use core::sync::atomic::{AtomicUsize, Ordering};
 use density::{OrbitSizes, wait};
-pub use energy::Asked;
 use energy::Comparison;
+pub use energy::StepConditions;
 use hamiltonian_lanes::{Mask, Real};
 pub use inspection::{Estimates, ToTolerance};
 use inspection::{MapBy, WorkBy, later, moves};
@@ -67,8 +67,8 @@ use tolerance::{larger, worse};
 /// of the gradient, of functions such as `abs` or `if`, or a steep wall behind a place without forces. Where H itself
 /// jumps, the run ends with [`StepError::Jumped`](crate::errors::StepError::Jumped). End runs at jumps in time.
 ///
-/// A barrier between two stages, which changes H at no end, is not seen. A start in a place without forces has no Q: the first step
-/// may then jump over a narrow barrier. Start such a run with a scheme and a step.
+/// A barrier between two stages that leaves H equal at both ends is not detected. A start in a place without forces has no
+/// Q: the first step may then jump over a narrow barrier. Start such a run with a scheme and a step.
 ///
 /// Time is carried as in [`Paced`](super::Paced): the clock of a run counts its step parameter, whose size does not matter
 /// and whose sign is the direction. [`Integrator::to_tolerance`](crate::Integrator::to_tolerance) sets it to the first
@@ -273,10 +273,13 @@ const DENSEST: f64 = 2.5;
 const ATTEMPTS: u32 = 60;
 
 impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
-    /// What is asked of a step.
+    /// The conditions on a step.
     #[cfg_attr(not(unoptimised), inline(always))]
-    fn asked<'a>(&'a self, scratch: &'a mut [Point<VectorOf<S, T>>; 2]) -> Asked<'a, T, S> {
-        Asked {
+    fn conditions<'a>(
+        &'a self,
+        scratch: &'a mut [Point<VectorOf<S, T>>; 2],
+    ) -> StepConditions<'a, T, S> {
+        StepConditions {
             estimate: &self.estimate,
             field: &self.field,
             comparison: &self.comparison,
@@ -347,11 +350,11 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             is_constant,
         };
         let steps = (self.parameter, [t, low], n);
-        let mut asked = self.asked(&mut work.scratch);
+        let mut conditions = self.conditions(&mut work.scratch);
         let before = &mut work.before;
         let maps = [&self.map, &*copy];
         let (made, is_refused) = M::steps(
-            &mut asked,
+            &mut conditions,
             maps,
             steps,
             &mut sizes,
@@ -406,7 +409,9 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             work.before.copy_from(&z.of);
         }
         work.jump = [zero; 2];
-        let energy = self.asked(&mut work.scratch).energy(t, work.before.point());
+        let energy = self
+            .conditions(&mut work.scratch)
+            .energy(t, work.before.point());
         let mut changed = T::Mask::splat(false);
         let mut open = T::Mask::splat(true);
         let mut attempts = 0;
@@ -419,9 +424,10 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             attempts += 1;
             let from = work.before.point();
             let met = M::error::<T, false>(&self.estimate, h, from, &z.of).le(one);
-            let mut asked = self.asked(&mut work.scratch);
-            let energies = [energy, asked.energy(t + h, z.of.point())];
-            let change = M::change(&mut asked, (h, t), from, &z.of, energies);
+            let mut conditions = self.conditions(&mut work.scratch);
+            let [end, _] = later([t, low], h);
+            let energies = [energy, conditions.energy(end, z.of.point())];
+            let change = M::change(&mut conditions, (h, t), from, &z.of, energies);
             let same = change.le(one);
             let met = met & same;
             if attempts == 1 && met.all() {
@@ -441,7 +447,10 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
             let mut jumps = refuses & !same;
             if jumps.any() {
                 let ends = [work.before.point(), z.of.point()];
-                jumps = jumps & self.asked(&mut work.scratch).jumps((h, t), ends, energies);
+                jumps = jumps
+                    & self
+                        .conditions(&mut work.scratch)
+                        .jumps((h, t), ends, energies);
             }
             for (to, energy) in work.jump.iter_mut().zip(energies) {
                 *to = T::select(refuses, T::select(jumps, energy, zero), *to);

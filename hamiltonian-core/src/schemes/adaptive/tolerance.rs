@@ -128,7 +128,7 @@ impl<T: Real> Tolerated<T> {
         T::select(most.lt(asked), most, asked) + rounding
     }
 
-    /// The error `FACTOR·r²√r·of` in units of the tolerated one, as in [`Estimates::error`].
+    /// The error `FACTOR·r²√r·of` in units of the tolerated one, as in [`Estimates::error`](super::Estimates::error).
     #[cfg_attr(not(unoptimised), inline(always))]
     fn share<const EXACT: bool>(&self, r: T, of: T, before: T, after: T) -> T {
         let [zero, two] = [T::zero(), T::constant(2.0, 0.0)];
@@ -211,8 +211,8 @@ impl<T: Real> Estimate<T> {
     }
 
     /// The largest difference of the slopes at the ends of a step from their polynomial there, in units of the tolerated
-    /// one. Beyond the last stage lies a part of the step that no stage sees, with the weight [`UNSEEN`]; a polynomial of
-    /// slopes is worth what its last coefficient is.
+    /// one. Beyond the last stage lies a part of the step that no stage sees, with the weight [`UNSEEN`]; the last
+    /// coefficient bounds the error of the polynomial.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn defect<L, V, X>(
         &self,
@@ -245,7 +245,9 @@ impl<T: Real> Estimate<T> {
                 for (weights, slope) in weights[2..].iter().zip(at_ends) {
                     let of = spread::<T, L, _, 1, STAGES>([weights], slopes, k, i);
                     let of = sum::<T, L, STAGES>(&of) * T::constant(sign, 0.0);
-                    worst = worse(worst, (slope.part(part)[i] - of).abs() / tolerated);
+                    let gap = (slope.part(part)[i] - of).abs();
+                    let is_none = gap.equals(T::zero());
+                    worst = worse(worst, T::select(is_none, gap, gap / tolerated));
                 }
             }
         }

@@ -202,7 +202,8 @@ pub struct Description {
     pub fictitious_time: Option<Text>,
     /// True if a force acts on the momenta besides −∂H/∂q.
     pub is_forced: bool,
-    /// True if H is proven not to depend on t. Runs to a tolerance then compare H at both ends of a step, if no force acts.
+    /// True if H is proven not to depend on t. If false, runs to a tolerance compare the slopes at both ends of each step
+    /// with those at its stages.
     pub is_autonomous: bool,
     /// `Some(n)` if H is defined for all finite numbers, and neither it nor a part of it grows faster than the n-th
     /// power of their size. Runs do not evaluate H where it is known to be finite. `None` if nothing is known: runs

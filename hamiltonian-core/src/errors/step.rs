@@ -45,7 +45,8 @@ pub enum StepError {
         /// The number of iterations made.
         iterations: u32,
     },
-    /// The estimated error of a step was above the tolerance for every size that moves the time, as at a collision.
+    /// The estimated error of a step was above the tolerance, or its ends did not fit together, for every size that moves the
+    /// time, as at a collision.
     #[non_exhaustive]
     Refused {
         /// The number of the step, counted from 1.

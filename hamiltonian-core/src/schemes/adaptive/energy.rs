@@ -98,14 +98,21 @@ impl<T: Real, S: System> StepConditions<'_, T, S> {
         // True if H is not finite.
         let mut differs = !(change.le(rounding) & change.finite());
         if differs.any() {
-            // A bound from the mean slope suffices for most steps, and needs no derivatives.
+            // Bounds from the mean slope, and from ∂H/∂t at the ends, suffice for most steps.
             let by = step.0.recip();
             let scratch = &mut self.scratch[0];
             scratch.set_zero();
             scratch.accumulate(by, ends[1]);
             scratch.accumulate(-by, ends[0]);
             let [tolerated, _] = self.estimate.change_of_energy(ends, scratch);
-            let tolerated = T::constant(2.0 * LARGEST, 0.0) * tolerated;
+            let mut tolerated = T::constant(2.0 * LARGEST, 0.0) * tolerated;
+            if let (true, Some(of)) = (self.comparison.is_open, &self.comparison.conserves) {
+                let (h, t) = step;
+                for (t, x) in [t, t + h].into_iter().zip(ends) {
+                    let rate = of.time_derivative(t, &x.q, &x.p);
+                    tolerated += T::constant(2.0, 0.0) * (h * rate).abs();
+                }
+            }
             differs = differs & !(change.le(tolerated) & change.finite());
         }
         if !differs.any() {

@@ -153,6 +153,25 @@ impl<T: Real, S: System> StepConditions<'_, T, S> {
     #[inline(never)]
     fn change_beyond_rounding(
         &mut self,
+        step: (T, T),
+        ends: [&Point<VectorOf<S, T>>; 2],
+        energies: [T; 2],
+    ) -> T {
+        // A single run does this rarely, and a copy for each level would take a third of its build.
+        if const { T::LANES > 1 } {
+            T::out_of_line(
+                #[cfg_attr(not(unoptimised), inline(always))]
+                || self.change_in_bounds(step, ends, energies),
+            )
+        } else {
+            self.change_in_bounds(step, ends, energies)
+        }
+    }
+
+    /// The same, compiled where it is called.
+    #[cfg_attr(not(unoptimised), inline(always))]
+    fn change_in_bounds(
+        &mut self,
         (h, t): (T, T),
         ends: [&Point<VectorOf<S, T>>; 2],
         energies: [T; 2],
@@ -160,28 +179,23 @@ impl<T: Real, S: System> StepConditions<'_, T, S> {
         let Some(of) = &self.comparison.conserves else {
             return T::zero();
         };
-        T::out_of_line(
-            #[cfg_attr(not(unoptimised), inline(always))]
-            || {
-                let mut tolerated = T::zero();
-                let scratch = &mut self.scratch[0];
-                for ((t, x), energy) in [t, t + h].into_iter().zip(ends).zip(energies) {
-                    slope_at(self.field, t, x, scratch);
-                    let [change, size] = self.estimate.change_of_energy(ends, scratch);
-                    tolerated += T::constant(LARGEST, 0.0) * change;
-                    tolerated += rounding::<T>() * (size + energy.abs());
-                }
-                let change = (energies[1] - energies[0]).abs();
-                if tolerated.lt(change).any() {
-                    tolerated += change_in_time::<T, S>(of, (h, t), ends, scratch);
-                }
-                if tolerated.lt(change).any() {
-                    let noise = rounding_near::<T, S>(of, [t, t + h], ends, scratch);
-                    tolerated += T::constant(ROUNDING[1], 0.0) * noise;
-                }
-                change / tolerated
-            },
-        )
+        let mut tolerated = T::zero();
+        let scratch = &mut self.scratch[0];
+        for ((t, x), energy) in [t, t + h].into_iter().zip(ends).zip(energies) {
+            slope_at(self.field, t, x, scratch);
+            let [change, size] = self.estimate.change_of_energy(ends, scratch);
+            tolerated += T::constant(LARGEST, 0.0) * change;
+            tolerated += rounding::<T>() * (size + energy.abs());
+        }
+        let change = (energies[1] - energies[0]).abs();
+        if tolerated.lt(change).any() {
+            tolerated += change_in_time::<T, S>(of, (h, t), ends, scratch);
+        }
+        if tolerated.lt(change).any() {
+            let noise = rounding_near::<T, S>(of, [t, t + h], ends, scratch);
+            tolerated += T::constant(ROUNDING[1], 0.0) * noise;
+        }
+        change / tolerated
     }
 }
 

@@ -76,7 +76,7 @@ impl<T: Real, S: System, M: Estimates<S>> Following<T, S, M> {
 
     /// Finds the density after a step with this one; `changed` are lanes in which a size was refused.
     ///
-    /// What happens rarely is a branch, so that the next step need not wait for it.
+    /// Rare cases are branches, so that the next step need not wait for them.
     #[cfg_attr(not(unoptimised), inline(always))]
     pub(super) fn follow(
         &self,

@@ -18,6 +18,7 @@ use hamiltonian_lanes::{Mask, Real};
 const LARGEST: f64 = 4.0;
 /// The rounding of H: a part of H and of Σ |xᵢ·∂H/∂xᵢ| in units of ε, and so many times what third differences of H show.
 const ROUNDING: [f64; 2] = [64.0, 8.0];
+
 #[cfg_attr(not(unoptimised), inline(always))]
 fn rounding<T: Real>() -> T {
     T::constant(ROUNDING[0] * T::epsilon(), 0.0)
@@ -122,8 +123,8 @@ impl<T: Real, S: System> StepConditions<'_, T, S> {
         T::select(differs, change, T::zero())
     }
 
-    /// The lanes in which H changes by more than its slope at the ends explains: near a singularity H changes too, in steps that
-    /// are too long for it, but so does its slope.
+    /// The lanes in which H changes by more than its derivatives explain. Near a singularity a step that is too long changes
+    /// H as well, but there the slope is steep.
     #[cold]
     #[inline(never)]
     pub(super) fn jumps(
@@ -144,6 +145,9 @@ impl<T: Real, S: System> StepConditions<'_, T, S> {
                     }
                 }
             }
+        }
+        if let Some(of) = &self.comparison.conserves {
+            explained += change_in_time::<T, S>(of, (h, t), ends, slope);
         }
         explained.lt((energies[1] - energies[0]).abs())
     }
